@@ -1,0 +1,14 @@
+"""FMU ShipCollision: two or more hulls touch.
+
+pythonfmu runs this text twice at the first instantiation and once at each later one: nothing may happen here but
+these definitions.
+"""
+
+from shipcollision_fmu.fmi.ship_collision import INTERFACE
+from shipcollision_fmu.fmi.slave import ModelSlave
+
+
+class ShipCollision(ModelSlave):
+    """The collision model as an FMI 2.0 slave."""
+
+    interface = INTERFACE

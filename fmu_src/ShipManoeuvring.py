@@ -1,0 +1,14 @@
+"""FMU ShipManoeuvring: one ship sails.
+
+pythonfmu runs this text twice at the first instantiation and once at each later one: nothing may happen here but
+these definitions.
+"""
+
+from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE
+from shipcollision_fmu.fmi.slave import ModelSlave
+
+
+class ShipManoeuvring(ModelSlave):
+    """The manoeuvring model as an FMI 2.0 slave."""
+
+    interface = INTERFACE

@@ -1,0 +1,34 @@
+"""Ship collisions as FMI co-simulation FMUs.
+
+Users import from here:
+
+    from shipcollision_fmu import build_fmus, load_scenario, load_ship, simulate
+
+    run = simulate(load_scenario("guan2014"))
+    run.states, run.contacts, run.events, run.summary
+
+Names are fetched on first use, so that an FMU, which needs only the models, does not import a master.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+__version__ = "0.1.0"
+
+_HOME = {
+    "ShipCollisionError": "shipcollision_fmu.errors",
+    "build_fmus": "shipcollision_fmu.fmi.package",
+    "load_scenario": "shipcollision_fmu.cosim.scenario",
+    "load_ship": "shipcollision_fmu.ship.library",
+    "simulate": "shipcollision_fmu.cosim.simulate",
+}
+
+__all__ = ["ShipCollisionError", "__version__", "build_fmus", "load_scenario", "load_ship", "simulate"]
+
+
+def __getattr__(name: str) -> Any:
+    if name in _HOME:
+        return getattr(import_module(_HOME[name]), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

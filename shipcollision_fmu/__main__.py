@@ -1,0 +1,5 @@
+"""`python -m shipcollision_fmu` is the command `shipcollision`."""
+
+from .cli import main
+
+main()

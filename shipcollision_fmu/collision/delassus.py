@@ -1,0 +1,46 @@
+"""Inertia as the contacts feel it: the Delassus operator W and the free contact velocities.
+
+    v_i = G_b nu_b - G_a nu_a                     velocity of b relative to a at contact i, in n     [m/s]
+    W_ij = sum over ships s of +- G_s,i M_s^-1 G_s,j^T       (3 x 3 blocks)                         [1/kg]
+    v(P) = v(0) + W P                             P (3k,) impulses on the b ships                    [N s]
+
+W is symmetric and positive semi-definite. It is J M^-1 J^T of Guan et al. 2014, equations (10)-(12), with M the 6x6
+rigid-body mass plus added mass of each ship, in place of their scalar mass and inertia.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..ship.frames import Array
+from .contact import Contact
+from .shadow import Shadow
+
+__all__ = ["contact_jacobian", "contact_velocity", "delassus"]
+
+
+def contact_jacobian(contacts: Sequence[Contact], shadows: Sequence[Shadow]) -> tuple[Array, list[int]]:
+    """G (3k, 6m) from the twists of the m ships that touch to the k relative velocities; and those ships' indices."""
+    ships = sorted({s for c in contacts for s in (c.a, c.b)})
+    G = np.zeros((3 * len(contacts), 6 * len(ships)))
+    for i, c in enumerate(contacts):
+        for ship, sign in ((c.a, -1.0), (c.b, 1.0)):
+            column = 6 * ships.index(ship)
+            G[3 * i : 3 * i + 3, column : column + 6] = sign * shadows[ship].jacobian(c.at)
+    return G, ships
+
+
+def delassus(G: Array, ships: Sequence[int], shadows: Sequence[Shadow]) -> Array:
+    """W = G M^-1 G^T; (3k, 3k) [1/kg]."""
+    GM = np.hstack([G[:, 6 * i : 6 * i + 6] @ shadows[ship].M_inverse for i, ship in enumerate(ships)])
+    W: Array = GM @ G.T
+    return 0.5 * (W + W.T)
+
+
+def contact_velocity(contact: Contact, shadows: Sequence[Shadow]) -> Array:
+    """Velocity of b relative to a at a contact, in n [m/s]; (3,). Approaching when its normal part is negative."""
+    b, a = shadows[contact.b], shadows[contact.a]
+    v: Array = b.jacobian(contact.at) @ b.nu - a.jacobian(contact.at) @ a.nu
+    return v

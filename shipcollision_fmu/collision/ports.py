@@ -1,0 +1,130 @@
+"""What the collision model takes and gives, as plain lists and attributes.
+
+Reals are lists of stable identity: they are filled, never replaced, so that a caller may hold on to them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+__all__ = [
+    "SLOTS", "CollisionInputs", "CollisionOutputs", "CollisionParameters", "ContactSlot", "ShipParameters", "ShipPost",
+    "ShipState",
+]  # fmt: skip
+
+SLOTS = 8
+"""Contact points that are output per communication step."""
+
+
+def zeros(n: int) -> list[float]:
+    """n zeros, as a field of its own."""
+    return [0.0] * n
+
+
+@dataclass
+class ShipParameters:
+    """Which ship it is: a name or a file; degrees_of_freedom 3 (surge, sway, yaw), 4 (and roll) or 6, as its model has."""
+
+    ship: str = "kvlcc2"
+    degrees_of_freedom: int = 6
+
+
+@dataclass
+class CollisionParameters:
+    """Fixed parameters. numbers: friction, restitution, substep [s], minimum_separation_time [s], clearance_range [m]."""
+
+    ships: list[ShipParameters]
+    numbers: list[float] = field(default_factory=lambda: [0.3, 0.0, 0.01, 10.0, 200.0])
+    response: str = "pgs"
+    feedback: str = "ledger"
+
+    @property
+    def friction(self) -> float:
+        """Coulomb's coefficient of the pair."""
+        return self.numbers[0]
+
+    @property
+    def restitution(self) -> float:
+        """Normal velocity after over before, 0 to 1."""
+        return self.numbers[1]
+
+    @property
+    def substep(self) -> float:
+        """Length of an internal step [s]."""
+        return self.numbers[2]
+
+    @property
+    def minimum_separation_time(self) -> float:
+        """Time apart [s] after which the next contact is a new collision."""
+        return self.numbers[3]
+
+    @property
+    def clearance_range(self) -> float:
+        """Cap [m] of the clearance: farther apart is not measured."""
+        return self.numbers[4]
+
+
+@dataclass
+class ShipState:
+    """A ship as received at the start of a step: n [m], rad, b [m/s], [rad/s]; impulse_applied (6) cumulative in b."""
+
+    position: list[float] = field(default_factory=lambda: zeros(3))
+    attitude: list[float] = field(default_factory=lambda: zeros(3))
+    velocity: list[float] = field(default_factory=lambda: zeros(3))
+    rate: list[float] = field(default_factory=lambda: zeros(3))
+    impulse_applied: list[float] = field(default_factory=lambda: zeros(6))
+
+
+@dataclass
+class CollisionInputs:
+    """One state per ship."""
+
+    ships: list[ShipState]
+
+
+@dataclass
+class ShipPost:
+    """A ship at the end of a step, impulse (6) cumulative and mean force (6) of the step, both in b about CO."""
+
+    position: list[float] = field(default_factory=lambda: zeros(3))
+    attitude: list[float] = field(default_factory=lambda: zeros(3))
+    velocity: list[float] = field(default_factory=lambda: zeros(3))
+    rate: list[float] = field(default_factory=lambda: zeros(3))
+    impulse: list[float] = field(default_factory=lambda: zeros(6))
+    force: list[float] = field(default_factory=lambda: zeros(6))
+
+
+@dataclass
+class ContactSlot:
+    """A contact point of the step. point, normal in n; r_a, r_b its places in the ships' b [m]; impulse (3) on ship_b
+    in n [N s]; values: gap [m], normal and tangential impulse [N s], energy dissipated [J]. Ships are 1-based, 0: unused."""
+
+    point: list[float] = field(default_factory=lambda: zeros(3))
+    normal: list[float] = field(default_factory=lambda: zeros(3))
+    r_a: list[float] = field(default_factory=lambda: zeros(3))
+    r_b: list[float] = field(default_factory=lambda: zeros(3))
+    impulse: list[float] = field(default_factory=lambda: zeros(3))
+    values: list[float] = field(default_factory=lambda: zeros(4))
+    ship_a: int = 0
+    ship_b: int = 0
+    impact: int = 0
+    scratch: int = 0
+
+
+@dataclass
+class CollisionOutputs:
+    """energy: dissipated, normal, tangential [J]; impact: time [s], closing speed [m/s], angle [rad] of the latest
+    collision, impact_point its first contact point in n; clearance [m] (one entry)."""
+
+    ships: list[ShipPost]
+    contacts: list[ContactSlot] = field(default_factory=lambda: [ContactSlot() for _ in range(SLOTS)])
+    contact_active: bool = False
+    contact_count: int = 0
+    impact_count: int = 0
+    impact_ship_a: int = 0
+    impact_ship_b: int = 0
+    impact: list[float] = field(default_factory=lambda: zeros(3))
+    impact_point: list[float] = field(default_factory=lambda: zeros(3))
+    scratch_id: int = 0
+    energy: list[float] = field(default_factory=lambda: zeros(3))
+    clearance: list[float] = field(default_factory=lambda: zeros(1))

@@ -1,0 +1,74 @@
+"""The collision model's own copy of a ship, for the length of one communication step.
+
+A shadow has two poses. The *received* pose is where the ship is at the start of the communication step: there the ship
+model will apply the impulse, so there it is booked, and momentum balances to rounding. The *predicted* pose moves on
+with the substeps and is where contact is looked for.
+
+    nu      twist in b about CO, changed by impulses only
+    G       = [R, -R skew(r)]              velocity of the point r (in b) in n is G nu;  (3, 6)
+    J       = G^T P                        impulse P (in n) at that point, as the ship books it, in b about CO
+    nu     += M^-1 J
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..ship.frames import Array, rotation, rotation_vector, skew
+
+__all__ = ["Shadow", "point_jacobian"]
+
+
+def point_jacobian(R_nb: Array, r_b: Array) -> Array:
+    """G (3, 6): velocity in n of the point r_b [m] (in b from CO) is G nu; the impulse P in n is G' P in b about CO."""
+    return np.hstack([R_nb, -R_nb @ skew(r_b)])
+
+
+@dataclass
+class Shadow:
+    """A ship during a communication step. Arrays: x (3,) in n [m], R (3, 3) = R_nb, nu (6,) in b about CO.
+
+    M_inverse (6, 6) has zeros in the degrees of freedom that the ship does not have.
+    """
+
+    x_received: Array
+    R_received: Array
+    x: Array
+    R: Array
+    nu: Array
+    M_inverse: Array
+    issued: Array  # (6,) impulse booked in this communication step, in b about CO at the received pose
+
+    @classmethod
+    def at(cls, position: Array, attitude: Array, nu: Array, M_inverse: Array) -> Shadow:
+        """Shadow at a pose (n [m], rad) with the twist nu (b about CO)."""
+        R = rotation(attitude)
+        return cls(position, R, position, R, nu, M_inverse, np.zeros(6))
+
+    def advance(self, h: float) -> None:
+        """Move the predicted pose on by h [s] with the twist as it is."""
+        self.x = self.x + self.R @ self.nu[:3] * h
+        self.R = self.R @ rotation_vector(self.nu[3:] * h)
+
+    def point(self, r_b: Array) -> Array:
+        """Where the point r_b [m] (in b) is at the predicted pose, in n; (3,)."""
+        return self.x + self.R @ r_b
+
+    def body(self, p_n: Array) -> Array:
+        """Body coordinates [m] of the point p_n at the predicted pose; (3,)."""
+        return self.R.T @ (p_n - self.x)
+
+    def point_received(self, r_b: Array) -> Array:
+        """Where the point r_b [m] (in b) is at the received pose, in n; (3,)."""
+        return self.x_received + self.R_received @ r_b
+
+    def jacobian(self, p_n: Array) -> Array:
+        """G (3, 6) of the point p_n [m] (in n) at the received pose, where impulses are booked."""
+        return point_jacobian(self.R_received, self.R_received.T @ (p_n - self.x_received))
+
+    def book(self, J: Array) -> None:
+        """Take the impulse J (6,) [N s, N m s] (in b about CO, received pose): into the twist and into the ledger."""
+        self.nu = self.nu + self.M_inverse @ J
+        self.issued = self.issued + J

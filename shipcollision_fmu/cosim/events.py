@@ -1,0 +1,137 @@
+"""Collisions and scratches, read off a record.
+
+    impulse of a collision    sum of its contact points' impulses, on ship_b, in n
+    delta_v of a ship         sum over the steps with contact of R_nb(t_k) [M^-1 Delta impulse], of CO, in n: t_k is
+                              the step's start, where a sequential master applies the impulse, and Delta impulse is
+                              what the collision FMU issued in the step. A ship in two collisions in one step takes
+                              Delta impulse from each one's contact points instead.
+    energy                    sum of what its contact points dissipated
+    angle                     between the headings, 0 (overtaking) to pi (head-on)
+
+A scratch has one point per step, that of the largest impulse; it is kept in both ships' b, where paint keeps it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ..ship.frames import Array, rotation
+from ..ship.inertia import free_inverse
+from ..ship.ship import Ship
+from .recorder import Record
+from .wiring import named
+
+__all__ = ["events"]
+
+Rows = npt.NDArray[Any]
+
+
+def events(record: Record, ships: Mapping[str, Ship], free: Mapping[str, int], step: float) -> dict[str, Any]:
+    """{"collisions": [...], "scratches": [...]} as JSON-able data; the schema is cosim/events.schema.json.
+
+    `free` are the ships' degrees of freedom, `step` is the communication step [s].
+    """
+    contacts = record.contacts
+    gained = _velocity_gains(record, ships, free, step)
+    return {
+        "collisions": [
+            _collision(int(number), contacts[contacts["impact"] == number], record, gained)
+            for number in np.unique(contacts["impact"])
+        ],
+        "scratches": [
+            _scratch(int(number), contacts[contacts["scratch"] == number])
+            for number in np.unique(contacts["scratch"])
+        ],
+    }  # fmt: skip
+
+
+def _collision(number: int, rows: Rows, record: Record, gained: dict[tuple[int, str], Array]) -> dict[str, Any]:
+    first = _strongest(rows[rows["time"] == rows["time"][0]])
+    start = record.impacts.get(number)
+    impulse = sum((_triple(row, "impulse", _NED) for row in rows), start=np.zeros(3))
+    pair = [str(first["ship_a"]), str(first["ship_b"])]
+    return {
+        "id": number,
+        "ship_a": pair[0],
+        "ship_b": pair[1],
+        "start": float(rows["time"][0]) if start is None else start.time,
+        "end": float(rows["time"][-1]),
+        "first_point": _point(first),
+        "closing_speed": None if start is None else start.closing_speed,
+        "angle": None if start is None else start.angle,
+        "impulse": {"n": impulse.tolist(), "magnitude": float(np.linalg.norm(impulse))},
+        "delta_v": {name: gained[number, name].tolist() for name in pair},
+        "energy": float(rows["energy"].sum()),
+    }
+
+
+def _scratch(number: int, rows: Rows) -> dict[str, Any]:
+    line = [_strongest(rows[rows["time"] == time]) for time in np.unique(rows["time"])]
+    return {
+        "id": number,
+        "collision": int(line[0]["impact"]),
+        "ship_a": str(line[0]["ship_a"]),
+        "ship_b": str(line[0]["ship_b"]),
+        "start": float(line[0]["time"]),
+        "end": float(line[-1]["time"]),
+        "first_point": _point(line[0]),
+        "time": [float(row["time"]) for row in line],
+        "b_a": [_triple(row, "a", _XYZ).tolist() for row in line],
+        "b_b": [_triple(row, "b", _XYZ).tolist() for row in line],
+    }
+
+
+def _velocity_gains(
+    record: Record, ships: Mapping[str, Ship], free: Mapping[str, int], step: float
+) -> dict[tuple[int, str], Array]:
+    """Change of velocity of CO in n [m/s] by collision and ship; (3,) each."""
+    names = list(ships)
+    inverse = {name: free_inverse(ship.M, free[name]) for name, ship in ships.items()}
+    gains: dict[tuple[int, str], Array] = {}
+    issued_before = np.zeros((len(names), 6))
+    for k, issued in record.issued.items():
+        rows = record.contacts[record.contacts["time"] == k * step]
+        at = record.states[k - 1]
+        for i, name in enumerate(names):
+            R_nb = rotation([float(at[f"{name}.attitude.{angle}"]) for angle in ("roll", "pitch", "yaw")])
+            on_ship = rows[(rows["ship_a"] == name) | (rows["ship_b"] == name)]
+            collisions = np.unique(on_ship["impact"])
+            for number in collisions:
+                wrench = issued[i] - issued_before[i]
+                if len(collisions) > 1:
+                    wrench = _wrench(on_ship[on_ship["impact"] == number], name, R_nb)
+                gain = R_nb @ (inverse[name] @ wrench)[:3]
+                gains[int(number), name] = gains.get((int(number), name), np.zeros(3)) + gain
+        issued_before = issued
+    return gains
+
+
+def _wrench(rows: Rows, name: str, R_nb: Array) -> Array:
+    """Impulse of contact points on a ship, in b about CO [N s, N m s]; (6,)."""
+    total = np.zeros(6)
+    for row in rows:
+        is_a = row["ship_a"] == name
+        P_b = R_nb.T @ _triple(row, "impulse", _NED) * (-1.0 if is_a else 1.0)
+        total += np.concatenate([P_b, np.cross(_triple(row, "a" if is_a else "b", _XYZ), P_b)])
+    return total
+
+
+_NED, _XYZ = ("north", "east", "down"), ("x", "y", "z")
+
+
+def _strongest(rows: Rows) -> Any:
+    """The row of the largest impulse, the first of equals."""
+    return rows[int(np.hypot(rows["impulse_normal"], rows["impulse_tangential"]).argmax())]
+
+
+def _point(row: Any) -> dict[str, list[float]]:
+    n = [float(row[axis]) for axis in _NED]
+    return {"n": n, "b_a": _triple(row, "a", _XYZ).tolist(), "b_b": _triple(row, "b", _XYZ).tolist()}
+
+
+def _triple(row: Any, group: str, components: tuple[str, ...]) -> Array:
+    return np.array([float(row[column]) for column in named(group, components)])

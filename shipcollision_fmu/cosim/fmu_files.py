@@ -1,0 +1,42 @@
+"""Where a run finds its FMUs; they are built when missing or older than the sources."""
+
+from __future__ import annotations
+
+import os
+from importlib.util import find_spec
+from pathlib import Path
+
+from ..errors import HostError
+from ..fmi.interface import SHIPS
+from ..fmi.package import build_fmus, fmus_current
+
+__all__ = ["fmu_directory", "ready_fmus", "require_pybullet"]
+
+_PACKAGE = Path(__file__).resolve().parent.parent
+
+
+def require_pybullet() -> None:
+    """Raise HostError, which says how to install it, when pybullet is missing: without it no contact can be found."""
+    if find_spec("pybullet") is None:
+        raise HostError(
+            "pybullet, which finds the contacts, is not installed: run `python -m pip install pybullet` with CPython "
+            "3.10 or 3.11 on Linux, for which it has wheels"
+        )
+
+
+def fmu_directory(ships: tuple[str, ...] = SHIPS) -> Path:
+    """Folder of the FMUs for these names of ships: build/ of a checkout, else in the user's cache."""
+    if (_PACKAGE.parent / "pyproject.toml").is_file():
+        home = _PACKAGE.parent / "build"
+    else:
+        cache = os.environ.get("XDG_CACHE_HOME")
+        home = (Path(cache) if cache else Path.home() / ".cache") / "shipcollision-fmu"
+    return home if ships == SHIPS else home / "-".join(ships)
+
+
+def ready_fmus(ships: tuple[str, ...] = SHIPS) -> dict[str, Path]:
+    """Both FMUs by name, up to date. Raises HostError when they cannot be built."""
+    directory = fmu_directory(ships)
+    if not fmus_current(directory, ships=ships):
+        return build_fmus(directory, ships=ships)
+    return {name: directory / f"{name}.fmu" for name in ("ShipCollision", "ShipManoeuvring")}

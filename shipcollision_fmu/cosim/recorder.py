@@ -1,0 +1,144 @@
+"""What a run leaves behind, taken down at communication points.
+
+The ships' states are in the wires' buffers already. Of the collision FMU the recorder reads a few counters per step,
+and contact points only while there are any.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ..ship.frames import Array
+from .component import Group
+from .master import System
+from .wiring import IMPULSE, STATE, named
+
+__all__ = ["CONTACT_COLUMNS", "Impact", "Record", "Recorder"]
+
+SLOTS = 8
+_XYZ = ("x", "y", "z")
+_NED = ("north", "east", "down")
+CONTACT_COLUMNS = (
+    *_NED, *named("normal", _NED), "gap", "impulse_normal", "impulse_tangential", *named("impulse", _NED), "energy",
+    *named("a", _XYZ), *named("b", _XYZ),
+)  # fmt: skip
+"""Real columns of contacts.csv: the point and the normal (from ship_a to ship_b) in n, the impulse on ship_b in n."""
+_CONTACT_NUMBERS = ("ship_a", "ship_b", "impact", "scratch")
+_IMPACT = ("impact.time", "impact.closing_speed", "impact.angle")
+
+
+@dataclass(frozen=True)
+class Impact:
+    """The start of a collision, as the collision FMU gave it: time [s], closing speed [m/s], angle [rad]."""
+
+    time: float
+    closing_speed: float
+    angle: float
+
+
+@dataclass
+class Record:
+    """A run as recorded.
+
+    states     structured array, a row per communication point: time and 12 states per ship
+    contacts   structured array, a row per contact point and step; time is the step's end
+    issued     per communication point k that ends a step with contact: cumulative impulses (ships, 6) after it
+    impacts    by number of the collision; one is missing when another began in the same communication step
+    energy     dissipated, normal, tangential [J] at the end
+    applied    what the ships say they applied at the end (ships, 6); the final `issued` is `issued_finally`
+    clearance  least distance between hulls at any communication point [m], capped
+    """
+
+    states: npt.NDArray[Any]
+    contacts: npt.NDArray[Any]
+    issued: dict[int, Array]
+    impacts: dict[int, Impact]
+    energy: tuple[float, float, float]
+    issued_finally: Array
+    applied: Array
+    clearance: float
+
+
+@dataclass
+class _Contacts:
+    rows: list[tuple[Any, ...]] = field(default_factory=list)
+    issued: dict[int, Array] = field(default_factory=dict)
+    impacts: dict[int, Impact] = field(default_factory=dict)
+
+
+class Recorder:
+    """Takes down a run of `steps` steps of `step` [s] of a system of named ships."""
+
+    def __init__(self, system: System, names: list[str], step: float, steps: int) -> None:
+        self._names, self._step = names, step
+        self._states = np.zeros((steps + 1, 1 + len(names) * len(STATE)))
+        self._buffers = [np.ctypeslib.as_array(wire.outputs.values) for wire in system.states]
+        collision = system.collision
+        slots = [f"contact[{i}]" for i in range(1, SLOTS + 1)]
+        self._counts = collision.integers(["contact.count", "impact.count"])
+        self._reals = collision.reals([variable for slot in slots for variable in named(slot, CONTACT_COLUMNS)])
+        self._numbers = collision.integers([variable for slot in slots for variable in named(slot, _CONTACT_NUMBERS)])
+        self._impact = collision.reals(_IMPACT)
+        self._issued = collision.reals([variable for name in names for variable in named(name, IMPULSE)])
+        self._energy = collision.reals(named("energy", ("dissipated", "normal", "tangential")))
+        self._clearance = collision.reals(["clearance"])
+        self._least_clearance = float("inf")
+        self._seen = _Contacts()
+        self._impacts = 0
+
+    def record(self, k: int) -> None:
+        """Take down communication point k; its values are in the wires."""
+        row = self._states[k]
+        row[0] = k * self._step
+        width = len(STATE)
+        for i, buffer in enumerate(self._buffers):
+            row[1 + i * width : 1 + (i + 1) * width] = buffer[:width]
+        self._clearance.read()
+        self._least_clearance = min(self._least_clearance, self._clearance.values[0])
+        self._counts.read()
+        count, impacts = self._counts.values
+        if impacts > self._impacts:
+            self._impacts = impacts
+            self._seen.impacts[impacts] = Impact(*_read(self._impact))
+        if count > 0:
+            self._record_contacts(k, min(count, SLOTS))
+
+    def finished(self) -> Record:
+        """The record of the whole run."""
+        columns = ["time"] + [f"{name}.{variable}" for name in self._names for variable in STATE]
+        states = self._states.view([(column, np.float64) for column in columns])[:, 0]
+        text = f"U{max(map(len, self._names))}"
+        contact_type = [
+            ("time", np.float64), ("ship_a", text), ("ship_b", text), ("impact", np.int64), ("scratch", np.int64),
+            *((column, np.float64) for column in CONTACT_COLUMNS),
+        ]  # fmt: skip
+        dissipated, normal, tangential = _read(self._energy)
+        return Record(
+            states=states,
+            contacts=np.array(self._seen.rows, dtype=contact_type),
+            issued=self._seen.issued,
+            impacts=self._seen.impacts,
+            energy=(dissipated, normal, tangential),
+            issued_finally=np.array(_read(self._issued)).reshape(-1, 6),
+            applied=np.array([buffer[len(STATE) :] for buffer in self._buffers]),
+            clearance=self._least_clearance,
+        )
+
+    def _record_contacts(self, k: int, count: int) -> None:
+        time, width, ids = k * self._step, len(CONTACT_COLUMNS), len(_CONTACT_NUMBERS)
+        self._reals.read(count * width)
+        self._numbers.read(count * ids)
+        for i in range(count):
+            a, b, impact, scratch = self._numbers.values[i * ids : (i + 1) * ids]
+            values = self._reals.values[i * width : (i + 1) * width]
+            self._seen.rows.append((time, self._names[a - 1], self._names[b - 1], impact, scratch, *values))
+        self._seen.issued[k] = np.array(_read(self._issued)).reshape(-1, 6)
+
+
+def _read(group: Group) -> list[Any]:
+    group.read()
+    return list(group.values)

@@ -1,0 +1,173 @@
+"""Run a scenario: instances, the step loop, and what comes out.
+
+    for k = 0 .. steps-1:     give the orders of k;   one step of the algorithm;   record k+1
+
+The run goes through the FMUs with FMPy, or, in process, drives the same models through the same variables without FMI.
+Both give the same bits.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from contextlib import ExitStack, closing
+from dataclasses import dataclass, field
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ..fmi.ship_collision import INTERFACE as COLLISION
+from ..fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
+from .component import Component, FmuComponent, InProcessComponent, UnpackedFmu
+from .events import events
+from .fmu_files import ready_fmus, require_pybullet
+from .folder import check_writable, write_files
+from .master import ALGORITHMS
+from .recorder import Record, Recorder
+from .scenario import Scenario
+from .summary import summary
+from .wiring import MakeCollision, MakeShip, connected
+
+__all__ = ["Progress", "Run", "simulate"]
+
+Progress = Callable[[int, int], None]
+"""Called after every step with the steps done and the steps in all."""
+
+
+@dataclass(frozen=True)
+class Run:
+    """A finished run.
+
+    states, contacts    NumPy structured arrays; the columns are those of states.csv and contacts.csv
+    events, summary     what is in events.json and summary.json
+    timing              what differs between runs of the same thing: mode, wall time [s], real-time factor
+    """
+
+    states: npt.NDArray[Any]
+    contacts: npt.NDArray[Any]
+    events: dict[str, Any]
+    summary: dict[str, Any]
+    timing: dict[str, Any] = field(compare=False)
+
+    def write(self, out: str | Path) -> None:
+        """Write the run's files into the folder `out`, all or none. Raises HostError.
+
+        Everything but timing.json is the same, to the byte, for the same scenario and software.
+        """
+        write_files(Path(out), {
+            "states.csv": _csv(self.states),
+            "contacts.csv": _csv(self.contacts),
+            "events.json": _json(self.events),
+            "summary.json": _json(self.summary),
+            "timing.json": _json(self.timing),
+        })  # fmt: skip
+
+
+def simulate(
+    scenario: Scenario,
+    *,
+    algorithm: str | None = None,
+    step: float | None = None,
+    in_process: bool = False,
+    out: str | Path | None = None,
+    progress: Progress | None = None,
+) -> Run:
+    """Run a scenario, through the FMUs or in process, and write it to the folder `out` if one is given.
+
+    `algorithm` ("gauss-seidel" or "jacobi") and `step` [s] replace those of the scenario. FMUs are built when they are
+    missing or older than the sources. Raises ScenarioError for options that do not fit, StepError when a model refuses
+    a step, HostError when the machine does not do what is needed; then nothing is written.
+    """
+    scenario = scenario.changed(algorithm=algorithm, step=step)
+    require_pybullet()
+    if out is not None:
+        check_writable(Path(out))
+    ships = scenario.load_ships()
+    with ExitStack() as stack:
+        factories = _in_process(scenario, stack) if in_process else _through_fmus(scenario, stack)
+        record, wall_time = _stepped(scenario, factories, progress)
+    free = {name: start.free for name, start in scenario.ships.items()}
+    found = events(record, ships, free, scenario.step)
+    duration = scenario.step * scenario.steps
+    run = Run(
+        states=record.states,
+        contacts=record.contacts,
+        events=found,
+        summary=summary(scenario, ships, record, found),
+        timing={
+            "mode": "in process" if in_process else "FMU",
+            "wall_time": wall_time,
+            "real_time_factor": duration / wall_time,
+        },
+    )
+    if out is not None:
+        run.write(out)
+    return run
+
+
+def _stepped(
+    scenario: Scenario, factories: tuple[MakeShip, MakeCollision], progress: Progress | None
+) -> tuple[Record, float]:
+    """The record of the run, and the wall time of the step loop [s]."""
+    system, helms = connected(scenario, *factories)
+    recorder = Recorder(system, list(scenario.ships), scenario.step, scenario.steps)
+    advance, step, steps = ALGORITHMS[scenario.algorithm], scenario.step, scenario.steps
+    recorder.record(0)
+    begin = perf_counter()
+    for k in range(steps):
+        for helm in helms:
+            helm.give(k)
+        advance(system, k * step, step)
+        recorder.record(k + 1)
+        if progress is not None:
+            progress(k + 1, steps)
+    return recorder.finished(), perf_counter() - begin
+
+
+def _in_process(scenario: Scenario, stack: ExitStack) -> tuple[MakeShip, MakeCollision]:
+    def make_ship(name: str) -> Component:
+        return stack.enter_context(closing(InProcessComponent(name, MANOEUVRING.ports())))
+
+    def make_collision() -> Component:
+        return stack.enter_context(closing(InProcessComponent("collision", COLLISION.ports(tuple(scenario.ships)))))
+
+    return make_ship, make_collision
+
+
+def _through_fmus(scenario: Scenario, stack: ExitStack) -> tuple[MakeShip, MakeCollision]:
+    fmus = {
+        name: stack.enter_context(closing(UnpackedFmu(path)))
+        for name, path in ready_fmus(tuple(scenario.ships)).items()
+    }  # fmt: skip
+
+    def make_ship(name: str) -> Component:
+        return stack.enter_context(closing(FmuComponent(name, fmus["ShipManoeuvring"])))
+
+    def make_collision() -> Component:
+        return stack.enter_context(closing(FmuComponent("collision", fmus["ShipCollision"])))
+
+    return make_ship, make_collision
+
+
+def _csv(rows: npt.NDArray[Any]) -> str:
+    """Header and rows; floats as repr, so that reading them back gives the same double."""
+    assert rows.dtype.names is not None
+    lines = [",".join(rows.dtype.names), *(",".join(map(_cell, row)) for row in rows.tolist())]
+    return "\n".join(lines) + "\n"
+
+
+def _cell(value: Any) -> str:
+    return value if isinstance(value, str) else repr(value)
+
+
+def _json(data: Any) -> str:
+    return json.dumps(data, indent=1, allow_nan=False, default=_plain) + "\n"
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, np.generic):
+        return value.item()
+    raise TypeError(f"{type(value).__name__} cannot be written as JSON")

@@ -1,0 +1,101 @@
+"""The books of a run: what was exchanged, and what became of momentum and energy.
+
+    ledger     per ship: impulse issued by the collision FMU, applied by the ship, and their difference, pending;
+               in b about CO, cumulative [N s, N m s]
+    momentum   M nu of every ship, summed: linear in n [N s], angular in n about the scenario's origin [N m s]
+    energy     1/2 nu' M nu of every ship [J]; what contact dissipated, along the normals and across them
+
+M = M_RB + M_A is that of the ship file. Momentum and kinetic energy are kept outside contact by ships that coast
+without added mass; water, rudder and propeller change them otherwise.
+
+Nothing here depends on the machine's speed, nor on whether FMUs or models in process ran: see timing.json for those.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from importlib.metadata import PackageNotFoundError, version
+from typing import Any
+
+import numpy as np
+
+from .. import __version__
+from ..ship.frames import Array, rotation
+from ..ship.ship import Ship
+from .recorder import Record
+from .reference import compared
+from .scenario import Scenario
+from .wiring import STATE
+
+__all__ = ["summary"]
+
+_PACKAGES = ("numpy", "pybullet", "FMPy", "pythonfmu")
+
+
+def summary(scenario: Scenario, ships: Mapping[str, Ship], record: Record, found: Mapping[str, Any]) -> dict[str, Any]:
+    """summary.json as JSON-able data; `found` are the run's events."""
+    before, after = (_states(record, ships, row) for row in (0, -1))
+    data: dict[str, Any] = {
+        "scenario": scenario.name,
+        "description": scenario.scenario.description,
+        "versions": {"shipcollision_fmu": __version__} | {name.lower(): _version(name) for name in _PACKAGES},
+        "algorithm": scenario.algorithm,
+        "step": scenario.step,
+        "steps": scenario.steps,
+        "duration": scenario.step * scenario.steps,
+        "ships": {name: _ship(scenario, name, ship) for name, ship in ships.items()},
+        "collisions": len(found["collisions"]),
+        "scratches": len(found["scratches"]),
+        "least_clearance": record.clearance,
+        "ledger": {
+            name: {"issued": issued.tolist(), "applied": applied.tolist(), "pending": (issued - applied).tolist()}
+            for name, issued, applied in zip(ships, record.issued_finally, record.applied, strict=True)
+        },
+        "momentum": {"before": _momentum(ships, before), "after": _momentum(ships, after)},
+        "energy": {
+            "before": _energy(ships, before),
+            "after": _energy(ships, after),
+            **dict(zip(("dissipated", "normal", "tangential"), record.energy, strict=True)),
+        },
+    }
+    if scenario.reference is not None:
+        data["reference"] = {"source": scenario.reference.source, "time": scenario.reference.time}
+        data["paper"] = compared(scenario.reference, record.states, ships)
+    return data
+
+
+def _ship(scenario: Scenario, name: str, ship: Ship) -> dict[str, Any]:
+    return {
+        "ship": ship.name,
+        "mass": ship.mass,
+        "degrees_of_freedom": scenario.ships[name].free,
+        "hydrodynamics": scenario.ships[name].hydrodynamics,
+        "estimated": list(ship.estimated),
+    }
+
+
+def _states(record: Record, ships: Mapping[str, Ship], row: int) -> dict[str, Array]:
+    return {name: np.array([float(record.states[f"{name}.{s}"][row]) for s in STATE]) for name in ships}
+
+
+def _momentum(ships: Mapping[str, Ship], states: Mapping[str, Array]) -> dict[str, list[float]]:
+    linear, angular = np.zeros(3), np.zeros(3)
+    for name, state in states.items():
+        R_nb = rotation(state[3:6])
+        p_b = ships[name].M @ state[6:12]
+        p_n = R_nb @ p_b[:3]
+        linear += p_n
+        angular += R_nb @ p_b[3:] + np.cross(state[:3], p_n)
+    return {"linear": linear.tolist(), "angular": angular.tolist()}
+
+
+def _energy(ships: Mapping[str, Ship], states: Mapping[str, Array]) -> dict[str, float]:
+    kinetic = {name: float(0.5 * state[6:12] @ ships[name].M @ state[6:12]) for name, state in states.items()}
+    return kinetic | {"total": sum(kinetic.values())}
+
+
+def _version(package: str) -> str | None:
+    try:
+        return version(package)
+    except PackageNotFoundError:  # installed by copying
+        return None

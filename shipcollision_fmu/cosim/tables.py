@@ -1,0 +1,285 @@
+"""The tables of a scenario file, one pydantic model each; unknown keys are refused.
+
+    [scenario]    name, description, duration [s], step [s], algorithm
+    [ships.NAME]  ship; position = [north, east] or [north, east, down] [m];
+                  heading_deg and attitude_deg = [roll, pitch], or quaternion = [x, y, z, w] (n from b);
+                  speed, or surge, sway, heave, or velocity_ned = [n, e, d] [m/s];
+                  rates = [p, q, r] in b, or angular_velocity_ned [rad/s];
+                  hydrodynamics; degrees_of_freedom; orders = [{time, rudder_deg, rev_per_s}]
+    [collision]   friction, restitution, response, substep, feedback, minimum_separation_time,
+                  clearance_range
+    [environment] current = [north, east] or {speed, towards_deg}: where the water goes to [m/s]
+    [reference]   source, time, note; [reference.ships.NAME] printed, corrected, tolerance
+
+Angles are in degrees only in keys ending `_deg`, everything else is SI. Positions and velocities are of CO (midship,
+centreline, waterline). A field's description is also the remedy in the message that refuses it.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import ceil, cos, isclose, isfinite, radians, sin
+from typing import Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
+
+from ..ship.frames import Array, attitude_from_quaternion, rotation
+
+__all__ = [
+    "Algorithm", "Collision", "Environment", "Header", "Order", "Published", "Quantity", "Reference", "ShipStart",
+    "Start", "Table", "Tolerance",
+]  # fmt: skip
+
+Algorithm = Literal["gauss-seidel", "jacobi"]
+Quantity = Literal["x", "y", "z", "h", "p", "r", "v_x", "v_y", "v_z", "w_x", "w_y", "w_z"]
+
+MAXIMUM_STEPS = 1_000_000
+"""More rows than this are not a run but a mistake in `step`: 14 h at 0.05 s, some 500 MB of states."""
+MAXIMUM_SPEED = 50.0
+"""[m/s] No displacement ship is faster; a larger number is a wrong unit."""
+MAXIMUM_RATE = 1.0
+"""[rad/s] A turn in six seconds; a larger number is a rate in degrees."""
+MAXIMUM_CURRENT = 10.0
+"""[m/s] The strongest tidal streams run 8 m/s; a larger number is a wrong unit."""
+
+
+class Table(BaseModel):
+    """Base of all tables: no unknown keys, no conversions from text, finite numbers, unchangeable."""
+
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True, allow_inf_nan=False)
+
+
+class Header(Table):
+    """[scenario]: what is run, for how long, in which steps."""
+
+    name: str = Field(pattern=r"^[A-Za-z0-9_][A-Za-z0-9_.-]*$", description='the run\'s folder, e.g. "head_on"')
+    description: str = ""
+    duration: float = Field(gt=0, description="a whole number of steps [s], e.g. 120.0")
+    step: float = Field(default=0.05, gt=0, description="the communication step [s], e.g. 0.05")
+    algorithm: Algorithm = Field(default="gauss-seidel", description="how the master orders its steps")
+
+    @property
+    def steps(self) -> int:
+        """Number of communication steps in the run."""
+        return round(self.duration / self.step)
+
+    @model_validator(mode="after")
+    def _whole_number_of_steps(self) -> Header:
+        ratio = self.duration / self.step
+        if ratio > MAXIMUM_STEPS:
+            raise ValueError(
+                f"[scenario] step = {self.step:g} s makes {ratio:.3g} steps of {self.duration:g} s, "
+                f"the limit is {MAXIMUM_STEPS}: take a longer step"
+            )
+        if round(ratio) < 1 or not isclose(ratio, round(ratio), rel_tol=1e-9):
+            whole = [n * self.step for n in (int(ratio), ceil(ratio)) if n > 0]
+            raise ValueError(
+                f"[scenario] duration = {self.duration:g} s is {ratio:.6g} steps of {self.step:g} s, must be a whole "
+                f"number: take duration = {' or '.join(f'{d:g}' for d in whole)}, or a step that divides it"
+            )
+        return self
+
+
+class Order(Table):
+    """What the bridge orders from a time on; what is left out stays as it was."""
+
+    time: float = Field(ge=0, description="given at the first communication point at or after it [s]")
+    rudder_deg: float | None = Field(default=None, ge=-90, le=90, description="the ordered rudder angle [deg]")
+    rev_per_s: float | None = Field(default=None, ge=-10, le=10, description="the ordered propeller speed [rev/s]")
+
+    @model_validator(mode="after")
+    def _orders_something(self) -> Order:
+        if self.rudder_deg is None and self.rev_per_s is None:
+            raise ValueError("orders nothing: give rudder_deg or rev_per_s")
+        return self
+
+
+class Start(Table):
+    """A ship's state at time 0, about CO, as the FMU takes it: position and attitude in n, velocity and rate in b."""
+
+    position: list[float]
+    attitude: list[float]
+    velocity: list[float]
+    rate: list[float]
+
+
+def _vector(size: int, description: str) -> Any:
+    return Field(default=None, min_length=size, max_length=size, description=description)
+
+
+class ShipStart(Table):
+    """[ships.NAME]: a ship, its state at time 0, and how it is sailed."""
+
+    ship: str = Field(min_length=1, description="a shipped model's name, or the path of a ship file")
+    position: list[float] = Field(min_length=2, max_length=3, description="[north, east] or [north, east, down] [m]")
+    heading_deg: float | None = Field(default=None, ge=-360, le=720, description="clockwise from north [deg]")
+    attitude_deg: list[float] | None = _vector(2, "[roll, pitch] [deg]")
+    quaternion: list[float] | None = _vector(4, "[x, y, z, w], n from b, of length 1")
+    speed: float | None = Field(default=None, description="ahead, over ground [m/s]")
+    surge: float | None = Field(default=None, description="ahead, over ground [m/s]")
+    sway: float | None = Field(default=None, description="to starboard, over ground [m/s]")
+    heave: float | None = Field(default=None, description="down [m/s]")
+    velocity_ned: list[float] | None = _vector(3, "[north, east, down] of CO [m/s]")
+    rates: list[float] | None = _vector(3, "[p, q, r] in b [rad/s]")
+    angular_velocity_ned: list[float] | None = _vector(3, "[north, east, down] [rad/s]")
+    hydrodynamics: bool = Field(default=False, description="false for a ship that coasts")
+    degrees_of_freedom: Literal[3, 4, 6] | None = Field(default=None, description="3, 4 or 6")
+    orders: list[Order] = Field(default=[], description="[{time = 0.0, rudder_deg = 0.0, rev_per_s = 1.5}, ...]")
+
+    @property
+    def free(self) -> int:
+        """Degrees of freedom: as given, else 3 with hydrodynamics (plane motion of the MMG model) and 6 without."""
+        return self.degrees_of_freedom or (3 if self.hydrodynamics else 6)
+
+    @property
+    def start(self) -> Start:
+        """State at time 0."""
+        if self.quaternion is not None:
+            attitude = _floats(attitude_from_quaternion(self.quaternion))
+        else:
+            roll, pitch = self.attitude_deg or (0.0, 0.0)
+            attitude = [radians(roll), radians(pitch), radians(self.heading_deg or 0.0)]
+        R_bn = rotation(attitude).T
+        velocity = [float(self.surge or self.speed or 0.0), float(self.sway or 0.0), float(self.heave or 0.0)]
+        if self.velocity_ned is not None:
+            velocity = _floats(R_bn @ self.velocity_ned)
+        rate = [float(w) for w in self.rates or (0.0, 0.0, 0.0)]
+        if self.angular_velocity_ned is not None:
+            rate = _floats(R_bn @ self.angular_velocity_ned)
+        position = [float(x) for x in (*self.position, 0.0)[:3]]
+        return Start(position=position, attitude=attitude, velocity=velocity, rate=rate)
+
+    @model_validator(mode="after")
+    def _each_quantity_once(self) -> ShipStart:
+        given = self.model_fields_set
+        for one, others in (
+            ("quaternion", ("heading_deg", "attitude_deg")),
+            ("speed", ("surge", "sway", "heave", "velocity_ned")),
+            ("velocity_ned", ("surge", "sway", "heave")),
+            ("rates", ("angular_velocity_ned",)),
+        ):
+            twice = [other for other in others if other in given]
+            if one in given and twice:
+                raise ValueError(f"gives both {one} and {twice[0]}: keep one of them")
+        if self.heading_deg is None and self.quaternion is None:
+            raise ValueError("heading_deg is missing: clockwise from north [deg], e.g. 90.0 for east")
+        return self
+
+    @model_validator(mode="after")
+    def _believable(self) -> ShipStart:
+        if self.quaternion is not None:
+            length = sum(q * q for q in self.quaternion) ** 0.5
+            if not isclose(length, 1.0, abs_tol=1e-3):
+                raise ValueError(f"quaternion has length {length:.6g}, must be 1 within 0.001: normalise it")
+        if self.attitude_deg is not None and max(map(abs, self.attitude_deg)) >= 90:
+            raise ValueError(f"attitude_deg = {self.attitude_deg} must be within 90 deg: start with a ship that floats")
+        fastest = max(map(abs, self.start.velocity))
+        if fastest > MAXIMUM_SPEED:
+            raise ValueError(f"moves at {fastest:g} m/s, the limit is {MAXIMUM_SPEED:g}: give metres per second")
+        quickest = max(map(abs, self.start.rate))
+        if quickest > MAXIMUM_RATE:
+            raise ValueError(f"turns at {quickest:g} rad/s, the limit is {MAXIMUM_RATE:g}: give radians per second")
+        return self
+
+    @model_validator(mode="after")
+    def _orders_in_sequence(self) -> ShipStart:
+        if self.orders and not self.hydrodynamics:
+            raise ValueError("has orders, but coasts: set hydrodynamics = true, or remove orders")
+        for earlier, later in pairwise(order.time for order in self.orders):
+            if later <= earlier:
+                raise ValueError(f"orders: time {later:g} s comes after {earlier:g} s: put them in order of time")
+        return self
+
+
+class Collision(Table):
+    """[collision]: parameters of the collision FMU; what is left out keeps the FMU's own start value."""
+
+    friction: float | None = Field(default=None, ge=0, le=2, description="Coulomb's coefficient, e.g. 0.3")
+    restitution: float | None = Field(default=None, ge=0, le=1, description="0 for plastic, 1 for elastic")
+    response: Literal["pgs", "closed_form", "bullet"] | None = Field(default=None, description="the rule of contact")
+    substep: float | None = Field(default=None, gt=0, description="internal step of the collision FMU [s], e.g. 0.01")
+    feedback: Literal["ledger", "force", "state", "none"] | None = Field(default=None, description="how ships answer")
+    minimum_separation_time: float | None = Field(default=None, gt=0, description="ends a collision [s], e.g. 10.0")
+    clearance_range: float | None = Field(default=None, gt=0, description="the cap of the clearance [m], e.g. 200.0")
+
+    @field_validator("feedback")
+    @classmethod
+    def _our_ships_answer(cls, feedback: str | None) -> str | None:
+        if feedback == "state":
+            raise ValueError(
+                '[collision] feedback = "state" wants ships that adopt post.*, for which ShipManoeuvring has no input: '
+                "take ledger, force or none"
+            )
+        return feedback
+
+
+class Environment(Table):
+    """[environment]: what acts on every ship that has hydrodynamics."""
+
+    current: list[float] = Field(
+        default=[0.0, 0.0], min_length=2, max_length=2, description="[north, east] or {speed, towards_deg} [m/s]"
+    )
+    wind: Any = None
+
+    @field_validator("current", mode="before")
+    @classmethod
+    def _from_speed_and_direction(cls, given: Any) -> Any:
+        if not isinstance(given, dict):
+            return given
+        known = set(given) == {"speed", "towards_deg"}
+        if not known or not all(type(value) in (int, float) and isfinite(value) for value in given.values()):
+            raise ValueError(
+                f"[environment] current = {given} must be two finite numbers: {{speed = 1.0, towards_deg = 90.0}}"
+            )
+        speed, towards = float(given["speed"]), radians(given["towards_deg"])
+        return [speed * cos(towards), speed * sin(towards)]
+
+    @field_validator("current")
+    @classmethod
+    def _believable(cls, current: list[float]) -> list[float]:
+        if max(map(abs, current)) > MAXIMUM_CURRENT:
+            raise ValueError(f"{current} runs faster than the limit of {MAXIMUM_CURRENT:g} m/s: give metres per second")
+        return current
+
+    @field_validator("wind")
+    @classmethod
+    def _no_wind_yet(cls, wind: Any) -> Any:
+        raise ValueError(f"[environment] wind = {wind!r} is refused, wind forces are not modelled yet: remove the key")
+
+
+class Tolerance(Table):
+    """How near the computed numbers must be to the published ones."""
+
+    horizontal: float = Field(gt=0, description="the tolerance of x and y [m]")
+    vertical: float = Field(gt=0, description="the tolerance of z [m]")
+    quaternion: float = Field(gt=0, description="the tolerance of h, p and r [1]")
+    velocity: float = Field(gt=0, description="the tolerance of v_x, v_y and v_z [m/s]")
+    rate: float = Field(gt=0, description="the tolerance of w_x, w_y and w_z [rad/s]")
+
+
+class Published(Table):
+    """[reference.ships.NAME]: a ship's published state as printed, and what of it had to be corrected."""
+
+    printed: dict[Quantity, float] = Field(min_length=1, description="{x = ..., h = ..., v_x = ...} as printed")
+    corrected: dict[Quantity, float] = Field(default={}, description="only the numbers that differ from print")
+    tolerance: Tolerance
+
+    @model_validator(mode="after")
+    def _corrects_what_is_printed(self) -> Published:
+        for quantity in self.corrected:
+            if quantity not in self.printed:
+                raise ValueError(f"corrects {quantity}, which is not printed: printed are {', '.join(self.printed)}")
+        return self
+
+
+class Reference(Table):
+    """[reference]: published results at one time, in the frame of Guan et al. 2014 (see cosim/reference.py)."""
+
+    source: str = Field(min_length=1, description="author, year, table")
+    time: float = Field(gt=0, description="when the published state holds, from the start of the scenario [s]")
+    note: str = ""
+    ships: dict[str, Published] = Field(min_length=1, description="a table [reference.ships.NAME] per ship")
+
+
+def _floats(v: Array) -> list[float]:
+    return [float(x) for x in v]

@@ -1,0 +1,43 @@
+"""Every exception that this package raises on purpose.
+
+    ShipCollisionError
+    ├── InputError          what a user gave is refused: says what, its value, the limit, the remedy
+    │   ├── ShipError       a ship file or a ship's particulars
+    │   └── ScenarioError   a scenario file or an option of a run
+    ├── StepError           a model cannot make this step (its state before the step stays valid)
+    └── HostError           the surroundings fail: a missing package, an unwritable folder, a broken FMU
+
+`exit_status` is what the command line ends with: 2 for a user's input, 1 for everything else.
+"""
+
+from __future__ import annotations
+
+__all__ = ["HostError", "InputError", "ScenarioError", "ShipCollisionError", "ShipError", "StepError"]
+
+
+class ShipCollisionError(Exception):
+    """Base of all errors of this package."""
+
+    exit_status = 1
+
+
+class InputError(ShipCollisionError):
+    """Input of a user that is refused."""
+
+    exit_status = 2
+
+
+class ShipError(InputError):
+    """A ship file, or a particular in it, is refused."""
+
+
+class ScenarioError(InputError):
+    """A scenario file, or an option of a run, is refused."""
+
+
+class StepError(ShipCollisionError):
+    """A model cannot make a step; the state before the step is kept."""
+
+
+class HostError(ShipCollisionError):
+    """The machine or an installed package does not do what is needed."""

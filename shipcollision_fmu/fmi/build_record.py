@@ -1,0 +1,139 @@
+"""What an FMU was built from, and whether that is what is running.
+
+All FMUs in a process share one interpreter and its imported modules: the second FMU that brings a package of the same
+name silently runs the first one's code, and a package that the host has imported before wins over both. So every FMU
+carries a record of the sources it was built from, and refuses to run on others.
+
+    resources/build.json    {"model", "version", "contents", "inputs", "ships", "guid"}
+
+`contents` is a digest of the packed sources and ship data, `inputs` one of everything the file was made from.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from dataclasses import asdict, dataclass
+from functools import cache
+from hashlib import sha256
+from pathlib import Path
+
+import shipcollision_fmu
+from shipcollision_fmu.errors import HostError
+
+__all__ = ["RECORD", "BuildRecord", "confirmed", "contents", "contents_digest", "digest", "package_directory"]
+
+RECORD = "build.json"
+"""Name of the record among the resources of an FMU."""
+
+_LEFT_OUT = {"__pycache__", "cli.py", "cosim", "fmu_src", "models", "show"}
+"""Top-level parts of the package that no FMU needs; models are packed apart."""
+_DATA = ("hulls", "ships")
+"""Folders under models/ that ships are made from."""
+
+
+@dataclass(frozen=True)
+class BuildRecord:
+    """What an FMU was built from."""
+
+    model: str
+    version: str
+    contents: str
+    inputs: str
+    ships: tuple[str, ...]
+    guid: str
+
+    def to_json(self) -> str:
+        """As it is stored."""
+        return json.dumps(asdict(self), indent=1, sort_keys=True) + "\n"
+
+    @classmethod
+    def from_json(cls, text: str | bytes) -> BuildRecord:
+        """Raises ValueError, KeyError or TypeError for anything else than a record."""
+        data = json.loads(text)
+        return cls(**{**data, "ships": tuple(data["ships"])})
+
+
+def package_directory() -> Path:
+    """Where the package that runs was imported from."""
+    return Path(shipcollision_fmu.__file__).parent
+
+
+def contents(package: Path) -> dict[str, Path]:
+    """Files of the package that an FMU carries, by their name inside its resources, in order.
+
+    The ship data lies in package/models when installed and beside the package in a checkout and in an FMU; inside an
+    FMU it has one name.
+    """
+    models = package / "models" if (package / "models").is_dir() else package.parent / "models"
+    found: dict[str, Path] = {}
+    for root, top, folders in (
+        (package, package.name, [path for path in package.iterdir() if path.name not in _LEFT_OUT]),
+        (models, "models", [models / name for name in _DATA]),
+    ):
+        for folder in folders:
+            for path in [folder] if folder.is_file() else folder.rglob("*"):
+                inside = path.relative_to(root)
+                if path.is_file() and not any(part == "__pycache__" or part.startswith(".") for part in inside.parts):
+                    found[f"{top}/{inside.as_posix()}"] = path
+    return dict(sorted(found.items()))
+
+
+def digest(files: dict[str, bytes]) -> str:
+    """One number for named contents, whatever their order."""
+    total = sha256()
+    for name, data in sorted(files.items()):
+        total.update(f"{name}\0{len(data)}\0".encode() + data)
+    return total.hexdigest()
+
+
+def contents_digest(package: Path) -> str:
+    """Digest of what an FMU of this package carries; a few milliseconds."""
+    return digest({name: path.read_bytes() for name, path in contents(package).items()})
+
+
+@cache
+def confirmed(resources: str) -> BuildRecord:
+    """The record of the FMU unpacked at `resources`, once it is sure that the package which runs is the one it was
+    built from.
+
+    Raises HostError, which says what was imported instead and from where.
+    """
+    here = Path(resources)
+    try:
+        record = BuildRecord.from_json((here / RECORD).read_bytes())
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise HostError(f"{here} has no record of what the FMU was built from ({error!r}); build it again") from None
+    version, running = shipcollision_fmu.__version__, _running_digest()
+    if (version, running) != (record.version, record.contents):
+        raise HostError(
+            f"{record.model}.fmu was built from shipcollision_fmu {record.version} ({record.contents[:12]}), but "
+            f"this process has imported {version} ({running[:12]}) from {package_directory()}; build the FMU again "
+            "from that package, or keep the host from importing it"
+        )
+    if not package_directory().is_dir():
+        _relocate(here)
+    return record
+
+
+@cache
+def _running_digest() -> str:
+    """Of the package that runs, when first asked: its folder may be gone later."""
+    return contents_digest(package_directory())
+
+
+def _relocate(resources: Path) -> None:
+    """Point the imported modules to this copy of their sources and data.
+
+    Hosts delete the folder of an FMU after use, the modules loaded from it stay, and so does their idea of where the
+    ship data is. The copies are known to be the same.
+    """
+    gone = package_directory()
+    for name, module in list(sys.modules.items()):
+        if name == gone.name or name.startswith(f"{gone.name}."):
+            file = getattr(module, "__file__", None)
+            if file:
+                moved = resources / gone.name / Path(file).relative_to(gone)
+                module.__file__ = str(moved)
+                if hasattr(module, "__path__"):
+                    module.__path__ = [str(moved.parent)]

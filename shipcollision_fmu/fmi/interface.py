@@ -1,0 +1,29 @@
+"""What an FMU is made from: a name, a table of variables, and the model behind it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from shipcollision_fmu.fmi.ports import Model, Ports
+from shipcollision_fmu.fmi.variables import Table
+
+__all__ = ["SHIPS", "Interface"]
+
+SHIPS = ("own", "target")
+"""Names of the ships in the default build."""
+
+
+@dataclass(frozen=True)
+class Interface:
+    """An FMU, before it is one. `table` and `model` take the names of the ships; a model of one ship ignores them."""
+
+    name: str
+    description: str
+    table: Callable[[tuple[str, ...]], Table]
+    model: Callable[[tuple[str, ...]], Model]
+    step_size: float = 0.05
+
+    def ports(self, ships: tuple[str, ...] = SHIPS) -> Ports:
+        """A fresh model with its ports: the inside of the FMU, to be driven in process."""
+        return Ports(self.name, self.table(ships), self.model(ships))

@@ -1,0 +1,179 @@
+"""Variables of the FMU ShipCollision: two or more hulls touch.
+
+Frames: n is north, east, down at the scenario's origin; b is forward, starboard, down at CO. SI units, radians. The
+names are those of the project's contract with other programs; renaming one is a breaking change.
+"""
+
+from __future__ import annotations
+
+from shipcollision_fmu.collision.ledger import FEEDBACKS
+from shipcollision_fmu.collision.model import ShipCollision
+from shipcollision_fmu.collision.ports import SLOTS
+from shipcollision_fmu.collision.responses import RESPONSES
+from shipcollision_fmu.fmi.interface import SHIPS, Interface
+from shipcollision_fmu.fmi.variables import (
+    ANGLES,
+    FORCE,
+    IMPULSE,
+    LINEAR,
+    NED,
+    Table,
+    boolean,
+    enumeration,
+    integer,
+    real,
+    string,
+    vector,
+    wrench,
+)
+
+__all__ = ["INTERFACE", "table"]
+
+BODY = ("x", "y", "z")
+
+
+def table(ships: tuple[str, ...] = SHIPS) -> Table:
+    """The variables, in the order of their value references."""
+    return (
+        *(line for i, name in enumerate(ships) for line in _ship(i, name)),
+        *_contacts(),
+        *_events(),
+        *_parameters(),
+    )
+
+
+def _ship(i: int, s: str) -> Table:
+    """A ship: what is received at the start of a step, what is given at its end."""
+    received, given = f"inputs.ships.{i}", f"outputs.ships.{i}"
+    return (
+        *vector("input", f"{s}.position", NED, "m", f"{received}.position", f"CO of {s} in n"),
+        *vector("input", f"{s}.attitude", ANGLES, "rad", f"{received}.attitude", f"Attitude of {s} (zyx Euler angles)"),
+        *vector("input", f"{s}.velocity", LINEAR, "m/s", f"{received}.velocity", f"Velocity of CO of {s} in b"),
+        *vector("input", f"{s}.rate", ANGLES, "rad/s", f"{received}.rate", f"Angular velocity of {s} in b"),
+        *wrench(
+            "input", f"{s}.impulse_applied", f"{s}.impulse_applied", IMPULSE, f"{received}.impulse_applied",
+            f"Cumulative impulse that the model of {s} has applied, in b about CO",
+        ),
+        *vector(
+            "output", f"{s}.post.position", NED, "m", f"{given}.position", f"CO of {s} at the end of the step, in n",
+            depends_on=(f"{s}.position",),
+        ),
+        *vector(
+            "output", f"{s}.post.attitude", ANGLES, "rad", f"{given}.attitude", f"Attitude of {s} at the end of the step",
+            depends_on=(f"{s}.attitude",),
+        ),
+        *vector(
+            "output", f"{s}.post.velocity", LINEAR, "m/s", f"{given}.velocity",
+            f"Velocity of CO of {s} after impact, in b", depends_on=(f"{s}.velocity",),
+        ),
+        *vector(
+            "output", f"{s}.post.rate", ANGLES, "rad/s", f"{given}.rate", f"Angular velocity of {s} after impact, in b",
+            depends_on=(f"{s}.rate",),
+        ),
+        *wrench(
+            "output", f"{s}.impulse", f"{s}.impulse", IMPULSE, f"{given}.impulse",
+            f"Cumulative impulse issued to {s}, in b about CO", depends_on=(),
+        ),
+        *wrench(
+            "output", f"{s}.force", f"{s}.moment", FORCE, f"{given}.force",
+            f"Mean contact force on {s} over the last step, in b about CO", depends_on=(),
+        ),
+        string("parameter", f"{s}.ship", f"parameters.ships.{i}.ship", f"Ship of {s}: a name in the FMU's resources or a TOML file"),
+        integer(
+            "parameter", f"{s}.degrees_of_freedom", f"parameters.ships.{i}.degrees_of_freedom",
+            "As in the model that sails it; 3: surge, sway, yaw; 4: and roll; 6: all", minimum=3, maximum=6,
+        ),
+    )  # fmt: skip
+
+
+def _contacts() -> Table:
+    """The contact points of the step, from 1; unused slots are zero."""
+    lines: list[Table] = [(
+        boolean("output", "contact.active", "outputs.contact_active", "Hulls touched in this step", depends_on=()),
+        integer(
+            "output", "contact.count", "outputs.contact_count", "Contact points in this step",
+            minimum=0, maximum=SLOTS, depends_on=(),
+        ),
+    )]  # fmt: skip
+    for k in range(SLOTS):
+        name, path = f"contact[{k + 1}]", f"outputs.contacts.{k}"
+        lines.append((
+            *vector("output", name, NED, "m", f"{path}.point", "Contact point in n", depends_on=()),
+            *vector(
+                "output", f"{name}.normal", NED, "1", f"{path}.normal", "Unit normal from ship_a to ship_b in n",
+                depends_on=(),
+            ),
+            real("output", f"{name}.gap", "m", f"{path}.values", 0, "Gap, negative in overlap", depends_on=()),
+            real("output", f"{name}.impulse_normal", "N.s", f"{path}.values", 1, "Normal impulse over the step", depends_on=()),
+            real(
+                "output", f"{name}.impulse_tangential", "N.s", f"{path}.values", 2, "Friction impulse over the step",
+                depends_on=(),
+            ),
+            real("output", f"{name}.energy", "J", f"{path}.values", 3, "Energy dissipated over the step", depends_on=()),
+            *vector(
+                "output", f"{name}.impulse", NED, "N.s", f"{path}.impulse",
+                "Impulse on ship_b in n over the step; ship_a takes the opposite", depends_on=(),
+            ),
+            *vector("output", f"{name}.a", BODY, "m", f"{path}.r_a", "Contact point in b of ship_a", depends_on=()),
+            *vector("output", f"{name}.b", BODY, "m", f"{path}.r_b", "Contact point in b of ship_b", depends_on=()),
+            integer("output", f"{name}.ship_a", f"{path}.ship_a", "First ship, from 1; 0: slot unused", minimum=0, depends_on=()),
+            integer("output", f"{name}.ship_b", f"{path}.ship_b", "Second ship, from 1; 0: slot unused", minimum=0, depends_on=()),
+            integer("output", f"{name}.impact", f"{path}.impact", "Number of the collision", minimum=0, depends_on=()),
+            integer("output", f"{name}.scratch", f"{path}.scratch", "Number of the scratch", minimum=0, depends_on=()),
+        ))  # fmt: skip
+    return tuple(line for block in lines for line in block)
+
+
+def _events() -> Table:
+    """Collisions, energy and clearance."""
+    return (
+        integer("output", "impact.count", "outputs.impact_count", "Collisions so far", minimum=0, depends_on=()),
+        real("output", "impact.time", "s", "outputs.impact", 0, "Start of the latest collision", depends_on=()),
+        *vector(
+            "output", "impact", NED, "m", "outputs.impact_point",
+            "First contact point of the latest collision in n: where the explosion goes", depends_on=(),
+        ),
+        real(
+            "output", "impact.closing_speed", "m/s", "outputs.impact", 1,
+            "Closing speed along the normal at the first contact of the latest collision", depends_on=(),
+        ),
+        real(
+            "output", "impact.angle", "rad", "outputs.impact", 2,
+            "Angle between the headings at the latest collision, 0 (same) to pi (head-on)", depends_on=(),
+        ),
+        integer("output", "impact.ship_a", "outputs.impact_ship_a", "First ship of the latest collision, from 1", minimum=0, depends_on=()),
+        integer("output", "impact.ship_b", "outputs.impact_ship_b", "Second ship of the latest collision, from 1", minimum=0, depends_on=()),
+        integer("output", "scratch.id", "outputs.scratch_id", "Scratch being drawn, 0 when nothing touches", minimum=0, depends_on=()),
+        real("output", "energy.dissipated", "J", "outputs.energy", 0, "Kinetic energy lost to contact since the start", depends_on=()),
+        real("output", "energy.normal", "J", "outputs.energy", 1, "Part of it lost along the contact normals", depends_on=()),
+        real("output", "energy.tangential", "J", "outputs.energy", 2, "Part of it lost to friction", depends_on=()),
+        real("output", "clearance", "m", "outputs.clearance", 0, "Least distance between hulls, at most clearance_range"),
+    )  # fmt: skip
+
+
+def _parameters() -> Table:
+    """What holds for all pairs."""
+    numbers = "parameters.numbers"
+    return (
+        real("parameter", "friction", "1", numbers, 0, "Coulomb friction coefficient of the hulls", minimum=0.0, maximum=10.0),
+        real("parameter", "restitution", "1", numbers, 1, "Normal velocity after over before impact", minimum=0.0, maximum=1.0),
+        real("parameter", "substep", "s", numbers, 2, "Length of an internal step", minimum=0.0),
+        real(
+            "parameter", "minimum_separation_time", "s", numbers, 3,
+            "Time apart after which the next contact is a new collision", minimum=0.0,
+        ),
+        real("parameter", "clearance_range", "m", numbers, 4, "Cap of the clearance", minimum=0.0),
+        enumeration("parameter", "response", tuple(RESPONSES), "parameters.response", "How contacts are answered"),
+        enumeration(
+            "parameter", "feedback", tuple(FEEDBACKS), "parameters.feedback",
+            "How the ship models answer: by impulse_applied, by force, by adopting post.*, or not at all",
+        ),
+    )  # fmt: skip
+
+
+INTERFACE = Interface(
+    name="ShipCollision",
+    description="Ships collide: states in, post-impact states, impulses, contact points and energy out.",
+    table=table,
+    model=ShipCollision,
+)

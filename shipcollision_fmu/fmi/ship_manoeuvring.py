@@ -1,0 +1,89 @@
+"""Variables of the FMU ShipManoeuvring: one ship sails.
+
+Frames: n is north, east, down at the scenario's origin; b is forward, starboard, down at CO. SI units, radians. The
+names are those of the project's contract with other programs; renaming one is a breaking change.
+"""
+
+from __future__ import annotations
+
+from shipcollision_fmu.fmi.interface import Interface
+from shipcollision_fmu.fmi.variables import (
+    ANGLES,
+    FORCE,
+    IMPULSE,
+    LINEAR,
+    NED,
+    Table,
+    boolean,
+    integer,
+    real,
+    string,
+    vector,
+    wrench,
+)
+from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
+
+__all__ = ["INTERFACE", "table"]
+
+
+def table(ships: tuple[str, ...] = ()) -> Table:
+    """The variables, in the order of their value references."""
+    del ships  # this FMU is one ship
+    return (
+        # Outputs: the state at the end of the step.
+        *vector(
+            "output", "position", NED, "m", "outputs.position", "Position of CO in n", depends_on=("initial.position",)
+        ),
+        *vector(
+            "output", "attitude", ANGLES, "rad", "outputs.attitude",
+            "Attitude (zyx Euler angles); yaw is the heading, unwrapped", depends_on=("initial.attitude",),
+        ),
+        *vector("output", "velocity", LINEAR, "m/s", "outputs.velocity", "Velocity of CO over ground, in b"),
+        *vector("output", "rate", ANGLES, "rad/s", "outputs.rate", "Angular velocity in b"),
+        real("output", "rudder_angle", "rad", "outputs.actuators", 0, "Rudder angle, limited in rate and range"),
+        real("output", "propeller_speed", "rev/s", "outputs.actuators", 1, "Propeller speed"),
+        *wrench(
+            "output", "impulse_applied", "impulse_applied", IMPULSE, "outputs.impulse_applied",
+            "Cumulative impulse that the ship has applied, in b about CO",
+        ),
+        *wrench("output", "hull", "hull", FORCE, "outputs.hull", "Force of the water on the hull, b about CO"),
+        *wrench("output", "propeller", "propeller", FORCE, "outputs.propeller", "Force of the propeller, b about CO"),
+        *wrench("output", "rudder", "rudder", FORCE, "outputs.rudder", "Force of the rudder, b about CO"),
+        # Inputs: held over the step.
+        real("input", "rudder_order", "rad", "inputs.orders", 0, "Ordered rudder angle"),
+        real("input", "propeller_order", "rev/s", "inputs.orders", 1, "Ordered propeller speed"),
+        *vector("input", "current", NED[:2], "m/s", "inputs.current", "Velocity of the water, towards, in n"),
+        *wrench(
+            "input", "impulse", "impulse", IMPULSE, "inputs.impulse",
+            "Cumulative impulse on the ship, in b about CO; what is new since the last step is applied at its start",
+        ),
+        *wrench("input", "force", "moment", FORCE, "inputs.force", "External force held over the step, in b about CO"),
+        # Parameters.
+        string("parameter", "ship", "parameters.ship", "Name of a ship in the FMU's resources, or path of a TOML file"),
+        integer(
+            "parameter", "degrees_of_freedom", "parameters.degrees_of_freedom",
+            "3: surge, sway, yaw; 4: and roll; 6: all", minimum=3, maximum=6,
+        ),
+        boolean(
+            "parameter", "hydrodynamics", "parameters.hydrodynamics",
+            "false: the ship coasts, its velocity and angular velocity constant in n between impulses",
+        ),
+        *vector("parameter", "initial.position", NED, "m", "parameters.initial_position", "CO at the start, in n"),
+        *vector("parameter", "initial.attitude", ANGLES, "rad", "parameters.initial_attitude", "Attitude at the start"),
+        *vector(
+            "parameter", "initial.velocity", LINEAR, "m/s", "parameters.initial_velocity",
+            "Velocity of CO over ground at the start, in b",
+        ),
+        *vector(
+            "parameter", "initial.rate", ANGLES, "rad/s", "parameters.initial_rate",
+            "Angular velocity at the start, in b",
+        ),
+    )  # fmt: skip
+
+
+INTERFACE = Interface(
+    name="ShipManoeuvring",
+    description="One ship sails in six degrees of freedom, and applies the impulses and forces that it is given.",
+    table=table,
+    model=lambda ships: ShipManoeuvring(),
+)

@@ -1,0 +1,112 @@
+"""Forces of the water on the bare hull in surge, sway and yaw.
+
+At moderate drift, the polynomials of the MMG standard model (Yasukawa & Yoshimura 2015, eq. 9), about midship:
+
+    X_H = 1/2 rho L d   U^2 ( -R_0 + X_vv v'^2 + X_vr v' r' + X_rr r'^2 + X_vvvv v'^4 )
+    Y_H = 1/2 rho L d   U^2 ( Y_v v' + Y_r r' + Y_vvv v'^3 + Y_vvr v'^2 r' + Y_vrr v' r'^2 + Y_rrr r'^3 )
+    N_H = 1/2 rho L^2 d U^2 ( N_v v' + N_r r' + N_vvv v'^3 + N_vvr v'^2 r' + N_vrr v' r'^2 + N_rrr r'^3 )
+
+    v' = v/U    r' = r L/U    U = hypot(u, v)    beta = atan2(-v, u)    u, v relative to the water [m/s], r [rad/s]
+
+After an impact a ship may move sideways, astern, or spin on the spot. The polynomials were fitted to |beta| <= 20 deg
+or so and mean nothing there (X_vvvv would push the ship ahead). Beyond, their linear terms, with u in the place of U so
+that they turn round when the ship moves astern, are joined to the drag of the cross flow on each section:
+
+    X = 1/2 rho L d   ( -R_0 u |u| )
+    Y = 1/2 rho L d   ( Y_v |u| v + Y_r u r L - C_D <w |w|> )            w = v + x r, mean over the length
+    N = 1/2 rho L^2 d ( N_v u v + N_r |u| r L - C_D <(x/L) w |w|> )
+
+The share of the second set rises smoothly from 0 to 1 over |beta| = 20 to 40 deg, or over 35 to 60 deg of
+gamma = atan2(|r| L/2, |u|), the angle of the flow at the ship's ends, whichever is more. An ordinary turn stays below.
+Both sets are bounded multiples of the squared velocities, so nothing grows as U goes to 0.
+The second set and its limits are this project's, not the paper's; Hooft's cross-flow principle with C_D = 1.
+"""
+
+from __future__ import annotations
+
+from math import atan2, hypot, radians
+
+from ..ship.particulars import ManoeuvringTable
+from ..ship.ship import Ship
+
+__all__ = ["HullForces", "cross_flow"]
+
+C_D = 1.0
+"""Drag coefficient of a full section in cross flow, related to L d."""
+
+BETA = (radians(20.0), radians(40.0))
+"""Drift angle at which the cross flow begins to count, and beyond which it alone does [rad]."""
+
+GAMMA = (radians(35.0), radians(60.0))
+"""The same for the angle of the flow at the ship's ends; a 35 deg rudder turn of a full ship reaches about 25 deg."""
+
+
+class HullForces:
+    """(X, Y, N) of one hull."""
+
+    def __init__(self, ship: Ship, table: ManoeuvringTable) -> None:
+        self._L = ship.L_pp
+        self._force = 0.5 * ship.rho * ship.L_pp * ship.T  # times velocity^2 is a force [N]
+        self._moment = self._force * ship.L_pp
+        self._X = (table.R_0, table.X_vv, table.X_vr, table.X_rr, table.X_vvvv)
+        self._Y = (table.Y_v, table.Y_r, table.Y_vvv, table.Y_vvr, table.Y_vrr, table.Y_rrr)
+        self._N = (table.N_v, table.N_r, table.N_vvv, table.N_vvr, table.N_vrr, table.N_rrr)
+
+    def __call__(self, u: float, v: float, r: float) -> tuple[float, float, float]:
+        """X, Y [N] and N [N m] about midship, in b, at velocities relative to the water."""
+        share = _cross_flow_share(u, v, 0.5 * self._L * r)
+        if share == 0.0:
+            return self._moderate(u, v, r)
+        if share == 1.0:
+            return self._beyond(u, v, r)
+        X_m, Y_m, N_m = self._moderate(u, v, r)
+        X_b, Y_b, N_b = self._beyond(u, v, r)
+        return X_m + share * (X_b - X_m), Y_m + share * (Y_b - Y_m), N_m + share * (N_b - N_m)
+
+    def _moderate(self, u: float, v: float, r: float) -> tuple[float, float, float]:
+        """The MMG polynomials. Called with a share below 1 only: then U > 0 and |r'| < 3.5, or all is at rest."""
+        U = hypot(u, v)
+        if U == 0.0:
+            return 0.0, 0.0, 0.0
+        v, r = v / U, r * self._L / U
+        vv, vr, rr = v * v, v * r, r * r
+        R_0, X_vv, X_vr, X_rr, X_vvvv = self._X
+        Y_v, Y_r, Y_vvv, Y_vvr, Y_vrr, Y_rrr = self._Y
+        N_v, N_r, N_vvv, N_vvr, N_vrr, N_rrr = self._N
+        X = -R_0 + X_vv * vv + X_vr * vr + X_rr * rr + X_vvvv * vv * vv
+        Y = Y_v * v + Y_r * r + Y_vvv * vv * v + Y_vvr * vv * r + Y_vrr * v * rr + Y_rrr * rr * r
+        N = N_v * v + N_r * r + N_vvv * vv * v + N_vvr * vv * r + N_vrr * v * rr + N_rrr * rr * r
+        UU = U * U
+        return self._force * UU * X, self._force * UU * Y, self._moment * UU * N
+
+    def _beyond(self, u: float, v: float, r: float) -> tuple[float, float, float]:
+        """Linear terms and cross-flow drag."""
+        rL = r * self._L
+        drag, drag_moment = cross_flow(v, 0.5 * rL)
+        X = -self._X[0] * u * abs(u)
+        Y = self._Y[0] * abs(u) * v + self._Y[1] * u * rL - C_D * drag
+        N = self._N[0] * u * v + self._N[1] * abs(u) * rL - C_D * drag_moment
+        return self._force * X, self._force * Y, self._moment * N
+
+
+def cross_flow(v: float, s: float) -> tuple[float, float]:
+    """Means of w|w| and of (x/L) w|w| over the length, w = v + s xi, xi = 2x/L from -1 to 1 [m2/s2].
+
+    Exact integrals; s = r L/2 is the sway speed that yawing gives the ship's ends.
+    """
+    a, b = abs(v), abs(s)
+    if a >= b:  # the flow comes from one side all along the ship
+        one = 1.0 if v > 0.0 else -1.0
+        return one * (v * v + s * s / 3.0), a * s / 3.0
+    one = 1.0 if s > 0.0 else -1.0
+    return v * (b + v * v / (3.0 * b)), one * (s * s / 8.0 + v * v / 4.0 - v * v * (v / s) * (v / s) / 24.0)
+
+
+def _cross_flow_share(u: float, v: float, s: float) -> float:
+    """0: the polynomials hold; 1: cross flow alone; smooth between."""
+    beta = abs(atan2(v, u))
+    gamma = atan2(abs(s), abs(u))
+    if beta <= BETA[0] and gamma <= GAMMA[0]:
+        return 0.0
+    x = max((beta - BETA[0]) / (BETA[1] - BETA[0]), (gamma - GAMMA[0]) / (GAMMA[1] - GAMMA[0]))
+    return 1.0 if x >= 1.0 else x * x * (3.0 - 2.0 * x)

@@ -1,0 +1,284 @@
+"""One ship that sails: orders, current, impulses and forces in; pose and velocity out.
+
+A communication step [t, t + h]:
+
+    check      what came in; a step that is refused changes nothing
+    strike     impulses issued since the last step, at once: nu += M^-1 (impulse - impulse_applied)
+    advance    hydrodynamics: the MMG model in surge, sway and yaw, external force on its right-hand side
+               otherwise: coasting, with half of the force's momentum before and half after the motion
+    publish    the new state
+
+The impulse ledger: `impulse` is cumulative, everything the collision model ever issued. A sample that is lost or
+repeated loses and repeats nothing. Only the free degrees of freedom answer (M's other rows and columns are deleted
+before it is inverted), but all six components count as applied.
+
+A strike changes M nu by exactly the impulse; a force F held over h changes it by F h. The model knows nothing of FMI.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import fields
+from math import ceil, isfinite
+from typing import Any, NamedTuple
+
+from ..errors import InputError, ScenarioError, StepError
+from ..ship.inertia import free_inverse
+from ..ship.library import Ship, load_ship
+from .coasting import coasted
+from .mmg import Mmg, Planar, Surroundings
+from .ports import ShipInputs, ShipOutputs, ShipParameters
+
+__all__ = ["ShipManoeuvring"]
+
+ABSURD_SPEED = 1e3
+"""Speeds [m/s] from here on, at midship or at the ship's ends, are refused: a broken signal, not a ship."""
+
+MAXIMUM_SUBSTEPS = 100_000
+"""Of one communication step: an hour and a half at 0.05 s. A longer step is a mistake in its unit."""
+
+Six = tuple[float, float, float, float, float, float]
+_NOUGHT: Six = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+class State(NamedTuple):
+    """The whole state: pose eta (n), twist nu (b, over ground), ledger, actuators, forces by origin. Never changed."""
+
+    eta: Six
+    nu: Six
+    impulse_applied: Six
+    rudder_angle: float
+    propeller_speed: float
+    hull: Six
+    propeller: Six
+    rudder: Six
+
+
+class _SetUp(NamedTuple):
+    """What follows from the parameters."""
+
+    parameters: tuple[object, ...]
+    ship: Ship
+    M_inverse: list[list[float]]  # of the free degrees of freedom
+    mmg: Mmg | None
+    substep: float
+
+
+class ShipManoeuvring:
+    """Motion of one ship. Fill parameters and inputs, then initialise(), then step(t, h) again and again."""
+
+    def __init__(self) -> None:
+        self.parameters = ShipParameters()
+        self.inputs = ShipInputs()
+        self.outputs = ShipOutputs()
+        self._set_up: _SetUp | None = None
+        self._state: State | None = None
+
+    # -- set-up ---------------------------------------------------------------------------------------------------
+
+    def initialise(self) -> None:
+        """Read the parameters, load the ship, set state and outputs of time 0; may be called again.
+
+        At the start the rudder is amidships and the propeller turns as ordered: a ship under way, helm not yet moved.
+        Raises ShipError or ScenarioError on a bad parameter or start value; the model is then as it was.
+        """
+        p = self.parameters
+        _refuse_not_finite({k: v for k, v in _lists(p).items() if k != "substep"}, ScenarioError, "must be finite")
+        _refuse_not_finite(_lists(self.inputs), ScenarioError, "at the start must be finite")
+        set_up = self._prepared()
+        eta, nu = _six([*p.initial_position, *p.initial_attitude]), _six([*p.initial_velocity, *p.initial_rate])
+        if _is_absurd(nu, set_up.ship):
+            raise ScenarioError(f"initial {_too_fast(nu)}")
+        propeller_speed = 0.0
+        if set_up.mmg is not None:
+            _refuse_out_of_plane(eta, nu)
+            propeller_speed = set_up.mmg.engine.limited(self.inputs.orders[1])
+        forces = self._forces(set_up.mmg, eta, nu, 0.0, propeller_speed)
+        self._set_up = set_up
+        self._publish(State(eta, nu, _NOUGHT, 0.0, propeller_speed, *forces))
+
+    def _prepared(self) -> _SetUp:
+        """What the parameters ask for; what is there already when they are unchanged."""
+        p = self.parameters
+        wanted = (p.ship, p.degrees_of_freedom, p.hydrodynamics, *p.substep)
+        if self._set_up is not None and self._set_up.parameters == wanted:
+            return self._set_up
+        substep = p.substep[0]
+        if not (isfinite(substep) and substep > 0.0):
+            raise ScenarioError(f"substep = {substep} s must be finite and greater than 0, e.g. 0.05")
+        ship = load_ship(p.ship)
+        M_inverse = free_inverse(ship.M, p.degrees_of_freedom).tolist()
+        mmg = Mmg(ship) if p.hydrodynamics else None
+        if p.hydrodynamics and p.degrees_of_freedom != 3:
+            raise ScenarioError(
+                f"degrees_of_freedom = {p.degrees_of_freedom} with hydrodynamics = true is not offered yet: set it to "
+                "3 (surge, sway, yaw), or hydrodynamics = false"
+            )
+        return _SetUp(wanted, ship, M_inverse, mmg, substep)
+
+    # -- a step ---------------------------------------------------------------------------------------------------
+
+    def step(self, t: float, h: float) -> None:
+        """Advance from t [s] by h [s]. Raises StepError and leaves everything as it was when that is not possible."""
+        if self._state is None or self._set_up is None:
+            raise StepError("step before initialise: call initialise() first")
+        before, set_up = self._state, self._set_up
+        substeps = self._check(t, h, set_up.substep)
+        nu, applied = self._struck(before, set_up.M_inverse)
+        if set_up.mmg is None:
+            after = self._coasted(before, nu, applied, set_up, t, h)
+        else:
+            after = self._sailed(before, nu, applied, set_up, set_up.mmg, t, h, substeps)
+        self._publish(after)
+
+    def _check(self, t: float, h: float, substep: float) -> int:
+        """Number of substeps. Raises StepError on a step or an input that cannot be used."""
+        if not (isfinite(t) and isfinite(h) and h > 0.0):
+            raise StepError(f"step from t = {t} s over h = {h} s: t must be finite and h greater than 0")
+        i = self.inputs
+        if not isfinite(sum(i.orders) + sum(i.current) + sum(i.impulse) + sum(i.force)):  # a sum passes NaN on
+            _refuse_not_finite(_lists(i), StepError, f"at t = {t:g} s must be finite")
+        if max(abs(i.current[0]), abs(i.current[1])) >= ABSURD_SPEED:
+            raise StepError(f"current = {i.current} m/s at t = {t:g} s must be below {ABSURD_SPEED:g} m/s")
+        ratio = h / substep
+        if ratio > MAXIMUM_SUBSTEPS:
+            raise StepError(
+                f"h = {h:g} s takes {ratio:.3g} substeps of {substep} s, at most {MAXIMUM_SUBSTEPS}: take shorter steps"
+            )
+        return max(1, ceil(ratio - 1e-9))
+
+    def _struck(self, before: State, M_inverse: list[list[float]]) -> tuple[Six, Six]:
+        """Twist and ledger after the impulses that are not yet applied."""
+        impulse = _six(self.inputs.impulse)
+        pending = [issued - applied for issued, applied in zip(impulse, before.impulse_applied, strict=True)]
+        return (_kicked(before.nu, M_inverse, pending) if any(pending) else before.nu), impulse
+
+    def _coasted(self, before: State, nu: Six, applied: Six, set_up: _SetUp, t: float, h: float) -> State:
+        """Kick, drift, kick: of second order in h, and exact for a force along a straight course."""
+        half = [0.5 * h * F for F in self.inputs.force]
+        pushed = any(half)
+        if pushed:
+            nu = _kicked(nu, set_up.M_inverse, half)
+        _refuse_absurd(nu, set_up.ship, t)
+        eta_after, nu_after = coasted(before.eta, nu, set_up.ship.r_bg, h)
+        nu = _six(nu_after)
+        if pushed:
+            nu = _kicked(nu, set_up.M_inverse, half)
+            _refuse_absurd(nu, set_up.ship, t)
+        return before._replace(eta=_six(eta_after), nu=nu, impulse_applied=applied)
+
+    def _sailed(
+        self, before: State, nu: Six, applied: Six, set_up: _SetUp, mmg: Mmg, t: float, h: float, substeps: int
+    ) -> State:
+        """The MMG model in the horizontal plane; heave, roll and pitch stay as they are."""
+        i = self.inputs
+        _refuse_absurd(_kicked(nu, set_up.M_inverse, [h * F for F in i.force]), set_up.ship, t)
+        x, y, z, phi, theta, psi = before.eta
+        u, v, w, p, q, r = nu
+        try:
+            (x, y, psi), (u, v, r), rudder_angle, propeller_speed = mmg.sailed(
+                (x, y, psi), (u, v, r), before.rudder_angle, before.propeller_speed, i.orders, self._surroundings(),
+                h, substeps,
+            )  # fmt: skip
+        except (OverflowError, ValueError):  # the cosine of infinity
+            raise StepError(
+                f"the motion diverges in the step at t = {t:g} s: shorten substep = {set_up.substep} s, or look at "
+                f"velocity {list(nu[:3])} m/s and force {i.force}"
+            ) from None
+        eta, nu = (x, y, z, phi, theta, psi), (u, v, w, p, q, r)
+        _refuse_absurd(nu, set_up.ship, t)
+        forces = self._forces(mmg, eta, nu, rudder_angle, propeller_speed)
+        return State(eta, nu, applied, rudder_angle, propeller_speed, *forces)
+
+    def _surroundings(self) -> Surroundings:
+        current, force = self.inputs.current, self.inputs.force
+        return Surroundings(current[0], current[1], force[0], force[1], force[5])
+
+    def _forces(
+        self, mmg: Mmg | None, eta: Six, nu: Six, rudder_angle: float, propeller_speed: float
+    ) -> tuple[Six, Six, Six]:
+        """Hull, propeller and rudder forces; nought when coasting."""
+        if mmg is None:
+            return _NOUGHT, _NOUGHT, _NOUGHT
+        planar = (nu[0], nu[1], nu[5])
+        hull, propeller, rudder = mmg.forces(eta[5], planar, rudder_angle, propeller_speed, self._surroundings())
+        return _wrench(hull), _wrench(propeller), _wrench(rudder)
+
+    # -- outputs and state ----------------------------------------------------------------------------------------
+
+    def _publish(self, state: State) -> None:
+        self._state, o = state, self.outputs
+        o.position[:], o.attitude[:] = state.eta[:3], state.eta[3:]
+        o.velocity[:], o.rate[:] = state.nu[:3], state.nu[3:]
+        o.actuators[:] = state.rudder_angle, state.propeller_speed
+        o.impulse_applied[:] = state.impulse_applied
+        o.hull[:], o.propeller[:], o.rudder[:] = state.hull, state.propeller, state.rudder
+
+    def get_state(self) -> dict[str, Any]:
+        """The whole state as JSON-able data, a fresh copy; empty before initialise()."""
+        if self._state is None:
+            return {}
+        return {key: list(value) if isinstance(value, tuple) else value for key, value in self._state._asdict().items()}
+
+    def set_state(self, state: dict[str, Any]) -> None:
+        """Restore what get_state gave, and the outputs, to the bit. The parameters must be those it was taken with."""
+        if not state:
+            self._state = None
+            return
+        self._set_up = self._prepared()
+        values: dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in state.items()}
+        self._publish(State(**values))
+
+
+def _six(values: Iterable[float]) -> Six:
+    a, b, c, d, e, f = values
+    return a, b, c, d, e, f
+
+
+def _wrench(planar: Planar) -> Six:
+    """X, Y, N as a wrench about CO: where the forces act in height is not modelled."""
+    X, Y, N = planar
+    return X, Y, 0.0, 0.0, 0.0, N
+
+
+def _kicked(nu: Six, M_inverse: list[list[float]], impulse: Sequence[float]) -> Six:
+    """nu + M^-1 impulse, in the free degrees of freedom."""
+    return _six(x + sum(m * P for m, P in zip(row, impulse, strict=True)) for x, row in zip(nu, M_inverse, strict=True))
+
+
+def _lists(of: ShipParameters | ShipInputs) -> dict[str, list[float]]:
+    return {f.name: value for f in fields(of) if isinstance(value := getattr(of, f.name), list)}
+
+
+def _refuse_not_finite(named: dict[str, list[float]], refusal: type[InputError | StepError], rule: str) -> None:
+    for name, values in named.items():
+        if not all(map(isfinite, values)):
+            raise refusal(f"{name} = {values} {rule}: look at what feeds it")
+
+
+def _refuse_out_of_plane(eta: Six, nu: Six) -> None:
+    """The MMG model is one of the horizontal plane: it would silently keep these as they are."""
+    names = ("roll angle", "pitch angle", "heave velocity", "roll rate", "pitch rate")
+    for name, value in zip(names, (eta[3], eta[4], nu[2], nu[3], nu[4]), strict=True):
+        if value != 0.0:
+            raise ScenarioError(
+                f"initial {name} = {value} must be 0 with hydrodynamics = true, which moves in surge, sway and yaw only"
+            )
+
+
+def _is_absurd(nu: Six, ship: Ship) -> bool:
+    u, v, w, p, q, r = nu
+    fastest = max(abs(u), abs(v), abs(w), 0.5 * ship.L_pp * max(abs(p), abs(q), abs(r)))
+    return not (isfinite(u + v + w + p + q + r) and fastest < ABSURD_SPEED)
+
+
+def _too_fast(nu: Six) -> str:
+    return (
+        f"velocity {list(nu[:3])} m/s, rate {list(nu[3:])} rad/s: the speed of midship and of the ship's ends must be "
+        f"below {ABSURD_SPEED:g} m/s"
+    )
+
+
+def _refuse_absurd(nu: Six, ship: Ship, t: float) -> None:
+    if _is_absurd(nu, ship):
+        raise StepError(f"in the step at t = {t:g} s {_too_fast(nu)}; look at impulse and force")

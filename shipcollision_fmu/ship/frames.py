@@ -1,0 +1,123 @@
+"""Frames and the conversions between them.
+
+    n   NED at the scenario's origin: north, east, down
+    b   body: forward, starboard, down; origin CO at midship (L_pp/2), centreline, design waterline
+    w   Bullet's world, z up: east, north, up, with the body axes starboard, forward, up
+
+    eta = (N, E, D, phi, theta, psi)     nu = (u, v, w, p, q, r)
+    R_nb = Rz(psi) Ry(theta) Rx(phi)     v_n = R_nb v_b          Fossen (2021), section 2.2.1: zyx Euler angles
+
+n and w, and their body axes, differ by one and the same matrix S, which is its own inverse and a proper rotation:
+
+    S = [[0 1 0] [1 0 0] [0 0 -1]]       v_w = S v_n             R_w = S R_nb S
+
+Both sides need the swap. With only the world side swapped headings come out mirrored.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import asin, atan2, cos, hypot, pi, sin, sqrt
+
+import numpy as np
+import numpy.typing as npt
+
+__all__ = [
+    "SWAP", "Array", "attitude_from_quaternion", "attitude_from_rotation", "attitude_unwrapped", "quaternion",
+    "quaternion_w", "rotation", "rotation_from_quaternion", "rotation_vector", "skew", "swapped",
+]
+
+Array = npt.NDArray[np.float64]
+
+SWAP: Array = np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])
+"""S: from n to w and back, for the world and for the body axes alike."""
+
+
+def skew(r: Sequence[float] | Array) -> Array:
+    """Matrix of the cross product, skew(r) @ x = r x x; (3, 3)."""
+    x, y, z = r
+    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+
+
+def rotation(attitude: Sequence[float] | Array) -> Array:
+    """R_nb of the attitude (phi, theta, psi) [rad]; (3, 3). v_n = R_nb v_b. Fossen (2021), eq. 2.31."""
+    phi, theta, psi = attitude
+    cphi, sphi, cth, sth, cpsi, spsi = cos(phi), sin(phi), cos(theta), sin(theta), cos(psi), sin(psi)
+    return np.array([
+        [cpsi * cth, cpsi * sth * sphi - spsi * cphi, spsi * sphi + cpsi * cphi * sth],
+        [spsi * cth, cpsi * cphi + sphi * sth * spsi, sth * spsi * cphi - cpsi * sphi],
+        [-sth, cth * sphi, cth * cphi],
+    ])  # fmt: skip
+
+
+def attitude_from_rotation(R_nb: Array) -> Array:
+    """Attitude (phi, theta, psi) [rad] of R_nb, psi in (-pi, pi], theta in [-pi/2, pi/2]; (3,)."""
+    theta = asin(min(1.0, max(-1.0, -float(R_nb[2, 0]))))
+    if hypot(R_nb[2, 1], R_nb[2, 2]) < 1e-12:  # bow straight up or down: roll and yaw are one angle; call it yaw
+        return np.array([0.0, theta, atan2(-R_nb[0, 1], R_nb[1, 1])])
+    return np.array([atan2(R_nb[2, 1], R_nb[2, 2]), theta, atan2(R_nb[1, 0], R_nb[0, 0])])
+
+
+def attitude_unwrapped(attitude: Array, psi_near: float) -> Array:
+    """The same attitude with psi within half a turn of `psi_near` [rad]: the heading that has no jump."""
+    phi, theta, psi = attitude
+    return np.array([phi, theta, psi + 2 * pi * round((psi_near - psi) / (2 * pi))])
+
+
+def rotation_vector(w: Sequence[float] | Array) -> Array:
+    """exp(skew(w)): the rotation by |w| [rad] about w; (3, 3). Rodrigues' formula."""
+    x, y, z = w
+    angle = sqrt(x * x + y * y + z * z)
+    K = skew(w)
+    if angle < 1e-8:  # the series is exact to rounding here, and 0/0 is avoided
+        return np.eye(3) + K + 0.5 * K @ K
+    return np.eye(3) + (sin(angle) / angle) * K + ((1 - cos(angle)) / angle**2) * K @ K
+
+
+def quaternion(R: Array) -> Array:
+    """Unit quaternion (x, y, z, w), w >= 0, of a rotation matrix; (4,). Shepperd's choice of the largest pivot."""
+    m = R
+    trace = m[0, 0] + m[1, 1] + m[2, 2]
+    pivots = np.array([m[0, 0], m[1, 1], m[2, 2], trace])
+    i = int(pivots.argmax())
+    if i == 3:
+        q = np.array([m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1], 1.0 + trace])
+    else:
+        j, k = (i + 1) % 3, (i + 2) % 3
+        q = np.zeros(4)
+        q[i] = 1.0 - trace + 2.0 * m[i, i]
+        q[j] = m[j, i] + m[i, j]
+        q[k] = m[k, i] + m[i, k]
+        q[3] = m[k, j] - m[j, k]
+    q /= np.linalg.norm(q)
+    return -q if q[3] < 0 else q
+
+
+def rotation_from_quaternion(q: Sequence[float] | Array) -> Array:
+    """Rotation matrix of a quaternion (x, y, z, w), normalised here; (3, 3)."""
+    x, y, z, w = np.asarray(q, dtype=float) / np.linalg.norm(q)
+    return np.array([
+        [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+    ])  # fmt: skip
+
+
+def attitude_from_quaternion(q: Sequence[float] | Array) -> Array:
+    """Attitude (phi, theta, psi) [rad] of a quaternion n from b, (x, y, z, w); (3,)."""
+    return attitude_from_rotation(rotation_from_quaternion(q))
+
+
+def swapped(v: Sequence[float] | Array) -> tuple[float, float, float]:
+    """The same vector in the other convention, n <-> w or b <-> Bullet's body axes: (y, x, -z)."""
+    x, y, z = v
+    return (y, x, -z)
+
+
+def quaternion_w(R_nb: Array) -> Array:
+    """Bullet's quaternion (x, y, z, w) of a ship's attitude R_nb; (4,).
+
+    Guan et al. 2014, Table 2, print its x, y, z as p, r, h.
+    """
+    x, y, z, w = quaternion(R_nb)
+    return np.array([y, x, -z, w])

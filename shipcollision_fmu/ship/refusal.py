@@ -1,0 +1,114 @@
+"""One clear line from a failed validation.
+
+pydantic reports a tree of problems; a user wants the first one that explains the rest: which key, what was wrong, its
+value, the limit, the remedy. The remedy comes from the field's description, so it is written once, beside the field.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from difflib import get_close_matches
+from types import UnionType
+from typing import Annotated, Any, Union, get_args, get_origin
+
+from pydantic import BaseModel, ValidationError
+
+__all__ = ["one_line", "suggestion"]
+
+_LONGEST_VALUE = 60
+"""Characters of a value that are shown; a pasted 6x6 matrix would hide the message."""
+
+
+def one_line(error: ValidationError, model: type[BaseModel]) -> str:
+    """What to tell the user about `error`, raised while validating data against `model`; without the file's name.
+
+    Unknown keys come first: a misspelt key is usually the cause of a missing one.
+    """
+    problems = error.errors(include_url=False)
+    first = min(problems, key=lambda p: p["type"] != "extra_forbidden")  # min keeps the first of equals
+    line = _described(first, model)
+    rest = len(problems) - 1
+    return line if rest == 0 else f"{line} (and {rest} more problem{'s' if rest > 1 else ''})"
+
+
+def suggestion(word: str, known: Sequence[str]) -> str:
+    """' did you mean X?' or nothing."""
+    near = get_close_matches(word.lower(), [k.lower() for k in known], n=1, cutoff=0.6)
+    return f" did you mean {next(k for k in known if k.lower() == near[0])}?" if near else ""
+
+
+def _described(problem: Any, model: type[BaseModel]) -> str:
+    kind, loc, value = problem["type"], problem["loc"], problem["input"]
+    if kind == "extra_forbidden":
+        table = next(_models(_annotation_at(model, loc[:-1])), model)
+        known = list(table.model_fields)
+        return f"{_where(loc)} is not a known key:{suggestion(str(loc[-1]), known)} known: {', '.join(known)}"
+    what = _description(model, loc)
+    if kind == "missing":
+        return f"{_where(loc)} is missing: give {what or 'it'}"
+    message = problem["msg"].removeprefix("Value error, ")
+    if kind == "value_error":
+        if isinstance(value, dict) and len(loc) > 1 and not message.startswith("["):  # a check of a whole table
+            return f"[{'.'.join(map(str, loc))}] {message}"
+        return f"{_where(loc)}: {message}" if loc and not message.startswith("[") else message
+    said = message.replace("Input should", "should").replace("should be", "must be").replace("should have", "must have")
+    return f"{_where(loc)} = {_shown(value)} {said[0].lower()}{said[1:]}" + (f": it is {what}" if what else "")
+
+
+def _shown(value: object) -> str:
+    text = repr(value)
+    return text if len(text) <= _LONGEST_VALUE else text[: _LONGEST_VALUE - 3] + "..."
+
+
+def _where(loc: tuple[int | str, ...]) -> str:
+    """('added_mass', 'M_A', 2, 3) as '[added_mass] M_A[2][3]'."""
+    if len(loc) == 1:
+        return f"[{loc[0]}]"
+    first_index = next((i for i, part in enumerate(loc) if isinstance(part, int)), len(loc))
+    key = max(first_index - 1, 1)
+    inner = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in loc[key:])
+    return f"[{'.'.join(map(str, loc[:key]))}] {inner.removeprefix('.')}"
+
+
+def _description(model: type[BaseModel], loc: tuple[int | str, ...]) -> str:
+    named = [i for i, part in enumerate(loc) if isinstance(part, str)]
+    if not named:
+        return ""
+    last = named[-1]
+    for table in _models(_annotation_at(model, loc[:last])):
+        field = table.model_fields.get(str(loc[last]))
+        if field is not None:
+            return field.description or ""
+    return ""
+
+
+def _annotation_at(model: Any, loc: tuple[int | str, ...]) -> Any:
+    """Type annotation of what stands at `loc` below `model`, None when the path leaves the models."""
+    annotation: Any = model
+    for part in loc:
+        annotation = next(_below(annotation, part), None)
+    return annotation
+
+
+def _below(annotation: Any, part: int | str) -> Iterator[Any]:
+    for member in _members(annotation):
+        if isinstance(member, type) and issubclass(member, BaseModel):
+            if part in member.model_fields:
+                yield member.model_fields[str(part)].annotation
+        elif get_origin(member) in (dict, list, tuple):
+            yield get_args(member)[-1]
+
+
+def _members(annotation: Any) -> list[Any]:
+    """A union's members, an Annotated's type, else the annotation itself."""
+    if get_origin(annotation) is Annotated:
+        return _members(get_args(annotation)[0])
+    if get_origin(annotation) in (Union, UnionType):
+        return [m for arg in get_args(annotation) for m in _members(arg)]
+    return [annotation]
+
+
+def _models(annotation: Any) -> Iterator[type[BaseModel]]:
+    for member in _members(annotation):
+        if isinstance(member, type) and issubclass(member, BaseModel):
+            yield member

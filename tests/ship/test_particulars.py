@@ -1,0 +1,117 @@
+"""A ship file is accepted whole or refused with one line that says what to do."""
+
+from __future__ import annotations
+
+import copy
+import math
+from typing import Any
+
+import pytest
+
+from shipcollision_fmu.errors import ShipError
+from shipcollision_fmu.ship.particulars import ManoeuvringTable, ship_file
+
+BARE: dict[str, Any] = {
+    "ship": {"name": "Barge", "kind": "barge", "source": "made up for this test"},
+    "particulars": {"L_pp": 100.0, "B": 20.0, "T": 5.0, "mass": 8.2e6},
+    "hull": {"shape": "box", "depth": 8.0},
+}
+MMG = {key: 0.01 for key, field in ManoeuvringTable.model_fields.items() if field.is_required()}
+PARAMETRIC = {"shape": "parametric", "depth": 8.0, "bow_length": 15.0, "stern_length": 20.0}
+
+
+def changed(**tables: Any) -> dict[str, Any]:
+    """BARE with keys of tables added or replaced; None removes a key or a table."""
+    data = copy.deepcopy(BARE)
+    for table, keys in tables.items():
+        if keys is None:
+            del data[table]
+            continue
+        data.setdefault(table, {}).update(keys)
+        data[table] = {k: v for k, v in data[table].items() if v is not None}
+    return data
+
+
+def test_least_file_is_accepted() -> None:
+    content = ship_file(BARE, "barge.toml")
+    assert content.particulars.mass == 8.2e6
+    assert content.particulars.rho == 1025.0
+    assert content.manoeuvring is None
+
+
+def test_integers_are_numbers() -> None:
+    assert ship_file(changed(particulars={"B": 20}), "barge.toml").particulars.B == 20.0
+
+
+# C_b from the mass: 1025 x 100 x 20 x 5 = 10.25e6 kg fill the box.
+REFUSED: list[tuple[dict[str, Any], str]] = [
+    (changed(particulars={"mass": -2.0}), r"\[particulars\] mass = -2\.0 must be greater than 0: it is the displ"),
+    (changed(particulars={"mass": 0.0}), r"mass = 0\.0 must be greater than 0"),
+    (changed(particulars={"mass": math.nan}), r"mass = nan must be a finite number: it is the displacement \[kg\]"),
+    (changed(particulars={"B": math.inf}), r"B = inf must be a finite number: it is the breadth \[m\]"),
+    (changed(particulars={"T": "5"}), r"T = '5' must be a valid number: it is the draught"),
+    (changed(particulars={"T": True}), r"T = True must be a valid number"),
+    (changed(particulars={"mass": 10.3e6}), r"mass = 1\.03e\+07 kg is more than rho L_pp B T = 1\.025e\+07 kg.*allow"),
+    (changed(particulars={"mass": 3.0e6}), r"means C_b = mass / \(rho L_pp B T\) = 0\.293, outside 0\.40 to 0\.90"),
+    (changed(particulars={"mass": 9.9e6}), r"C_b = mass / \(rho L_pp B T\) = 0\.966, outside"),
+    (changed(particulars={"C_b": 0.7}), r"C_b = 0\.7 contradicts mass / \(rho L_pp B T\) = 0\.800 by more than 2%"),
+    (changed(particulars={"L_pp": None}), r"\[particulars\] L_pp is missing: give the length between perp"),
+    (changed(particulars={"L_pp": None, "Lpp": 1.0}), r"Lpp is not a known key: did you mean L_pp\? known: L_pp, L_oa"),
+    (changed(particulars={"colour": "red"}), r"\[particulars\] colour is not a known key: known: L_pp"),
+    (changed(particulars={"r_bg": [0.0, 0.0]}), r"r_bg = \[0\.0, 0\.0\] .*at least 3 items.*centre of gravity"),
+    (changed(particulars={"r_bg": [0.0, math.nan, 0.0]}), r"\[particulars\] r_bg\[1\] = nan must be a finite number"),
+    (changed(particulars={"r_bg": [60.0, 0.0, 0.0]}), r"r_bg: x = 60\.0 m puts CG outside the ship: at most 50\.0 m"),
+    (changed(particulars={"k_xx": 0.0}), r"k_xx = 0\.0 must be greater than 0: it is the radius of gyration in roll"),
+    (changed(particulars={"allow_inconsistent": ""}), r"allow_inconsistent = '' .*at least 1 character"),
+    (changed(added_mass={"m_y": -0.1}), r"\[added_mass\] m_y = -0\.1 must be greater than or equal to 0: it is the sw"),
+    (changed(added_mass={"m_y": 0.8, "M_A": [[0.0] * 6] * 6}), r"gives M_A and m_y: M_A says it all, remove the rest"),
+    (changed(added_mass={"M_A": [[0.0] * 6] * 5}), r"\[added_mass\] M_A = .*at least 6 items"),
+    (changed(hull={"depth": 4.0}), r"\[hull\] depth = 4\.0 m must be greater than the draught T = 5\.0 m"),
+    (changed(hull={"shape": "mesh"}), r'\[hull\] shape = "mesh" is not offered yet: use "parametric" or "box"'),
+    (changed(hull={"shape": "round"}), r"\[hull\] shape = 'round' must be 'parametric' or 'box'"),
+    (changed(hull={"bilge": 1.0}), r'\[hull\] shape = "box" has no bilge: give depth only'),
+    (changed(hull={**PARAMETRIC, "bow_length": None}), r"\[hull\] bow_length = 0\.0 m must be greater than 0"),
+    (changed(hull={**PARAMETRIC, "bow_length": 80.0}), r"= 100\.0 m leave no parallel midbody in 100\.0 m"),
+    (changed(hull={**PARAMETRIC, "bilge": 6.0}), r"\[hull\] bilge = 6\.0 m must be less than T = 5\.0 m and B/2 = 10"),
+    (changed(hull=None), r"\[hull\] is missing: give the table \[hull\]"),
+    (changed(manoeuvring=MMG), r"\[manoeuvring\] needs \[propeller\], \[rudder\], \[engine\] as well: add them, or"),
+    (changed(manoeuvring={**MMG, "m_x": 0.02}), r"\[manoeuvring\] gives m_x of m_x, m_y, J_z: give all three or none"),
+    (changed(manoeuvring={"estimate": True}), r"\[manoeuvring\] estimate = true is not offered yet"),
+    (changed(sails={"area": 3.0}), r"\[sails\] is not a known key: known: ship, particulars"),
+]
+
+
+@pytest.mark.parametrize(("data", "message"), REFUSED, ids=[message[:40] for _, message in REFUSED])
+def test_refused(data: dict[str, Any], message: str) -> None:
+    with pytest.raises(ShipError, match=message) as raised:
+        ship_file(data, "barge.toml")
+    line = str(raised.value)
+    assert line.startswith("barge.toml: ")
+    assert "\n" not in line
+
+
+def test_further_problems_are_counted() -> None:
+    with pytest.raises(ShipError, match=r"B = -1\.0 must be .*\(and 2 more problems\)$"):
+        ship_file(changed(particulars={"mass": -1.0, "B": -1.0, "T": -1.0}), "barge.toml")
+
+
+@pytest.mark.parametrize("key", ["m_x", "m_y", "j_z", "M_A"])
+def test_two_added_masses_are_refused(key: str) -> None:
+    value: Any = [[0.0] * 6] * 6 if key == "M_A" else 0.1
+    data = changed(manoeuvring={**MMG, "m_x": 0.02, "m_y": 0.2, "J_z": 0.01}, added_mass={key: value})
+    with pytest.raises(ShipError, match=rf"\[added_mass\] {key} and \[manoeuvring\] m_x, m_y, J_z are two"):
+        ship_file(data, "barge.toml")
+
+
+@pytest.mark.parametrize("particulars", [{"mass": 12e6}, {"mass": 3e6}, {"C_b": 0.5}])
+def test_inconsistent_mass_is_let_through_with_a_reason(particulars: dict[str, Any]) -> None:
+    reason = "the paper prints dead-weights"
+    content = ship_file(changed(particulars={**particulars, "allow_inconsistent": reason}), "barge.toml")
+    assert content.particulars.allow_inconsistent == reason
+
+
+def test_fresh_water_has_its_own_limit() -> None:
+    """10.3e6 kg fit into 10 000 m3 of the Dead Sea, and 9.1e6 kg are too much for fresh water's 0.90."""
+    assert ship_file(changed(particulars={"mass": 10.3e6, "rho": 1240.0}), "barge.toml").particulars.rho == 1240.0
+    with pytest.raises(ShipError, match=r"outside 0\.40 to 0\.90"):
+        ship_file(changed(particulars={"mass": 9.1e6, "rho": 1000.0}), "barge.toml")
