@@ -4,11 +4,10 @@ pythonfmu runs this text twice at the first instantiation and once at each later
 these definitions.
 """
 
-from shipcollision_fmu.fmi.ship_collision import INTERFACE
 from shipcollision_fmu.fmi.slave import ModelSlave
 
 
 class ShipCollision(ModelSlave):
     """The collision model as an FMI 2.0 slave."""
 
-    interface = INTERFACE
+    interface = "shipcollision_fmu.fmi.ship_collision"

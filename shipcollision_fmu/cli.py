@@ -1,102 +1,121 @@
 """The command `shipcollision`.
 
-Exit status: 0 done, 1 the run or the check failed, 2 bad usage or input. A user's mistake is one line on stderr, without a traceback.
-Results go to stdout, progress to stderr; both are plain when not a terminal.
+Exit status: 0 done, 1 the run or the check failed, 2 bad usage or input. A mistake is one line on stderr, without a
+traceback. Results go to stdout, progress to stderr; both are plain when not a terminal.
 
-Imports of the library are inside the commands: help is fast, and a missing package is one clear line too.
+The library is imported inside the commands: help is fast, and a missing package is one clear line too.
 """
 
 from __future__ import annotations
 
+import os
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn
+from time import monotonic
+from typing import Any, NoReturn
 
 import click
-from rich.box import SIMPLE_HEAD
 from rich.console import Console
+from rich.markup import escape
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
-from rich.table import Table
 
 from . import __version__
-from .errors import HostError, ShipCollisionError
-
-if TYPE_CHECKING:
-    from .cosim.simulate import Run
+from .errors import ShipCollisionError
 
 __all__ = ["main"]
 
 PLAIN_WIDTH = 110
-"""Characters in a line when stdout is not a terminal: no column of ours is cut."""
+"""Characters in a line when stdout is not a terminal: wide enough for every table here."""
+PLAIN_PAUSE = 2.0
+"""Time [s] between lines of progress when stderr is not a terminal: a short run prints none."""
 
 
 class _Commands(click.Group):
-    """A group of commands that ends on the errors of this package with one line, and knows near misses."""
+    """A group of commands that ends on every mistake with one line, and knows near misses."""
 
-    def resolve_command(self, ctx: click.Context, args: list[str]) -> tuple[str | None, click.Command | None, list[str]]:
+    def main(self, *args: Any, **extra: Any) -> Any:
+        """As click's, but with all errors told in one way."""
         try:
-            return super().resolve_command(ctx, args)
-        except click.UsageError:
-            from .ship.refusal import suggestion
-
-            names = self.list_commands(ctx)
-            raise click.UsageError(f"no command {args[0]!r}:{suggestion(args[0], names)} known: {', '.join(names)}") from None
-
-    def invoke(self, ctx: click.Context) -> Any:
-        try:
-            return super().invoke(ctx)
+            status: Any = super().main(*args, **{**extra, "standalone_mode": False})
+        except click.UsageError as error:
+            path = error.ctx.command_path if error.ctx is not None else "shipcollision"
+            _fail(f"{error.format_message()} (see `{path} --help`)", error.exit_code)
         except ShipCollisionError as error:
             _fail(str(error), error.exit_status)
         except ModuleNotFoundError as error:
-            _fail(f"the package {error.name!r} is not installed: run `python -m pip install shipcollision-fmu`", 1)
+            if (error.name or "").startswith(__package__ or "shipcollision_fmu"):
+                raise  # a fault of ours, not of the installation
+            _fail(f"the package {error.name!r} is not installed: run `python -m pip install {error.name}`", 1)
+        except (click.Abort, KeyboardInterrupt):
+            _fail("interrupted; nothing is written", 1)
         except BrokenPipeError:  # `shipcollision run | head`
-            sys.stderr.close()
-            ctx.exit(1)
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            sys.exit(1)
+        sys.exit(status if isinstance(status, int) else 0)
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """As click's, with a suggestion for a name that is nearly right."""
+        names = self.list_commands(ctx)
+        if args[0] not in names and not args[0].startswith("-"):
+            from .ship.refusal import suggestion
+
+            ctx.fail(f"unknown command {args[0]!r}:{suggestion(args[0], names)} known: {', '.join(names)}")
+        return super().resolve_command(ctx, args)
 
 
-@click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"]})
+@click.group(cls=_Commands, invoke_without_command=True, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(__version__, prog_name="shipcollision")
-def main() -> None:
+@click.pass_context
+def main(ctx: click.Context) -> None:
     """Ship collisions, co-simulated through FMI FMUs."""
+    if ctx.invoked_subcommand is None:
+        click.echo(ctx.get_help())
 
 
 @main.command()
 @click.argument("scenario", default="guan2014")
 @click.option("--out", type=click.Path(path_type=Path), help="Folder of the results.  [default: runs/NAME]")
-@click.option("--algorithm", type=click.Choice(["gauss-seidel", "jacobi"]), help="Order of the master's steps.  [default: as in the scenario]")
-@click.option("--step", type=float, metavar="S", help="Communication step in seconds.  [default: as in the scenario]")
-@click.option("--in-process", is_flag=True, help="Drive the models without FMI; the same bits.")
+@click.option("--algorithm", type=click.Choice(["gauss-seidel", "jacobi"]), help="Instead of the scenario's.")
+@click.option("--step", type=float, metavar="S", help="Communication step in seconds, instead of the scenario's.")
+@click.option("--in-process", is_flag=True, help="Drive the models without FMI; gives the same bits.")
 def run(scenario: str, out: Path | None, algorithm: str | None, step: float | None, in_process: bool) -> None:
     """Co-simulate SCENARIO and store what happened.
 
-    SCENARIO is a name that `shipcollision scenarios` lists, or the path of a TOML file; without one it is guan2014, the
+    SCENARIO is a name that `shipcollision scenarios` lists, or the path of a TOML file. Without one it is guan2014, the
     published collision. The FMUs are built first when they are missing or older than the sources.
     """
     from .cosim.fmu_files import require_pybullet
-
-    require_pybullet()
+    from .cosim.report import lines, tables
     from .cosim.scenario import load_scenario
     from .cosim.simulate import simulate
 
+    require_pybullet()
     loaded = load_scenario(scenario)
     folder = out if out is not None else Path("runs") / loaded.name
-    with _progress(f"{loaded.name}") as advance:
+    with _progress(loaded.name) as progress:
         finished = simulate(
-            loaded, algorithm=algorithm, step=step, in_process=in_process, out=folder, progress=advance
+            loaded, algorithm=algorithm, step=step, in_process=in_process, out=folder, progress=progress
         )
-    _print_run(finished, folder)
+    console = _console()
+    for table in tables(finished):
+        console.print(table)
+    for line in lines(finished):
+        click.echo(line)
+    click.echo(f"stored in {folder}")
 
 
 @main.command()
-@click.option("--out", type=click.Path(path_type=Path), default=Path("build"), show_default=True, help="Folder of the FMUs.")
+@click.option("--out", type=click.Path(path_type=Path), default=Path("build"), show_default=True, help="Folder.")
 def build(out: Path) -> None:
     """Build ShipCollision.fmu and ShipManoeuvring.fmu."""
     from .cosim.fmu_files import require_pybullet
-
-    require_pybullet()
     from .fmi.package import build_fmus
 
+    require_pybullet()
     for path in build_fmus(out).values():
         click.echo(path)
 
@@ -104,28 +123,31 @@ def build(out: Path) -> None:
 @main.command()
 def ships() -> None:
     """List the shipped ships."""
+    from .cosim.report import table
     from .ship.library import load_ship, ship_names
 
-    table = _table("name", "kind", ">L_pp [m]", ">B [m]", ">T [m]", ">mass [t]", "manoeuvring")
+    listed = table("name", "kind", ">L_pp [m]", ">B [m]", ">T [m]", ">mass [t]", "under way")
     for name in ship_names():
         ship = load_ship(name)
-        sails = "yes" if ship.manoeuvring is not None else "coasts"
-        table.add_row(name, ship.kind, f"{ship.L_pp:g}", f"{ship.B:g}", f"{ship.T:g}", f"{ship.mass / 1e3:,.0f}", sails)
-    _console().print(table)
+        under_way = "coasts" if ship.manoeuvring is None else "manoeuvres"
+        sizes = (f"{ship.L_pp:g}", f"{ship.B:g}", f"{ship.T:g}", f"{ship.mass / 1e3:.0f}")
+        listed.add_row(name, escape(ship.kind), *sizes, under_way)
+    _console().print(listed)
 
 
 @main.command()
 def scenarios() -> None:
     """List the shipped scenarios."""
+    from .cosim.report import table
     from .cosim.scenario import load_scenario, scenario_names
 
-    table = _table("name", "ships", ">duration [s]", ">step [s]", "description")
+    listed = table("name", "ships", ">duration [s]", ">step [s]", "description")
     for name in scenario_names():
         loaded = load_scenario(name)
-        ships = ", ".join(f"{role}: {ship.ship}" for role, ship in loaded.ships.items())
         header = loaded.scenario
-        table.add_row(name, ships, f"{header.duration:g}", f"{header.step:.6g}", header.description)
-    _console().print(table)
+        who = ", ".join(f"{role}: {ship.ship}" for role, ship in loaded.ships.items())
+        listed.add_row(name, who, f"{header.duration:g}", f"{header.step:.6g}", escape(header.description))
+    _console().print(listed)
 
 
 @main.command()
@@ -144,19 +166,33 @@ def validate(fmu: Path) -> None:
 
 def _fail(message: str, status: int) -> NoReturn:
     click.echo(f"error: {' '.join(message.split())}", err=True)
-    raise click.exceptions.Exit(status)
-
-
-# -- results ------------------------------------------------------------------------------------------------------------
+    sys.exit(status)
 
 
 def _console() -> Console:
     return Console() if sys.stdout.isatty() else Console(width=PLAIN_WIDTH)
 
 
-def _table(*columns: str, title: str | None = None) -> Table:
-    """A table; a column whose heading begins with '>' is of numbers."""
-    table = Table(title=title, title_justify="left", box=SIMPLE_HEAD, pad_edge=False)
-    for column in columns:
-        table.add_column(column.removeprefix(">"), justify="right" if column.startswith(">") else "left", no_wrap=True)
-    return table
+@contextmanager
+def _progress(name: str) -> Iterator[Callable[[int, int], None]]:
+    """A bar on stderr; a line now and then when stderr is not a terminal."""
+    if not sys.stderr.isatty():
+        last = monotonic()
+
+        def tell(done: int, total: int) -> None:
+            nonlocal last
+            if monotonic() - last >= PLAIN_PAUSE:
+                last = monotonic()
+                click.echo(f"{name}: {done} of {total} steps", err=True)
+
+        yield tell
+        return
+    columns = (TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(name, total=None)
+
+        def show(done: int, total: int) -> None:
+            if done == total or done % max(1, total // 200) == 0:  # drawing costs more than stepping
+                bar.update(task, completed=done, total=total)
+
+        yield show

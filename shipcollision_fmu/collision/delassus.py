@@ -36,7 +36,8 @@ def delassus(G: Array, ships: Sequence[int], shadows: Sequence[Shadow]) -> Array
     """W = G M^-1 G^T; (3k, 3k) [1/kg]."""
     GM = np.hstack([G[:, 6 * i : 6 * i + 6] @ shadows[ship].M_inverse for i, ship in enumerate(ships)])
     W: Array = GM @ G.T
-    return 0.5 * (W + W.T)
+    symmetric: Array = 0.5 * (W + W.T)
+    return symmetric
 
 
 def contact_velocity(contact: Contact, shadows: Sequence[Shadow]) -> Array:

@@ -103,9 +103,7 @@ def _manifold(features: tuple[Array, Array], normal: Array, closest: Closest) ->
     t1 /= np.linalg.norm(t1)
     plane = np.column_stack([t1, np.cross(normal, t1)])
     origin = feature_a[0]
-    corners = common_points(
-        convex_polygon((feature_a - origin) @ plane), convex_polygon((feature_b - origin) @ plane)
-    )
+    corners = common_points(convex_polygon((feature_a - origin) @ plane), convex_polygon((feature_b - origin) @ plane))
     if not corners:  # the features pass each other (a corner beside a face's edge): Bullet's own point is the contact
         return [(0.5 * (closest.on_a + closest.on_b), min(closest.gap, 0.0))]
     uv = np.array(_spread(corners))

@@ -19,7 +19,12 @@ from ..errors import HostError
 from ..ship.frames import SWAP, Array, quaternion_w, swapped
 from ..ship.hull import HullMesh
 
-__all__ = ["BulletBody", "Closest", "Engine", "bullet_module"]
+__all__ = ["MARGIN", "BulletBody", "Closest", "Engine", "bullet_module"]
+
+
+MARGIN = 0.001
+"""PyBullet's collision margin [m], which it adds to every hull and which is taken off again here. It cannot be zero:
+without it Bullet returns wrong normals for faces that lie flat on each other."""
 
 
 def bullet_module() -> ModuleType:
@@ -63,7 +68,7 @@ class Engine:
         self._p = p = bullet_module()
         self._client: int = p.connect(p.DIRECT)
         self._hulls = tuple(hulls)
-        # One static-less body per convex part; mass 0 keeps them out of any dynamics.
+        # One body per convex part; mass 0 keeps them out of any dynamics.
         self._parts = [[self._body(0.0, part) for part in hull.parts] for hull in hulls]
         self._dynamic_shapes: dict[tuple[int, bytes], Any] = {}
 
@@ -84,9 +89,14 @@ class Engine:
         found = []
         for i, part_a in enumerate(self._parts[a]):
             for j, part_b in enumerate(self._parts[b]):
-                for row in self._p.getClosestPoints(part_a, part_b, distance, physicsClientId=self._client):
+                for row in self._p.getClosestPoints(
+                    part_a, part_b, distance - 2 * MARGIN, physicsClientId=self._client
+                ):
                     normal = -np.array(swapped(row[7]))  # Bullet's normal points from B to A
-                    found.append(Closest(np.array(swapped(row[5])), np.array(swapped(row[6])), normal, row[8], i, j))
+                    on_a, on_b = np.array(swapped(row[5])), np.array(swapped(row[6]))
+                    found.append(
+                        Closest(on_a - MARGIN * normal, on_b + MARGIN * normal, normal, row[8] + 2 * MARGIN, i, j)
+                    )
         return found
 
     def dynamic_step(

@@ -264,7 +264,9 @@ class ShipCollision:
             for quantity in ("position", "attitude", "velocity", "rate", "impulse_applied"):
                 values = getattr(state, quantity)
                 if not all(map(isfinite, values)):
-                    raise StepError(f"{name}.{quantity} = {values} at t = {t} s is not finite: check the ship model's output")
+                    raise StepError(
+                        f"{name}.{quantity} = {values} at t = {t} s is not finite: check the ship model's output"
+                    )
             speed = hypot(*state.velocity)
             if speed > ABSURD_SPEED:
                 raise StepError(

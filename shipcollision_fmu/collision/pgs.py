@@ -21,8 +21,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import atan2, cos, hypot, pi, sin
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from ..ship.frames import Array
 
@@ -77,7 +79,7 @@ def solve_pgs(W: Array, v: Array, mu: float, e: float) -> Solution:
             free = tuple(
                 start[first + r] + sum(map(_times, rows[first + r], P)) - _dot(block[r], old) for r in range(3)
             )
-            new, angles[i] = _one_contact(block, inverses[i], free, mu, angles[i])  # type: ignore[arg-type]
+            new, angles[i] = _one_contact(block, inverses[i], free, mu, angles[i])
             P[first : first + 3] = new
             step = (new[0] - old[0], new[1] - old[1], new[2] - old[2])
             residual = max(residual, *(abs(_dot(row, step)) for row in block))
@@ -87,7 +89,7 @@ def solve_pgs(W: Array, v: Array, mu: float, e: float) -> Solution:
     return Solution(np.array(P).reshape(k, 3), 0.0 if k == 1 else residual, sweep)
 
 
-def _block(m: Array) -> Block:
+def _block(m: npt.NDArray[np.floating[Any]]) -> Block:
     a, b, c = m.tolist()
     return (tuple(a), tuple(b), tuple(c))
 

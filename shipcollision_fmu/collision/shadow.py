@@ -58,7 +58,8 @@ class Shadow:
 
     def body(self, p_n: Array) -> Array:
         """Body coordinates [m] of the point p_n at the predicted pose; (3,)."""
-        return self.R.T @ (p_n - self.x)
+        r_b: Array = self.R.T @ (p_n - self.x)
+        return r_b
 
     def point_received(self, r_b: Array) -> Array:
         """Where the point r_b [m] (in b) is at the received pose, in n; (3,)."""

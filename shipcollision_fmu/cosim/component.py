@@ -16,6 +16,7 @@ Errors: StepError when a model refuses a step (its state before the step stays),
 
 from __future__ import annotations
 
+import re
 import shutil
 import sys
 from collections import deque
@@ -23,6 +24,7 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from ctypes import Array, c_char_p, c_double, c_int, c_uint
 from pathlib import Path
+from tempfile import mkdtemp
 from typing import Any, Protocol, TypeAlias
 
 from fmpy import extract, read_model_description
@@ -33,7 +35,7 @@ from fmpy.fmi2 import (
     defaultCallbacks,
     fmi2CallbackFunctions,
     fmi2CallbackLoggerTYPE,
-    fmi2Fatal,
+    fmi2Error,
     fmi2Warning,
 )
 
@@ -46,6 +48,7 @@ Value: TypeAlias = float | int | bool | str
 Buffer: TypeAlias = "Array[Any]"
 
 _REMEDY = "build it again with `shipcollision build`"
+_WRAPPER = re.compile(r"^Fatal py exception encountered: \[\w+\] (PyObject_CallMethod )?")
 _SILENT = {2: "discarded", 3: "error", 4: "fatal error", 5: "pending"}
 
 
@@ -144,8 +147,15 @@ class InProcessComponent:
         elif variable.kind == "String":
             self._ports.set_string(references, [str(value)])
         else:
-            number = variable.items.index(value) + 1 if isinstance(value, str) else int(value)
+            number = _item(self.name, name, value, variable.items) if isinstance(value, str) else int(value)
             self._ports.set_integer(references, [number])
+
+
+def _item(component: str, name: str, item: str, items: Sequence[str]) -> int:
+    """Number of an Enumeration's item; ours count from 1."""
+    if item not in items:
+        raise HostError(f"{component}: {name} = {item!r} is not one of {', '.join(items)}")
+    return list(items).index(item) + 1
 
 
 class _PortGroup:
@@ -168,15 +178,13 @@ class UnpackedFmu:
 
     def __init__(self, file: Path) -> None:
         self.file = file
+        self.directory = Path(mkdtemp(prefix="shipcollision-"))
         try:
-            self.directory = Path(extract(file))
-        except Exception as error:  # fmpy and zipfile raise many kinds; all mean the same to a user
-            raise HostError(f"{file}: cannot be unpacked: {error}; {_REMEDY}") from None
-        try:
+            extract(file, self.directory)
             self.description = read_model_description(str(self.directory), validate=False)
-        except Exception as error:
+        except Exception as error:  # fmpy and zipfile raise many kinds; all mean the same to a user
             self.close()
-            raise HostError(f"{file}: its model description cannot be read: {error}; {_REMEDY}") from None
+            raise HostError(f"{file} cannot be read as an FMU: {error}; {_REMEDY}") from None
         self.variables = {variable.name: variable for variable in self.description.modelVariables}
 
     def close(self) -> None:
@@ -205,7 +213,8 @@ class FmuComponent:
             self._callbacks = self._logger()
             self._fmu.instantiate(callbacks=self._callbacks, loggingOn=True)
         except Exception as error:
-            raise HostError(f"{name}: {fmu.file.name} cannot be instantiated: {error}") from None
+            said = self._said(fmi2Error) if self._messages else error
+            raise HostError(f"{name}: {fmu.file.name} cannot be instantiated: {said}") from None
         self._component: Any = self._fmu.component
         self._do_step = self._fmu.dll.fmi2DoStep
 
@@ -234,7 +243,7 @@ class FmuComponent:
         """See Component."""
         status = self._do_step(self._component, t, h, 1)
         if status > fmi2Warning:
-            self._give_up_after(status)
+            self._initialised = status < fmi2Error  # FMI 2.0, section 4.2.4: no terminate after an error
             raise StepError(f"{self.name} at t = {t:g} s: {self._said(status)}")
 
     def close(self) -> None:
@@ -244,14 +253,14 @@ class FmuComponent:
         with suppress(Exception):  # the run has ended either way; a complaint now would hide its real error
             if self._initialised:
                 self._fmu.terminate()
-        with suppress(Exception):
+        with suppress(Exception):  # also after fmi2Fatal, which FMI forbids: our slaves see to it that this is safe
             self._fmu.freeInstance()
         self._component = None
 
     def check(self, status: int, doing: str) -> None:
         """Raise HostError, with the FMU's own message, for a status beyond warning."""
         if status > fmi2Warning:
-            self._give_up_after(status)
+            self._initialised = False
             raise HostError(f"{self.name}: {doing} failed: {self._said(status)}")
 
     def _set(self, name: str, value: Value) -> None:
@@ -268,7 +277,7 @@ class FmuComponent:
             status = dll.fmi2SetString(component, reference, 1, (c_char_p * 1)(str(value).encode()))
         else:
             if isinstance(value, str):
-                value = next(int(item.value) for item in variable.declaredType.items if item.name == value)
+                value = _item(self.name, name, value, [item.name for item in variable.declaredType.items])
             status = dll.fmi2SetInteger(component, reference, 1, (c_int * 1)(int(value)))
         self.check(status, f"setting {name} = {value!r}")
 
@@ -299,14 +308,11 @@ class FmuComponent:
         return callbacks
 
     def _said(self, status: int) -> str:
-        """The FMU's last message, in one line."""
-        return " ".join(self._messages[-1].split()) if self._messages else f"{_SILENT[status]}, without a message"
+        """The FMU's last message, in one line, without what pythonfmu's wrapper puts before it."""
+        if not self._messages:
+            return f"{_SILENT[status]}, without a message"
+        return _WRAPPER.sub("", " ".join(self._messages[-1].split()))
 
-    def _give_up_after(self, status: int) -> None:
-        """FMI 2.0, section 2.1.3: terminate is not allowed after an error, and no call at all after a fatal one."""
-        self._initialised = False
-        if status == fmi2Fatal:
-            self._component = None
 
 
 class _FmuGroup:

@@ -17,12 +17,14 @@ centreline, waterline). A field's description is also the remedy in the message 
 
 from __future__ import annotations
 
+import re
 from itertools import pairwise
 from math import ceil, cos, isclose, isfinite, radians, sin
 from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 
+from ..collision.responses import RESPONSES
 from ..ship.frames import Array, attitude_from_quaternion, rotation
 
 __all__ = [
@@ -52,7 +54,7 @@ class Table(BaseModel):
 class Header(Table):
     """[scenario]: what is run, for how long, in which steps."""
 
-    name: str = Field(pattern=r"^[A-Za-z0-9_][A-Za-z0-9_.-]*$", description='the run\'s folder, e.g. "head_on"')
+    name: str = Field(description='the name of the run\'s folder, e.g. "head_on"')
     description: str = ""
     duration: float = Field(gt=0, description="a whole number of steps [s], e.g. 120.0")
     step: float = Field(default=0.05, gt=0, description="the communication step [s], e.g. 0.05")
@@ -62,6 +64,13 @@ class Header(Table):
     def steps(self) -> int:
         """Number of communication steps in the run."""
         return round(self.duration / self.step)
+
+    @field_validator("name")
+    @classmethod
+    def _fit_for_a_folder(cls, name: str) -> str:
+        if not re.fullmatch(r"[A-Za-z0-9_][A-Za-z0-9_.-]*", name):
+            raise ValueError(f"[scenario] name = {name!r} cannot name a folder: take letters, digits, '_', '-' and '.'")
+        return name
 
     @model_validator(mode="after")
     def _whole_number_of_steps(self) -> Header:
@@ -196,11 +205,18 @@ class Collision(Table):
 
     friction: float | None = Field(default=None, ge=0, le=2, description="Coulomb's coefficient, e.g. 0.3")
     restitution: float | None = Field(default=None, ge=0, le=1, description="0 for plastic, 1 for elastic")
-    response: Literal["pgs", "closed_form", "bullet"] | None = Field(default=None, description="the rule of contact")
+    response: str | None = Field(default=None, description='the rule of contact, e.g. "pgs"')
     substep: float | None = Field(default=None, gt=0, description="internal step of the collision FMU [s], e.g. 0.01")
     feedback: Literal["ledger", "force", "state", "none"] | None = Field(default=None, description="how ships answer")
     minimum_separation_time: float | None = Field(default=None, gt=0, description="ends a collision [s], e.g. 10.0")
     clearance_range: float | None = Field(default=None, gt=0, description="the cap of the clearance [m], e.g. 200.0")
+
+    @field_validator("response")
+    @classmethod
+    def _offered(cls, response: str | None) -> str | None:
+        if response is not None and response not in RESPONSES:
+            raise ValueError(f"[collision] response = {response!r} is not offered: take one of {', '.join(RESPONSES)}")
+        return response
 
     @field_validator("feedback")
     @classmethod

@@ -14,7 +14,7 @@ A call that is refused raises a ShipCollisionError and changes nothing. Values a
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from hashlib import sha256
 from typing import Any, Protocol
 
@@ -27,6 +27,10 @@ _TYPES: dict[Kind, type] = {"Real": float, "Integer": int, "Boolean": bool, "Str
 
 Cell = tuple[Any, Any]
 """Where a value lies: container[key], a list with a position or an object's attributes with a name."""
+Plans = dict[tuple[int, ...], list[Cell]]
+"""Where the values of a whole call lie, by its value references."""
+_PLANS = 1000
+"""So many are kept. Fewer would only cost time, with a host that asks for ever new sets of variables."""
 
 
 class Model(Protocol):
@@ -67,7 +71,8 @@ class Ports:
         self._set = {kind: self._of(kind=kind, causality={"parameter", "input"}) for kind in _TYPES}
         self._set_running = {kind: self._of(kind=kind, causality={"input"}) for kind in _TYPES}
         self._can_set = self._set
-        self._get_real, self._set_real = self._get["Real"], self._set["Real"]
+        self._reading: Plans = {}
+        self._writing: Plans = {}
         self._dirty = True  # outputs do not yet follow from what was set
         self._running = False  # initialised: parameters are fixed
         self._broken = ""  # why the model must not be stepped any more
@@ -87,11 +92,11 @@ class Ports:
         """Values of Reals."""
         if self._dirty:
             self._refresh(references)
-        cells = self._get_real
-        try:
-            return [container[key] for container, key in [cells[reference] for reference in references]]
-        except KeyError as error:
-            raise self._no_such("Real", error.args[0]) from None
+        wanted = tuple(references)
+        plan = self._reading.get(wanted)
+        if plan is None:
+            plan = self._plan(self._reading, self._get["Real"], wanted, self._no_such)
+        return [container[key] for container, key in plan]
 
     def get_integer(self, references: Sequence[int]) -> list[int]:
         """Values of Integers, and of Enumerations as numbers from 1."""
@@ -109,14 +114,13 @@ class Ports:
 
     def set_real(self, references: Sequence[int], values: Sequence[float]) -> None:
         """Set Reals."""
-        settable = self._set_real
-        try:
-            cells = [settable[reference] for reference in references]
-        except KeyError as error:
-            raise self._not_settable("Real", error.args[0]) from None
-        if len(cells) != len(values):
-            raise InputError(f"{self.name}: {len(values)} values for {len(cells)} variables")
-        for (container, key), value in zip(cells, values):  # noqa: B905 - checked above; strict costs as much as the loop
+        wanted = tuple(references)
+        plan = self._writing.get(wanted)
+        if plan is None:
+            plan = self._plan(self._writing, self._can_set["Real"], wanted, self._not_settable)
+        if len(plan) != len(values):
+            raise InputError(f"{self.name}: {len(values)} values for {len(plan)} variables")
+        for (container, key), value in zip(plan, values, strict=True):
             container[key] = value
         if not self._running:
             self._dirty = True
@@ -284,7 +288,20 @@ class Ports:
     def _enter(self, *, running: bool) -> None:
         self._running = running
         self._can_set = self._set_running if running else self._set
-        self._set_real = self._can_set["Real"]
+        self._writing.clear()
+
+    @staticmethod
+    def _plan(
+        plans: Plans, cells: dict[int, Cell], wanted: tuple[int, ...], refuse: Callable[[Kind, int], InputError]
+    ) -> list[Cell]:
+        """Where the values of `wanted` lie. Hosts ask for the same sets of variables again and again: kept, up to a limit."""
+        for reference in wanted:
+            if reference not in cells:
+                raise refuse("Real", reference)
+        if len(plans) >= _PLANS:
+            plans.clear()
+        plans[wanted] = [cells[reference] for reference in wanted]
+        return plans[wanted]
 
     def _no_such(self, kind: Kind, reference: int) -> InputError:
         if not 0 <= reference < len(self.table):

@@ -38,13 +38,24 @@ def table(ships: tuple[str, ...] = ()) -> Table:
             "output", "attitude", ANGLES, "rad", "outputs.attitude",
             "Attitude (zyx Euler angles); yaw is the heading, unwrapped", depends_on=("initial.attitude",),
         ),
-        *vector("output", "velocity", LINEAR, "m/s", "outputs.velocity", "Velocity of CO over ground, in b"),
-        *vector("output", "rate", ANGLES, "rad/s", "outputs.rate", "Angular velocity in b"),
-        real("output", "rudder_angle", "rad", "outputs.actuators", 0, "Rudder angle, limited in rate and range"),
-        real("output", "propeller_speed", "rev/s", "outputs.actuators", 1, "Propeller speed"),
+        *vector(
+            "output", "velocity", LINEAR, "m/s", "outputs.velocity", "Velocity of CO over ground, in b",
+            depends_on=("initial.velocity",),
+        ),
+        *vector(
+            "output", "rate", ANGLES, "rad/s", "outputs.rate", "Angular velocity in b", depends_on=("initial.rate",)
+        ),
+        real(
+            "output", "rudder_angle", "rad", "outputs.actuators", 0, "Rudder angle, limited in rate and range",
+            depends_on=(),
+        ),
+        real(
+            "output", "propeller_speed", "rev/s", "outputs.actuators", 1, "Propeller speed",
+            depends_on=("propeller_order", "ship", "hydrodynamics"),
+        ),
         *wrench(
             "output", "impulse_applied", "impulse_applied", IMPULSE, "outputs.impulse_applied",
-            "Cumulative impulse that the ship has applied, in b about CO",
+            "Cumulative impulse that the ship has applied, in b about CO", depends_on=(),
         ),
         *wrench("output", "hull", "hull", FORCE, "outputs.hull", "Force of the water on the hull, b about CO"),
         *wrench("output", "propeller", "propeller", FORCE, "outputs.propeller", "Force of the propeller, b about CO"),
@@ -67,6 +78,9 @@ def table(ships: tuple[str, ...] = ()) -> Table:
         boolean(
             "parameter", "hydrodynamics", "parameters.hydrodynamics",
             "false: the ship coasts, its velocity and angular velocity constant in n between impulses",
+        ),
+        real(
+            "parameter", "substep", "s", "parameters.substep", 0, "Longest internal step of the hydrodynamics", minimum=0.0
         ),
         *vector("parameter", "initial.position", NED, "m", "parameters.initial_position", "CO at the start, in n"),
         *vector("parameter", "initial.attitude", ANGLES, "rad", "parameters.initial_attitude", "Attitude at the start"),

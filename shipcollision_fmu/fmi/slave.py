@@ -25,6 +25,7 @@ import json
 import math
 import sys
 from contextlib import suppress
+from importlib import import_module
 from typing import Any, ClassVar, TypeVar
 from xml.etree.ElementTree import Element
 
@@ -48,13 +49,15 @@ class _InitialisationFailed(Exception):  # noqa: N818 - the wrapper shows its re
 
 
 class ModelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu has no type information
-    """An Interface as an FMI 2.0 slave. Subclasses set `interface`.
+    """An Interface as an FMI 2.0 slave. Subclasses set `interface`, or name the module that holds it as INTERFACE.
+
+    The module is imported only when it is sure that it comes from the right build, and where from: see build_record.
 
     Raises HostError when it is instantiated on another build of shipcollision_fmu than its own: the host sees the
     instantiation fail.
     """
 
-    interface: ClassVar[Interface]
+    interface: ClassVar[Interface | str]
     ports: Ports
     log_categories = LOG_CATEGORIES
 
@@ -72,13 +75,15 @@ class ModelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu has no type info
         if self.resources is not None:
             record = confirmed(str(self.resources))
             self._ships, self.guid = record.ships, record.guid
-        self.ports = self.interface.ports(self._ships)
+        named = isinstance(self.interface, str)
+        self._made_from: Interface = import_module(self.interface).INTERFACE if named else self.interface
+        self.ports = self._made_from.ports(self._ships)
         self._refused = ""  # a call that was refused and that no status has told yet
 
     def to_xml(self, model_options: Any = None) -> Element:
         """modelDescription.xml."""
         del model_options  # what the slave can do does not depend on the builder
-        return model_description(self.interface, self._ships, str(self.guid))
+        return model_description(self._made_from, self._ships, str(self.guid))
 
     # In time. ------------------------------------------------------------------------------
 
@@ -92,7 +97,7 @@ class ModelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu has no type info
         if self._refused:
             for lost in (self, type(self), self.log_queue):
                 _keep(lost)
-            failed = _InitialisationFailed(_printf(f"{self.interface.name} cannot be initialised: {self._refused}"))
+            failed = _InitialisationFailed(_printf(f"{self._made_from.name} cannot be initialised: {self._refused}"))
             self._refused = ""
             raise failed
 

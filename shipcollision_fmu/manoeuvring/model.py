@@ -86,7 +86,8 @@ class ShipManoeuvring:
         _refuse_not_finite({k: v for k, v in _lists(p).items() if k != "substep"}, ScenarioError, "must be finite")
         _refuse_not_finite(_lists(self.inputs), ScenarioError, "at the start must be finite")
         set_up = self._prepared()
-        eta, nu = _six([*p.initial_position, *p.initial_attitude]), _six([*p.initial_velocity, *p.initial_rate])
+        eta = _six(map(float, [*p.initial_position, *p.initial_attitude]))
+        nu = _six(map(float, [*p.initial_velocity, *p.initial_rate]))
         if _is_absurd(nu, set_up.ship):
             raise ScenarioError(f"initial {_too_fast(nu)}")
         propeller_speed = 0.0
@@ -149,7 +150,7 @@ class ShipManoeuvring:
 
     def _struck(self, before: State, M_inverse: list[list[float]]) -> tuple[Six, Six]:
         """Twist and ledger after the impulses that are not yet applied."""
-        impulse = _six(self.inputs.impulse)
+        impulse = _six(map(float, self.inputs.impulse))
         pending = [issued - applied for issued, applied in zip(impulse, before.impulse_applied, strict=True)]
         return (_kicked(before.nu, M_inverse, pending) if any(pending) else before.nu), impulse
 

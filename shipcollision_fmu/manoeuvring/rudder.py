@@ -9,8 +9,8 @@
     eta = D_P/H_R,   T = rho n^2 D_P^4 K_T
 
 With sin(alpha_R) written out, F_N = 1/2 rho A_R f_alpha U_R (u_R sin(delta) - v_R cos(delta)): no angle of the inflow
-is needed, and with u_R < 0, in flow from astern, the force turns round by itself. The paper's sqrt(1 + 8 K_T/(pi J^2)) is
-multiplied out in the same way, finite at u = 0. Astern (u_P < 0) the race is added to the flow with its sign.
+is needed, and with u_R < 0, in flow from astern, the force turns round by itself. The paper's sqrt(1 + 8 K_T/(pi J^2))
+is multiplied out in the same way, finite at u = 0. Astern (u_P < 0) the race is added to the flow with its sign.
 
 delta positive to starboard turns the ship to starboard. v_R takes beta = atan2(-v, |u|), as the propeller's wake does.
 """

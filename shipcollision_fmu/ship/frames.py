@@ -23,8 +23,18 @@ import numpy as np
 import numpy.typing as npt
 
 __all__ = [
-    "SWAP", "Array", "attitude_from_quaternion", "attitude_from_rotation", "attitude_unwrapped", "quaternion",
-    "quaternion_w", "rotation", "rotation_from_quaternion", "rotation_vector", "skew", "swapped",
+    "SWAP",
+    "Array",
+    "attitude_from_quaternion",
+    "attitude_from_rotation",
+    "attitude_unwrapped",
+    "quaternion",
+    "quaternion_w",
+    "rotation",
+    "rotation_from_quaternion",
+    "rotation_vector",
+    "skew",
+    "swapped",
 ]
 
 Array = npt.NDArray[np.float64]

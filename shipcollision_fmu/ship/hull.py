@@ -134,7 +134,9 @@ def _ring(plan: _Plan, z: float, rake: float, flare: float, bilge: float) -> Arr
     inwards = plan.is_bow * (rake * normal[:, 0] + flare) + np.where(plan.is_transom, 0.0, bilge)
     reach = np.einsum("ij,ij->i", normal, plan.corners) - inwards
     before = np.roll(normal, 1, axis=0)
-    corners = np.linalg.solve(np.stack([before, normal], axis=1), np.stack([np.roll(reach, 1), reach], axis=1)[..., None])
+    corners = np.linalg.solve(
+        np.stack([before, normal], axis=1), np.stack([np.roll(reach, 1), reach], axis=1)[..., None]
+    )
     return np.column_stack([corners[..., 0], np.full(len(corners), z)])
 
 
@@ -160,9 +162,13 @@ def _triangles(levels: int, n: int) -> Indices:
     return np.array(shell + bottom + deck, dtype=np.int64)
 
 
-def _convex_parts(vertices: Array, rings: list[Array], levels: list[tuple[float, float, float, float]]) -> tuple[Array, ...]:
+def _convex_parts(
+    vertices: Array, rings: list[Array], levels: list[tuple[float, float, float, float]]
+) -> tuple[Array, ...]:
     """Bands of levels joined while they are convex together: only a flare's knuckle at the waterline splits the hull."""
     n = len(rings[0])
-    knuckle = [k for k, level in enumerate(levels) if level[0] == 0.0 and 0 < k < len(levels) - 1 and levels[-2] is level]
+    knuckle = [
+        k for k, level in enumerate(levels) if level[0] == 0.0 and 0 < k < len(levels) - 1 and levels[-2] is level
+    ]
     bounds = [0, *knuckle, len(levels) - 1]
     return tuple(vertices[start * n : (end + 1) * n] for start, end in zip(bounds, bounds[1:], strict=False))

@@ -1,0 +1,118 @@
+"""A run's result as tables for people."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import degrees, hypot
+from typing import TYPE_CHECKING, Any
+
+from rich.box import SIMPLE_HEAD
+from rich.table import Table
+from rich.text import Text
+
+from .wiring import named
+
+if TYPE_CHECKING:
+    from .simulate import Run
+
+__all__ = ["comparison", "lines", "table", "tables"]
+
+
+_LINEAR = ("surge", "sway", "heave")
+
+
+def table(*columns: str, title: str | None = None) -> Table:
+    """An empty table; a column whose heading begins with '>' is of numbers."""
+    heading = None if title is None else Text(title)  # Text: a unit in brackets is not a style
+    empty = Table(title=heading, title_justify="left", box=SIMPLE_HEAD, pad_edge=False)
+    for column in columns:
+        empty.add_column(Text(column.removeprefix(">")), justify="right" if column.startswith(">") else "left")
+    return empty
+
+
+def tables(run: Run) -> Iterator[Table]:
+    """What a run has to show: the published numbers if there are any, else its collisions and its books."""
+    if "paper" in run.summary:
+        yield comparison(run.summary)
+        return
+    if run.events["collisions"]:
+        yield _collisions(run.events["collisions"])
+    yield _ships(run)
+
+
+def lines(run: Run) -> Iterator[str]:
+    """What is said below the tables."""
+    summary = run.summary
+    if "paper" in summary:
+        within = sum(row["within"] for row in summary["paper"])
+        yield f"{within} of {len(summary['paper'])} numbers within tolerance; * corrected, printed as shown"
+    if not run.events["collisions"]:
+        yield f"no collision; least clearance {summary['least_clearance']:.1f} m"
+    energy = summary["energy"]
+    yield (
+        f"kinetic energy {energy['before']['total'] / 1e6:.1f} MJ before, "
+        f"{energy['after']['total'] / 1e6:.1f} MJ after, {energy['dissipated'] / 1e6:.1f} MJ dissipated in contact"
+    )
+    yield (
+        f"{summary['steps']} steps of {summary['step']:.6g} s, {summary['algorithm']}, {run.timing['mode']}: "
+        f"{run.timing['wall_time']:.2f} s, {run.timing['real_time_factor']:.0f} times real time"
+    )
+
+
+def comparison(summary: dict[str, Any]) -> Table:
+    """Published and computed numbers; a star where the printed one had to be corrected."""
+    reference = summary["reference"]
+    rows = table(
+        "ship", "quantity", "unit", ">printed", ">paper", ">computed", ">difference", ">tolerance", "within",
+        title=f"{summary['scenario']}: {reference['source']}, at {reference['time']:g} s",
+    )  # fmt: skip
+    last = None
+    for row in summary["paper"]:
+        if last not in (None, row["ship"]):
+            rows.add_section()
+        corrected = "*" if row["printed"] != row["paper"] else ""
+        rows.add_row(
+            "" if last == row["ship"] else row["ship"], row["quantity"], row["unit"],
+            f"{row['printed']:.4f}" if corrected else "", f"{corrected}{row['paper']:.4f}", f"{row['computed']:.4f}",
+            f"{row['difference']:+.4f}", f"{row['tolerance']:g}", "yes" if row["within"] else "NO",
+        )  # fmt: skip
+        last = row["ship"]
+    return rows
+
+
+def _collisions(collisions: list[dict[str, Any]]) -> Table:
+    rows = table(
+        "ships", ">start [s]", ">end [s]", ">closing [m/s]", ">angle [deg]", ">impulse [MN s]", ">energy [MJ]",
+        ">delta v [m/s]", title="collisions",
+    )  # fmt: skip
+    for c in collisions:
+        gained = ", ".join(f"{hypot(*c['delta_v'][name]):.3f}" for name in (c["ship_a"], c["ship_b"]))
+        rows.add_row(
+            f"{c['ship_a']} - {c['ship_b']}", f"{c['start']:.2f}", f"{c['end']:.2f}", _or_dash(c["closing_speed"]),
+            "-" if c["angle"] is None else f"{degrees(c['angle']):.1f}", f"{c['impulse']['magnitude'] / 1e6:.2f}",
+            f"{c['energy'] / 1e6:.2f}", gained,
+        )  # fmt: skip
+    return rows
+
+
+def _ships(run: Run) -> Table:
+    """Velocities before and after, and the ledger of impulses (surge, sway; yaw) in b."""
+    rows = table(
+        "ship", ">speed before [m/s]", ">after", ">heading [deg] before", ">after", ">issued [MN s]", ">pending [MN s]",
+        title="ships",
+    )  # fmt: skip
+    first, last = run.states[0], run.states[-1]
+    for name, books in run.summary["ledger"].items():
+        columns = named(f"{name}.velocity", _LINEAR)
+        speeds = [hypot(*(float(row[column]) for column in columns)) for row in (first, last)]
+        headings = [degrees(float(row[f"{name}.attitude.yaw"])) for row in (first, last)]
+        impulses = [hypot(*books[key][:3]) / 1e6 for key in ("issued", "pending")]
+        rows.add_row(
+            name, f"{speeds[0]:.3f}", f"{speeds[1]:.3f}", f"{headings[0]:.2f}", f"{headings[1]:.2f}",
+            f"{impulses[0]:.2f}", f"{impulses[1]:.2g}",
+        )  # fmt: skip
+    return rows
+
+
+def _or_dash(value: float | None) -> str:
+    return "-" if value is None else f"{value:.3f}"

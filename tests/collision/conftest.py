@@ -1,0 +1,126 @@
+"""Ships made for a test, and a small world that sails them as a master would."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from shipcollision_fmu.collision.model import ShipCollision
+from shipcollision_fmu.ship.frames import attitude_from_rotation, rotation, rotation_vector
+from shipcollision_fmu.ship.inertia import free_inverse
+from shipcollision_fmu.ship.library import load_ship
+
+BOX = 'shape = "box"\ndepth = 20.0'
+SHIP = 'shape = "parametric"\ndepth = 20.0\nbow_length = 40.0\nstern_length = 50.0'
+NO_ADDED_MASS = "m_x = 0.0\nm_y = 0.0\nm_z = 0.0\nj_x = 0.0\nj_y = 0.0\nj_z = 0.0\nz_y = 0.0"
+
+
+@pytest.fixture
+def make_ship(tmp_path: Path) -> Callable[..., str]:
+    """Writes a ship file and returns its path: L = 200 m, B = 30 m, T = 10 m unless told."""
+
+    def make(
+        name: str, hull: str = SHIP, added_mass: str = "", mass: float = 40e6, r_bg: str = "[0.0, 0.0, 0.0]"
+    ) -> str:
+        path = tmp_path / f"{name}.toml"
+        path.write_text(
+            f'[ship]\nname = "{name}"\nkind = "test"\nsource = "made for a test"\nlicence = "MIT"\n'
+            f"[particulars]\nL_pp = 200.0\nL_oa = 200.0\nB = 30.0\nT = 10.0\nmass = {mass}\nr_bg = {r_bg}\n"
+            f"[added_mass]\n{added_mass}\n[hull]\n{hull}\n"
+        )
+        return str(path)
+
+    return make
+
+
+class World:
+    """Two ships that coast (CO and CG coincide), coupled to a collision model by the ledger.
+
+    The algorithm is a master's: "gauss-seidel" hands impulses over at once, "jacobi" one step late.
+    """
+
+    def __init__(self, ships: list[str], start: list[dict], *, algorithm: str = "gauss-seidel", degrees_of_freedom: int = 6,
+                 **parameters: object) -> None:  # fmt: skip
+        self.model = ShipCollision([f"s{i}" for i in range(len(ships))])
+        for slot, ship in zip(self.model.parameters.ships, ships, strict=True):
+            slot.ship, slot.degrees_of_freedom = ship, degrees_of_freedom
+        for key, value in parameters.items():
+            if key in (keys := ["friction", "restitution", "substep", "minimum_separation_time", "clearance_range"]):
+                self.model.parameters.numbers[keys.index(key)] = float(value)  # type: ignore[arg-type]
+            else:
+                setattr(self.model.parameters, key, value)
+        self.M = [load_ship(ship).M for ship in ships]
+        self.M_inverse = [free_inverse(M, degrees_of_freedom) for M in self.M]
+        self.x = [np.array(s["position"], dtype=float) for s in start]
+        self.R = [rotation(s.get("attitude", (0, 0, 0))) for s in start]
+        self.nu = [np.array(s["nu"], dtype=float) for s in start]
+        self.applied = [np.zeros(6) for _ in ships]
+        self.waiting = [np.zeros(6) for _ in ships]
+        self.algorithm = algorithm
+        self.t = 0.0
+        self.work: list[float] = []  # change of kinetic energy by impulses, per step
+        self.increments: list[
+            list[tuple[np.ndarray, np.ndarray, np.ndarray]]
+        ] = []  # (x, R, new impulse) per ship and step
+        self.send()
+        self.model.initialise()
+
+    def send(self) -> None:
+        for i, inputs in enumerate(self.model.inputs.ships):
+            inputs.position[:] = self.x[i].tolist()
+            inputs.attitude[:] = attitude_from_rotation(self.R[i]).tolist()
+            inputs.velocity[:], inputs.rate[:] = self.nu[i][:3].tolist(), self.nu[i][3:].tolist()
+            inputs.impulse_applied[:] = self.applied[i].tolist()
+
+    def step(self, H: float) -> None:
+        self.send()
+        before = [np.array(o.impulse) for o in self.model.outputs.ships]
+        poses = [(x.copy(), rotation(attitude_from_rotation(R))) for x, R in zip(self.x, self.R, strict=True)]
+        self.model.step(self.t, H)
+        work, rows = 0.0, []
+        for i, outputs in enumerate(self.model.outputs.ships):
+            issued = np.array(outputs.impulse)
+            rows.append((*poses[i], issued - before[i]))
+            if self.algorithm == "jacobi":
+                issued, self.waiting[i] = self.waiting[i], issued
+            new = issued - self.applied[i]
+            after = self.nu[i] + self.M_inverse[i] @ new
+            work += 0.5 * (after @ self.M[i] @ after - self.nu[i] @ self.M[i] @ self.nu[i])
+            self.nu[i], self.applied[i] = after, issued
+            v_n, w_n = self.R[i] @ after[:3], self.R[i] @ after[3:]
+            self.x[i] = self.x[i] + v_n * H
+            self.R[i] = rotation_vector(w_n * H) @ self.R[i]
+            self.nu[i] = np.concatenate([self.R[i].T @ v_n, self.R[i].T @ w_n])
+        self.work.append(work)
+        self.increments.append(rows)
+        self.t += H
+
+    def run(self, duration: float, H: float) -> World:
+        for _ in range(round(duration / H)):
+            self.step(H)
+        return self
+
+    def momentum(self) -> np.ndarray:
+        """Virtual momentum, linear and angular about n's origin; (6,)."""
+        total = np.zeros(6)
+        for x, R, nu, M in zip(self.x, self.R, self.nu, self.M, strict=True):
+            h = M @ nu
+            total[:3] += R @ h[:3]
+            total[3:] += R @ h[3:] + np.cross(x, R @ h[:3])
+        return total
+
+
+@pytest.fixture
+def world() -> Iterator[Callable[..., World]]:
+    made: list[World] = []
+
+    def make(*args: object, **kwargs: object) -> World:
+        made.append(World(*args, **kwargs))  # type: ignore[arg-type]
+        return made[-1]
+
+    yield make
+    for w in made:
+        w.model.close()

@@ -1,0 +1,88 @@
+"""Tables of variables, and the units in them."""
+
+from __future__ import annotations
+
+from math import pi
+from typing import Any
+
+import pytest
+
+from shipcollision_fmu.fmi.units import UNITS
+from shipcollision_fmu.fmi.variables import FORCE, IMPULSE, NED, Variable, enumeration, real, vector, wrench
+
+
+def test_a_vector_is_its_components_in_order() -> None:
+    lines = vector("output", "own.position", NED, "m", "outputs.ships.0.position", "CO in n")
+    assert [line.name for line in lines] == ["own.position.north", "own.position.east", "own.position.down"]
+    assert [line.index for line in lines] == [0, 1, 2]
+    assert [line.description for line in lines] == ["CO in n: north", "CO in n: east", "CO in n: down"]
+
+
+def test_a_wrench_has_the_linear_part_first() -> None:
+    lines = wrench("input", "force", "moment", FORCE, "inputs.force", "External force")
+    assert [line.name for line in lines] == [
+        "force.surge", "force.sway", "force.heave", "moment.roll", "moment.pitch", "moment.yaw",
+    ]  # fmt: skip
+    assert [line.unit for line in lines] == ["N"] * 3 + ["N.m"] * 3
+    assert [line.index for line in lines] == [0, 1, 2, 3, 4, 5]
+    assert [line.unit for line in wrench("input", "p", "p", IMPULSE, "x", "")] == ["N.s"] * 3 + ["N.m.s"] * 3
+
+
+@pytest.mark.parametrize(
+    ("kind", "causality", "variability"),
+    [
+        ("Real", "parameter", "fixed"),
+        ("String", "parameter", "fixed"),
+        ("Real", "output", "continuous"),
+        ("Real", "input", "continuous"),
+        ("Integer", "output", "discrete"),
+        ("Boolean", "input", "discrete"),
+        ("String", "output", "discrete"),
+    ],
+)
+def test_variability_follows(kind: Any, causality: Any, variability: str) -> None:
+    line = Variable("a", kind, causality, "x", None, "", "m" if kind == "Real" else None)
+    assert line.variability == variability
+
+
+@pytest.mark.parametrize(
+    ("make", "reason"),
+    [
+        (lambda: real("input", "a", "knots", "x", 0, ""), "variable a: unit 'knots' is not one of 1, J, N"),
+        (lambda: Variable("a", "Real", "input", "x", 0, ""), "variable a: a Real with unit None"),
+        (lambda: Variable("a", "Integer", "input", "x", 0, "", "m"), "variable a: a Integer with unit 'm'"),
+        (lambda: enumeration("input", "a", (), "x", ""), "variable a: a Enumeration with items ()"),
+    ],
+)
+def test_a_line_that_cannot_be_is_refused(make: Any, reason: str) -> None:
+    with pytest.raises(ValueError, match="variable a") as refused:
+        make()
+    assert reason in str(refused.value)
+
+
+def test_units_agree_with_each_other() -> None:
+    """J = N m, N = kg m/s2, and so on: exponents add up."""
+
+    def exponents(name: str) -> tuple[int, int, int]:
+        unit = UNITS[name]
+        return unit.kg, unit.m, unit.s
+
+    def product(*names: str) -> tuple[int, ...]:
+        return tuple(map(sum, zip(*map(exponents, names), strict=True)))
+
+    assert exponents("N") == (1, 1, -2)
+    assert product("N", "m") == exponents("N.m") == exponents("J")
+    assert product("N", "s") == exponents("N.s") == product("kg", "m/s")
+    assert product("N.m", "s") == exponents("N.m.s") == product("N.s", "m")
+    assert product("m/s", "s") == exponents("m")
+    assert exponents("1") == (0, 0, 0)
+
+
+def test_display_units() -> None:
+    def shown(name: str, value: float) -> float:
+        return UNITS[name].display[0].factor * value
+
+    assert shown("rad", pi) == pytest.approx(180.0, rel=1e-15)
+    assert shown("rad/s", pi) == pytest.approx(180.0, rel=1e-15)
+    assert shown("rev/s", 1.5) == 90.0
+    assert UNITS["rev/s"].factor == 2.0 * pi

@@ -1,0 +1,35 @@
+"""Ships ready to step."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import pytest
+
+from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
+
+ZERO = (0.0, 0.0, 0.0)
+
+
+@pytest.fixture
+def start() -> Callable[..., ShipManoeuvring]:
+    """An initialised ship: start(ship=..., velocity=..., orders=...)."""
+    return started
+
+
+def started(
+    ship: str = "kvlcc2", *, degrees_of_freedom: int = 6, hydrodynamics: bool = False,
+    position: Sequence[float] = ZERO, attitude: Sequence[float] = ZERO, velocity: Sequence[float] = ZERO,
+    rate: Sequence[float] = ZERO, substep: float = 0.05, again: ShipManoeuvring | None = None, **inputs: Any,
+) -> ShipManoeuvring:  # fmt: skip
+    """`again`: start this one again, which spares reading the ship file."""
+    model = again or ShipManoeuvring()
+    p = model.parameters
+    p.ship, p.degrees_of_freedom, p.hydrodynamics, p.substep[0] = ship, degrees_of_freedom, hydrodynamics, substep
+    p.initial_position[:], p.initial_attitude[:] = position, attitude
+    p.initial_velocity[:], p.initial_rate[:] = velocity, rate
+    for name, values in inputs.items():
+        getattr(model.inputs, name)[:] = values
+    model.initialise()
+    return model
