@@ -4,16 +4,15 @@ Bullet reports one point of a line or area contact, at an arbitrary place along 
 side would be chance. Here the features that face each other (vertices, edges or faces: the extreme points of both
 convex parts along the normal) are projected on the plane of contact and clipped against each other.
 
-Plane coordinates are (n, 2) arrays [m]; a polygon's corners are counter-clockwise.
+Plane coordinates are pairs [m]; a polygon's corners are counter-clockwise.
 """
 
 from __future__ import annotations
 
-import numpy as np
+from collections.abc import Iterable
+from math import hypot
 
-from ..ship.frames import Array
-
-__all__ = ["common_points", "convex_polygon"]
+__all__ = ["Point", "common_points", "convex_polygon"]
 
 Point = tuple[float, float]
 TOUCH = 1e-6
@@ -24,12 +23,12 @@ def _cross(o: Point, a: Point, b: Point) -> float:
     return (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0])
 
 
-def convex_polygon(points: Array) -> list[Point]:
-    """Convex hull of plane points (n, 2), counter-clockwise, without collinear corners (Andrew's monotone chain).
+def convex_polygon(points: Iterable[Point]) -> list[Point]:
+    """Convex hull of plane points, counter-clockwise, without collinear corners (Andrew's monotone chain).
 
     One point stays a point, points on a line give its two ends.
     """
-    p = sorted({(float(u), float(v)) for u, v in points})
+    p = sorted(set(points))
     if len(p) < 3:
         return p
 
@@ -46,7 +45,7 @@ def convex_polygon(points: Array) -> list[Point]:
 
 
 def _span(a: Point, b: Point) -> float:
-    return float(np.hypot(b[0] - a[0], b[1] - a[1]))
+    return hypot(b[0] - a[0], b[1] - a[1])
 
 
 def common_points(first: list[Point], second: list[Point]) -> list[Point]:

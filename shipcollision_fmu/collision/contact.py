@@ -1,25 +1,28 @@
 """What is known of one contact point.
 
 The normal points from ship a to ship b; `gap` is negative in overlap; P acts on b and -P on a. Geometry is that of the
-instant of contact; `at` is the one point in n at which both ships book the impulse, midway between where their two
-material points are at the received poses, so that the two moments balance about any fixed point.
+instant of contact. The impulse is booked at `at`, one point in n for both ships, midway between where their two
+material points are at the received poses: so the two moments balance about any fixed point.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ..ship.frames import Array
+from .shadow import Shadow
 
-__all__ = ["Contact", "Impulse"]
+__all__ = ["Contact", "Impulse", "contact_velocity", "make_contact"]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Contact:
     """A point at which two hulls touch.
 
     a, b: indices of the ships; point, normal (3,) in n [m, 1]; gap [m]; r_a, r_b (3,): the point in b of either ship
-    [m]; at (3,): where the impulse is booked, in n [m].
+    [m]; at (3,): where the impulse is booked, in n [m]; G_a, G_b (3, 6): velocity of that point of either ship in n is
+    G nu, and the impulse P there is G' P in b about CO.
     """
 
     a: int
@@ -30,11 +33,27 @@ class Contact:
     r_a: Array
     r_b: Array
     at: Array
+    G_a: Array
+    G_b: Array
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Impulse:
     """The impulse P (3,) [N s], in n, that ship b takes at a contact; ship a takes -P."""
 
     contact: Contact
     P: Array
+
+
+def make_contact(a: int, b: int, shadows: Sequence[Shadow], point: Array, normal: Array, gap: float) -> Contact:
+    """Contact at `point` (in n, predicted poses) of ships a and b."""
+    one, other = shadows[a], shadows[b]
+    r_a, r_b = one.body(point), other.body(point)
+    at = 0.5 * (one.point_received(r_a) + other.point_received(r_b))
+    return Contact(a, b, point, normal, gap, r_a, r_b, at, one.jacobian(at), other.jacobian(at))
+
+
+def contact_velocity(contact: Contact, shadows: Sequence[Shadow]) -> Array:
+    """Velocity of b relative to a at a contact, in n [m/s]; (3,). Approaching when its normal part is negative."""
+    v: Array = contact.G_b @ shadows[contact.b].nu - contact.G_a @ shadows[contact.a].nu
+    return v

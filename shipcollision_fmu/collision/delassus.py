@@ -18,17 +18,17 @@ from ..ship.frames import Array
 from .contact import Contact
 from .shadow import Shadow
 
-__all__ = ["contact_jacobian", "contact_velocity", "delassus"]
+__all__ = ["contact_jacobian", "delassus"]
 
 
-def contact_jacobian(contacts: Sequence[Contact], shadows: Sequence[Shadow]) -> tuple[Array, list[int]]:
+def contact_jacobian(contacts: Sequence[Contact]) -> tuple[Array, list[int]]:
     """G (3k, 6m) from the twists of the m ships that touch to the k relative velocities; and those ships' indices."""
     ships = sorted({s for c in contacts for s in (c.a, c.b)})
     G = np.zeros((3 * len(contacts), 6 * len(ships)))
     for i, c in enumerate(contacts):
-        for ship, sign in ((c.a, -1.0), (c.b, 1.0)):
+        for ship, G_ship in ((c.a, -c.G_a), (c.b, c.G_b)):
             column = 6 * ships.index(ship)
-            G[3 * i : 3 * i + 3, column : column + 6] = sign * shadows[ship].jacobian(c.at)
+            G[3 * i : 3 * i + 3, column : column + 6] = G_ship
     return G, ships
 
 
@@ -38,10 +38,3 @@ def delassus(G: Array, ships: Sequence[int], shadows: Sequence[Shadow]) -> Array
     W: Array = GM @ G.T
     symmetric: Array = 0.5 * (W + W.T)
     return symmetric
-
-
-def contact_velocity(contact: Contact, shadows: Sequence[Shadow]) -> Array:
-    """Velocity of b relative to a at a contact, in n [m/s]; (3,). Approaching when its normal part is negative."""
-    b, a = shadows[contact.b], shadows[contact.a]
-    v: Array = b.jacobian(contact.at) @ b.nu - a.jacobian(contact.at) @ a.nu
-    return v

@@ -80,7 +80,7 @@ class Engine:
 
     def place(self, ship: int, x: Array, R_nb: Array) -> None:
         """Put a ship's parts at CO = x (3,) in n [m] with the attitude R_nb."""
-        position, orientation = swapped(x), quaternion_w(R_nb).tolist()
+        position, orientation = swapped(x), quaternion_w(R_nb)
         for body in self._parts[ship]:
             self._p.resetBasePositionAndOrientation(body, position, orientation, physicsClientId=self._client)
 
@@ -125,7 +125,7 @@ class Engine:
             made.append(handle)
             velocity = R_nb @ (nu[:3] + np.cross(nu[3:], body.r_bg))
             p.resetBasePositionAndOrientation(
-                handle, swapped(x + R_nb @ body.r_bg), quaternion_w(R_nb).tolist(), physicsClientId=client
+                handle, swapped(x + R_nb @ body.r_bg), quaternion_w(R_nb), physicsClientId=client
             )
             p.resetBaseVelocity(handle, swapped(velocity), swapped(R_nb @ nu[3:]), physicsClientId=client)
         p.setCollisionFilterPair(made[0], made[1], -1, -1, 1, physicsClientId=client)

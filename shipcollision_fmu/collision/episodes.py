@@ -15,8 +15,7 @@ from typing import Any
 import numpy as np
 
 from ..ship.frames import Array
-from .contact import Contact
-from .delassus import contact_velocity
+from .contact import Contact, contact_velocity
 from .shadow import Shadow
 
 __all__ = ["SCRATCH_PAUSE", "Episodes", "Impact"]
@@ -70,7 +69,7 @@ class Episodes:
         if not pair.impact:
             self.impacts += 1
             pair.impact = self.impacts
-            point = np.mean([c.point for c in contacts], axis=0)
+            point = sum((c.point for c in contacts), np.zeros(3)) / len(contacts)
             closing = max(-float(contact_velocity(c, shadows) @ c.normal) for c in contacts)
             self.latest = Impact(
                 t, point.tolist(), max(closing, 0.0), heading_angle(shadows[a].R, shadows[b].R), a + 1, b + 1

@@ -30,8 +30,7 @@ from ..ship.frames import Array, attitude_from_rotation, attitude_unwrapped, ske
 from ..ship.hull import build_hull
 from ..ship.inertia import free_inverse
 from ..ship.library import Ship, load_ship
-from .contact import Impulse
-from .delassus import contact_velocity
+from .contact import Impulse, contact_velocity
 from .detection import Detector, KeptNormals
 from .energy import energy_lost
 from .engine import BulletBody
@@ -186,8 +185,9 @@ class ShipCollision:
         """Impulses into both ships' twists and ledgers, the energy they cost, and the contact slots of the step."""
         before = [contact_velocity(i.contact, shadows) for i in impulses]
         for impulse in impulses:
-            for ship, sign in ((impulse.contact.a, -1.0), (impulse.contact.b, 1.0)):
-                shadows[ship].book(sign * (shadows[ship].jacobian(impulse.contact.at).T @ impulse.P))
+            c = impulse.contact
+            shadows[c.a].book(-impulse.P @ c.G_a)
+            shadows[c.b].book(impulse.P @ c.G_b)
         for impulse, v_before in zip(impulses, before, strict=True):
             c = impulse.contact
             along, across = energy_lost(impulse.P, c.normal, v_before, contact_velocity(c, shadows))

@@ -28,13 +28,16 @@ import numpy.typing as npt
 
 from ..ship.frames import Array
 
-__all__ = ["MAX_SWEEPS", "RESIDUAL", "Solution", "contact_axes", "solve_pgs"]
+__all__ = ["MAX_SWEEPS", "RESIDUAL", "Solution", "solve_pgs"]
 
 RESIDUAL = 1e-11
 """Relative velocity residual at which the sweeps end."""
 
 MAX_SWEEPS = 10_000
 """Bound on the sweeps: nearly dependent contacts need some thousands, and a sweep costs microseconds."""
+
+ALIGNED = 1e-13
+"""Angle [rad] below which friction counts as exactly against the slip."""
 
 RANK = 1e-9
 """Singular values of a block below this share of the largest are directions in which neither ship can move."""
@@ -68,9 +71,9 @@ def solve_pgs(W: Array, v: Array, mu: float, e: float) -> Solution:
     rows, start = W.tolist(), target.tolist()
     P = [0.0] * (3 * k)
     angles: list[float | None] = [None] * k
-    residual, sweep = 0.0, 0
-    for sweep in range(1, (1 if k == 1 else MAX_SWEEPS) + 1):
-        residual = 0.0
+    residual, sweeps = np.inf, 0
+    while residual > RESIDUAL and sweeps < (1 if k == 1 else MAX_SWEEPS):
+        residual, sweeps = 0.0, sweeps + 1
         for i in range(k):
             first = 3 * i
             old = (P[first], P[first + 1], P[first + 2])
@@ -84,9 +87,7 @@ def solve_pgs(W: Array, v: Array, mu: float, e: float) -> Solution:
             step = (new[0] - old[0], new[1] - old[1], new[2] - old[2])
             residual = max(residual, *(abs(_dot(row, step)) for row in block))
         residual /= scale
-        if residual <= RESIDUAL:
-            break
-    return Solution(np.array(P).reshape(k, 3), 0.0 if k == 1 else residual, sweep)
+    return Solution(np.array(P).reshape(k, 3), 0.0 if k == 1 else residual, sweeps)
 
 
 def _block(m: npt.NDArray[np.floating[Any]]) -> Block:
@@ -141,6 +142,9 @@ def _zero_near(f: Callable[[float], float], start: float) -> float:
     step = pi / 48
     left = right = start
     f_left = f_right = f(start)
+    for a, f_a in ((start, f_left), (start + pi, f(start + pi))):
+        if abs(f_a) < ALIGNED:  # ships that move in the plane slide this way or the other, nothing between
+            return a
     for _ in range(48):
         # Outwards first to the side to which f points: near a zero friction turns towards it.
         for side in (1, -1) if f_left + f_right > 0.0 else (-1, 1):
@@ -171,13 +175,3 @@ def _closed_in(f: Callable[[float], float], a: float, b: float, f_a: float, f_b:
             f_a *= 0.5
         b, f_b = c, f_c
     return b
-
-
-def contact_axes(normals: list[Array]) -> Array:
-    """Rows normal, t1, t2 per contact, (k, 3, 3): from n to contact axes. t1 is horizontal unless the normal is steep."""
-    axes = np.empty((len(normals), 3, 3))
-    for i, n in enumerate(normals):
-        t1 = np.cross(n, [0.0, 0.0, 1.0] if abs(n[2]) < 0.9 else [1.0, 0.0, 0.0])
-        t1 /= np.linalg.norm(t1)
-        axes[i] = n, t1, np.cross(n, t1)
-    return axes

@@ -13,11 +13,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .contact import Impulse
-from .delassus import contact_jacobian, contact_velocity, delassus
-from .detection import Detector, KeptNormals, make_contact
+from .axes import contact_axes
+from .contact import Impulse, contact_velocity, make_contact
+from .delassus import contact_jacobian, delassus
+from .detection import Detector, KeptNormals
 from .engine import BulletBody
-from .pgs import contact_axes, solve_pgs
+from .pgs import solve_pgs
 from .shadow import Shadow
 
 __all__ = ["RESPONSES", "Encounter", "respond_bullet", "respond_pgs"]
@@ -48,8 +49,8 @@ def respond_pgs(encounter: Encounter) -> list[Impulse]:
     contacts = [c for a, b in encounter.pairs for c in encounter.detector.contacts(a, b, shadows, encounter.kept)]
     if not contacts:
         return []
-    G, ships = contact_jacobian(contacts, shadows)
-    axes = contact_axes([c.normal for c in contacts])
+    G, ships = contact_jacobian(contacts)
+    axes = [contact_axes(c.normal) for c in contacts]
     velocity = np.concatenate([axis @ contact_velocity(c, shadows) for axis, c in zip(axes, contacts, strict=True)])
     if velocity[0::3].min() >= 0.0:  # touching, but parting
         return [Impulse(c, np.zeros(3)) for c in contacts]

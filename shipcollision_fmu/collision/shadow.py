@@ -23,7 +23,10 @@ __all__ = ["Shadow", "point_jacobian"]
 
 def point_jacobian(R_nb: Array, r_b: Array) -> Array:
     """G (3, 6): velocity in n of the point r_b [m] (in b from CO) is G nu; the impulse P in n is G' P in b about CO."""
-    return np.hstack([R_nb, -R_nb @ skew(r_b)])
+    G = np.empty((3, 6))
+    G[:, :3] = R_nb
+    G[:, 3:] = R_nb @ skew(-r_b)
+    return G
 
 
 @dataclass

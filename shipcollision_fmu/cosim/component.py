@@ -123,7 +123,7 @@ class InProcessComponent:
         try:
             self._ports.do_step(t, h)
         except ShipCollisionError as error:
-            raise StepError(f"{self.name} at t = {t:g} s: {error}") from None
+            raise StepError(f"{self.name}: {error}") from None  # our models say when
 
     def close(self) -> None:
         """See Component."""
@@ -244,7 +244,7 @@ class FmuComponent:
         status = self._do_step(self._component, t, h, 1)
         if status > fmi2Warning:
             self._initialised = status < fmi2Error  # FMI 2.0, section 4.2.4: no terminate after an error
-            raise StepError(f"{self.name} at t = {t:g} s: {self._said(status)}")
+            raise StepError(f"{self.name}: {self._said(status, f'step at t = {t:g} s ')}")
 
     def close(self) -> None:
         """See Component."""
@@ -307,10 +307,10 @@ class FmuComponent:
         addLoggerProxy(byref(callbacks))
         return callbacks
 
-    def _said(self, status: int) -> str:
+    def _said(self, status: int, doing: str = "") -> str:
         """The FMU's last message, in one line, without what pythonfmu's wrapper puts before it."""
         if not self._messages:
-            return f"{_SILENT[status]}, without a message"
+            return f"{doing}{_SILENT[status]}, without a message"
         return _WRAPPER.sub("", " ".join(self._messages[-1].split()))
 
 

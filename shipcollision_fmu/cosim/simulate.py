@@ -9,7 +9,7 @@ Both give the same bits.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import ExitStack, closing
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -31,10 +31,12 @@ from .scenario import Scenario
 from .summary import summary
 from .wiring import MakeCollision, MakeShip, connected
 
-__all__ = ["Progress", "Run", "simulate"]
+__all__ = ["Factories", "Progress", "Run", "simulate", "stepped", "through_fmus"]
 
 Progress = Callable[[int, int], None]
 """Called after every step with the steps done and the steps in all."""
+Factories = tuple[MakeShip, MakeCollision]
+"""What makes the components of a run, and sees to it that they are closed."""
 
 
 @dataclass(frozen=True)
@@ -87,8 +89,11 @@ def simulate(
         check_writable(Path(out))
     ships = scenario.load_ships()
     with ExitStack() as stack:
-        factories = _in_process(scenario, stack) if in_process else _through_fmus(scenario, stack)
-        record, wall_time = _stepped(scenario, factories, progress)
+        if in_process:
+            factories = _in_process(scenario, stack)
+        else:
+            factories = through_fmus(ready_fmus(tuple(scenario.ships)), stack)
+        record, wall_time = stepped(scenario, factories, progress)
     free = {name: start.free for name, start in scenario.ships.items()}
     found = events(record, ships, free, scenario.step)
     duration = scenario.step * scenario.steps
@@ -108,10 +113,8 @@ def simulate(
     return run
 
 
-def _stepped(
-    scenario: Scenario, factories: tuple[MakeShip, MakeCollision], progress: Progress | None
-) -> tuple[Record, float]:
-    """The record of the run, and the wall time of the step loop [s]."""
+def stepped(scenario: Scenario, factories: Factories, progress: Progress | None = None) -> tuple[Record, float]:
+    """The record of a run with components from `factories`, and the wall time of the step loop [s]."""
     system, helms = connected(scenario, *factories)
     recorder = Recorder(system, list(scenario.ships), scenario.step, scenario.steps)
     advance, step, steps = ALGORITHMS[scenario.algorithm], scenario.step, scenario.steps
@@ -127,7 +130,7 @@ def _stepped(
     return recorder.finished(), perf_counter() - begin
 
 
-def _in_process(scenario: Scenario, stack: ExitStack) -> tuple[MakeShip, MakeCollision]:
+def _in_process(scenario: Scenario, stack: ExitStack) -> Factories:
     def make_ship(name: str) -> Component:
         return stack.enter_context(closing(InProcessComponent(name, MANOEUVRING.ports())))
 
@@ -137,17 +140,15 @@ def _in_process(scenario: Scenario, stack: ExitStack) -> tuple[MakeShip, MakeCol
     return make_ship, make_collision
 
 
-def _through_fmus(scenario: Scenario, stack: ExitStack) -> tuple[MakeShip, MakeCollision]:
-    fmus = {
-        name: stack.enter_context(closing(UnpackedFmu(path)))
-        for name, path in ready_fmus(tuple(scenario.ships)).items()
-    }  # fmt: skip
+def through_fmus(fmus: Mapping[str, Path], stack: ExitStack) -> Factories:
+    """Components from the files "ShipManoeuvring" and "ShipCollision", unpacked once each; `stack` closes all."""
+    unpacked = {name: stack.enter_context(closing(UnpackedFmu(path))) for name, path in fmus.items()}
 
     def make_ship(name: str) -> Component:
-        return stack.enter_context(closing(FmuComponent(name, fmus["ShipManoeuvring"])))
+        return stack.enter_context(closing(FmuComponent(name, unpacked["ShipManoeuvring"])))
 
     def make_collision() -> Component:
-        return stack.enter_context(closing(FmuComponent("collision", fmus["ShipCollision"])))
+        return stack.enter_context(closing(FmuComponent("collision", unpacked["ShipCollision"])))
 
     return make_ship, make_collision
 

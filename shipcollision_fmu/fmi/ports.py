@@ -294,7 +294,7 @@ class Ports:
     def _plan(
         plans: Plans, cells: dict[int, Cell], wanted: tuple[int, ...], refuse: Callable[[Kind, int], InputError]
     ) -> list[Cell]:
-        """Where the values of `wanted` lie. Hosts ask for the same sets of variables again and again: kept, up to a limit."""
+        """Where the values of `wanted` lie. Kept, up to a limit: hosts ask for the same sets again and again."""
         for reference in wanted:
             if reference not in cells:
                 raise refuse("Real", reference)

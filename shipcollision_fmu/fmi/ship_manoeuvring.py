@@ -80,7 +80,8 @@ def table(ships: tuple[str, ...] = ()) -> Table:
             "false: the ship coasts, its velocity and angular velocity constant in n between impulses",
         ),
         real(
-            "parameter", "substep", "s", "parameters.substep", 0, "Longest internal step of the hydrodynamics", minimum=0.0
+            "parameter", "substep", "s", "parameters.substep", 0, "Longest internal step of the hydrodynamics",
+            minimum=0.0,
         ),
         *vector("parameter", "initial.position", NED, "m", "parameters.initial_position", "CO at the start, in n"),
         *vector("parameter", "initial.attitude", ANGLES, "rad", "parameters.initial_attitude", "Attitude at the start"),

@@ -75,8 +75,8 @@ class ModelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu has no type info
         if self.resources is not None:
             record = confirmed(str(self.resources))
             self._ships, self.guid = record.ships, record.guid
-        named = isinstance(self.interface, str)
-        self._made_from: Interface = import_module(self.interface).INTERFACE if named else self.interface
+        made_from = self.interface
+        self._made_from: Interface = import_module(made_from).INTERFACE if isinstance(made_from, str) else made_from
         self.ports = self._made_from.ports(self._ships)
         self._refused = ""  # a call that was refused and that no status has told yet
 

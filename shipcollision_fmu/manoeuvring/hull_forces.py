@@ -1,6 +1,6 @@
 """Forces of the water on the bare hull in surge, sway and yaw.
 
-At moderate drift, the polynomials of the MMG standard model (Yasukawa & Yoshimura 2015, eq. 9), about midship:
+At moderate drift, the polynomials of the MMG standard model (Yasukawa & Yoshimura 2015), about midship:
 
     X_H = 1/2 rho L d   U^2 ( -R_0 + X_vv v'^2 + X_vr v' r' + X_rr r'^2 + X_vvvv v'^4 )
     Y_H = 1/2 rho L d   U^2 ( Y_v v' + Y_r r' + Y_vvv v'^3 + Y_vvr v'^2 r' + Y_vrr v' r'^2 + Y_rrr r'^3 )

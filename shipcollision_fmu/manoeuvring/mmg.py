@@ -1,6 +1,6 @@
 """The MMG standard model in surge, sway and yaw: equations of motion and their integration.
 
-    (m + m_x) u_dot - (m + m_y) v r - x_G m r^2                = X        Yasukawa & Yoshimura (2015), eq. 4
+    (m + m_x) u_dot - (m + m_y) v r - x_G m r^2                = X        Yasukawa & Yoshimura (2015)
     (m + m_y) v_dot + (m + m_x) u r + x_G m r_dot              = Y
     (I_zG + x_G^2 m + J_z) r_dot + x_G m (v_dot + u r)         = N        X, Y, N = hull + propeller + rudder + external
 

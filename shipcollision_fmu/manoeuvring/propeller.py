@@ -1,6 +1,6 @@
 """The propeller: inflow through the hull's wake, and thrust.
 
-    beta_P    = beta - x_P' r'                                             Yasukawa & Yoshimura (2015), eqs. 14-17
+    beta_P    = beta - x_P' r'                                             Yasukawa & Yoshimura (2015)
     1 - w_P   = (1 - w_P0) (1 + (1 - exp(-C_1 |beta_P|)) (C_2 - 1))        C_2 by the sign of beta_P
     u_P       = u (1 - w_P),   J = u_P / (n D_P)
     thrust    = rho n^2 D_P^4 (k_0 + k_1 J + k_2 J^2),   X_P = (1 - t_P) thrust

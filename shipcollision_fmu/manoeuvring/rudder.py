@@ -1,6 +1,6 @@
 """The rudder behind the propeller, and what it does to the hull.
 
-    X_R = -(1 - t_R) F_N sin(delta)                              Yasukawa & Yoshimura (2015), eqs. 18-24
+    X_R = -(1 - t_R) F_N sin(delta)                              Yasukawa & Yoshimura (2015)
     Y_R = -(1 + a_H) F_N cos(delta)
     N_R = -(x_R + a_H x_H) F_N cos(delta)
     F_N = 1/2 rho A_R U_R^2 f_alpha sin(alpha_R),   alpha_R = delta - atan2(v_R, u_R),   U_R = hypot(u_R, v_R)

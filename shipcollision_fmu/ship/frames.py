@@ -76,31 +76,40 @@ def attitude_unwrapped(attitude: Array, psi_near: float) -> Array:
 
 def rotation_vector(w: Sequence[float] | Array) -> Array:
     """exp(skew(w)): the rotation by |w| [rad] about w; (3, 3). Rodrigues' formula."""
-    x, y, z = w
+    x, y, z = float(w[0]), float(w[1]), float(w[2])
     angle = sqrt(x * x + y * y + z * z)
-    K = skew(w)
     if angle < 1e-8:  # the series is exact to rounding here, and 0/0 is avoided
-        return np.eye(3) + K + 0.5 * K @ K
-    return np.eye(3) + (sin(angle) / angle) * K + ((1 - cos(angle)) / angle**2) * K @ K
+        a, b = 1.0, 0.5
+    else:
+        a, b = sin(angle) / angle, 2.0 * (sin(0.5 * angle) / angle) ** 2
+    return np.array([
+        [1.0 - b * (y * y + z * z), b * x * y - a * z, b * x * z + a * y],
+        [b * x * y + a * z, 1.0 - b * (x * x + z * z), b * y * z - a * x],
+        [b * x * z - a * y, b * y * z + a * x, 1.0 - b * (x * x + y * y)],
+    ])  # fmt: skip
 
 
 def quaternion(R: Array) -> Array:
     """Unit quaternion (x, y, z, w), w >= 0, of a rotation matrix; (4,). Shepperd's choice of the largest pivot."""
-    m = R
-    trace = m[0, 0] + m[1, 1] + m[2, 2]
-    pivots = np.array([m[0, 0], m[1, 1], m[2, 2], trace])
-    i = int(pivots.argmax())
-    if i == 3:
-        q = np.array([m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1], 1.0 + trace])
+    return np.array(_quaternion(R))
+
+
+def _quaternion(R: Array) -> tuple[float, float, float, float]:
+    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = R.tolist()
+    trace = xx + yy + zz
+    if trace >= max(xx, yy, zz):
+        q = (zy - yz, xz - zx, yx - xy, 1.0 + trace)
+    elif xx >= max(yy, zz):
+        q = (1.0 - trace + 2.0 * xx, yx + xy, zx + xz, zy - yz)
+    elif yy >= zz:
+        q = (xy + yx, 1.0 - trace + 2.0 * yy, zy + yz, xz - zx)
     else:
-        j, k = (i + 1) % 3, (i + 2) % 3
-        q = np.zeros(4)
-        q[i] = 1.0 - trace + 2.0 * m[i, i]
-        q[j] = m[j, i] + m[i, j]
-        q[k] = m[k, i] + m[i, k]
-        q[3] = m[k, j] - m[j, k]
-    q /= np.linalg.norm(q)
-    return -q if q[3] < 0 else q
+        q = (xz + zx, yz + zy, 1.0 - trace + 2.0 * zz, yx - xy)
+    x, y, z, w = q
+    size = sqrt(x * x + y * y + z * z + w * w)
+    if w < 0.0:
+        size = -size
+    return (x / size, y / size, z / size, w / size)
 
 
 def rotation_from_quaternion(q: Sequence[float] | Array) -> Array:
@@ -121,13 +130,13 @@ def attitude_from_quaternion(q: Sequence[float] | Array) -> Array:
 def swapped(v: Sequence[float] | Array) -> tuple[float, float, float]:
     """The same vector in the other convention, n <-> w or b <-> Bullet's body axes: (y, x, -z)."""
     x, y, z = v
-    return (y, x, -z)
+    return (float(y), float(x), -float(z))
 
 
-def quaternion_w(R_nb: Array) -> Array:
-    """Bullet's quaternion (x, y, z, w) of a ship's attitude R_nb; (4,).
+def quaternion_w(R_nb: Array) -> tuple[float, float, float, float]:
+    """Bullet's quaternion (x, y, z, w) of a ship's attitude R_nb.
 
     Guan et al. 2014, Table 2, print its x, y, z as p, r, h.
     """
-    x, y, z, w = quaternion(R_nb)
-    return np.array([y, x, -z, w])
+    x, y, z, w = _quaternion(R_nb)
+    return (y, x, -z, w)

@@ -45,7 +45,7 @@ def _described(problem: Any, model: type[BaseModel]) -> str:
         return f"{_where(loc)} is not a known key:{suggestion(str(loc[-1]), known)} known: {', '.join(known)}"
     what = _description(model, loc)
     if kind == "missing":
-        return f"{_where(loc)} is missing: give {what or 'it'}"
+        return f"{_where(loc)} is missing: give {what or 'its value'}"
     message = problem["msg"].removeprefix("Value error, ")
     if kind == "value_error":
         if isinstance(value, dict) and len(loc) > 1 and not message.startswith("["):  # a check of a whole table

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+
+from shipcollision_fmu.cosim import fmu_files
 
 BARGE = """
 [ship]
@@ -54,6 +56,15 @@ friction = 0.3
 """
 
 Write = Callable[..., Path]
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _fmus_of_the_tests(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """The FMUs of these tests are built into a folder of their own, once."""
+    home = tmp_path_factory.mktemp("fmus")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(fmu_files, "fmu_directory", lambda ships=(): home / "-".join(ships))
+        yield
 
 
 @pytest.fixture

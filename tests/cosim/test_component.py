@@ -1,4 +1,4 @@
-"""FMU instances and models in process: the same interface, the same bits, errors with their reason, nothing left behind."""
+"""FMU instances and models in process: same interface, same bits, errors with their reason, nothing left behind."""
 
 from __future__ import annotations
 
@@ -124,7 +124,8 @@ def test_an_item_that_is_not_there_is_named(make: Make) -> None:
 
 
 def test_a_failed_initialisation_tells_the_models_reason(make: Make) -> None:
-    with pytest.raises(HostError, match=r"^one: initialisation failed: .*unknown ship 'kvlc2': did you mean kvlcc2") as said:
+    reason = r"^one: initialisation failed: .*unknown ship 'kvlc2': did you mean kvlcc2"
+    with pytest.raises(HostError, match=reason) as said:
         make("ShipManoeuvring").initialise(SAILING | {"ship": "kvlc2"}, 1.0)
     assert "py exception" not in str(said.value)
 
@@ -139,7 +140,7 @@ def test_a_refused_step_tells_when_and_why(make: Make, value: float) -> None:
     before = list(pose.values)
     current.values[0] = value
     current.write()
-    with pytest.raises(StepError, match=r"^one at t = 0.05 s: .*current.north = (nan|inf)"):
+    with pytest.raises(StepError, match=r"^one: current = \[(nan|inf), 0.0\] at t = 0.05 s must be finite"):
         ship.step(0.05, 0.05)
     pose.read()
     assert list(pose.values) == before
@@ -165,7 +166,7 @@ def test_closing_removes_the_unpacked_fmu_and_its_traces(built: dict[str, Path],
 def test_a_broken_fmu_is_refused_and_leaves_nothing(tmp_path: Path, temporary: Path, content: bytes) -> None:
     path = tmp_path / "broken.fmu"
     path.write_bytes(content)
-    with pytest.raises(HostError, match=r"broken.fmu cannot be read as an FMU: .*build it again with `shipcollision build`"):
+    with pytest.raises(HostError, match=r"broken.fmu cannot be read as an FMU: .*build it again with `shipcollision"):
         UnpackedFmu(path)
     assert list(temporary.iterdir()) == []
 
@@ -174,5 +175,5 @@ def test_an_fmu_without_its_library_is_refused(built: dict[str, Path], temporary
     with closing(UnpackedFmu(built["ShipManoeuvring"])) as fmu:
         for library in fmu.directory.glob("binaries/*/*"):
             library.unlink()
-        with pytest.raises(HostError, match=r"one: ShipManoeuvring.fmu cannot be instantiated: Cannot find shared library"):
+        with pytest.raises(HostError, match=r"one: ShipManoeuvring.fmu cannot be instantiated: Cannot find shared"):
             FmuComponent("one", fmu)

@@ -15,9 +15,8 @@ from shipcollision_fmu.ship.frames import rotation
 
 from .conftest import Write
 
-MANOEUVRES = (
-    ('ship = "./barge.toml"\nposition = [5.0, -64.0]', 'ship = "kvlcc2"\nhydrodynamics = true\nposition = [5.0, -640.0]'),
-)
+OWN = 'ship = "./barge.toml"\nposition = [5.0, -64.0]'
+MANOEUVRES = (OWN, 'ship = "kvlcc2"\nhydrodynamics = true\nposition = [5.0, -640.0]')
 
 
 def start(**given: object) -> ShipStart:
@@ -44,7 +43,7 @@ def test_a_path_of_a_ship_is_relative_to_the_scenario(scenario_file: Write, monk
 
 
 def test_steps_are_counted_in_whole_numbers() -> None:
-    """0.1 s three times is not 0.3 s in floats, and 0.05 does not divide 5.1 exactly; both are whole numbers of steps."""
+    """0.1 s three times is not 0.3 s in floats, and 5.1/0.05 is not 102; both are whole numbers of steps."""
     for duration, step, steps in ((0.3, 0.1, 3), (5.1, 0.05, 102), (120.0, 0.05, 2400), (5.0, 1 / 60, 300)):
         assert Header(name="x", duration=duration, step=step).steps == steps
 
@@ -89,7 +88,7 @@ def test_of_orders_on_one_communication_point_the_last_counts() -> None:
 
 def test_a_current_may_have_a_speed_and_a_direction(scenario_file: Write) -> None:
     added = "\n[environment]\ncurrent = {speed = 2.0, towards_deg = 90.0}\n"
-    scenario = load_scenario(scenario_file(*MANOEUVRES, added=added))
+    scenario = load_scenario(scenario_file(MANOEUVRES, added=added))
     np.testing.assert_allclose(scenario.environment.current, [0.0, 2.0], atol=1e-15)
 
 
@@ -118,14 +117,14 @@ def test_every_shipped_scenario_can_be_loaded() -> None:
         ("step = 0.05", 'step = "fast"', r"\[scenario\] step = 'fast' must be a valid number"),
         ("step = 0.05", "step = 0.07", r"duration = 3 s is 42.8571 steps of 0.07 s, .* take duration = 2.94 or 3.01"),
         ("step = 0.05", "step = 10.0", r"duration = 3 s is 0.3 steps of 10 s, .* take duration = 10, or a step"),
-        ("step = 0.05", "step = 1e-7", r"step = 1e-07 s makes 3e\+07 steps of 3 s, the limit is 1000000: take a longer"),
+        ("step = 0.05", "step = 1e-7", r"step = 1e-07 s makes 3e\+07 steps of 3 s, the limit is 1000000: take a"),
         ("duration = 3.0", "duration = -3.0", r"\[scenario\] duration = -3.0 must be greater than 0"),
         ("duration = 3.0", "", r"\[scenario\] duration is missing: give a whole number of steps"),
         ("duration = 3.0", "durration = 3.0", r"\[scenario\] durration is not a known key: did you mean duration\?"),
         ('"encounter"', '"../up"', r"\[scenario\] name = '../up' cannot name a folder: take letters"),
         ("step = 0.05", 'algorithm = "gauss"', r"algorithm = 'gauss' must be 'gauss-seidel' or 'jacobi'"),
         ('ship = "./barge.toml"', 'ship = "kvlc2"', r"unknown ship 'kvlc2': did you mean kvlcc2\? known: .*kvlcc2"),
-        ('ship = "./barge.toml"', 'ship = "./brig.toml"', r"\[ships.own\] ship = './brig.toml': ship file .* does not exist"),
+        ('ship = "./barge.toml"', 'ship = "./brig.toml"', r"\[ships.own\] ship = './brig.toml': ship file .* does not"),
         ("heading_deg = 90.0", "heading = 90.0", r"\[ships.own\] heading is not a known key: did you mean heading_deg"),
         ("heading_deg = 90.0", "", r"\[ships.own\] heading_deg is missing: clockwise from north"),
         ("speed = 4.0", "speed = 400.0", r"\[ships.own\] moves at 400 m/s, the limit is 50: give metres per second"),
@@ -134,14 +133,14 @@ def test_every_shipped_scenario_can_be_loaded() -> None:
         ("speed = 4.0", "rates = [0.0, 0.0, 3.0]", r"\[ships.own\] turns at 3 rad/s, the limit is 1: give radians"),
         ("speed = 4.0", "rates = [0.0, 3.0]", r"\[ships.own\] rates = \[0.0, 3.0\] .* at least 3 items"),
         ("speed = 4.0", "quaternion = [0.0, 0.0, 0.0, 1.0]", r"\[ships.own\] gives both quaternion and heading_deg"),
-        ("speed = 4.0", "attitude_deg = [95.0, 0.0]", r"\[ships.own\] attitude_deg = \[95.0, 0.0\] must be within 90 deg"),
-        ("heading_deg = 90.0", "quaternion = [0.0, 0.0, 0.0, 2.0]", r"\[ships.own\] quaternion has length 2, must be 1"),
-        ("speed = 4.0", "hydrodynamics = true", r"\[ships.own\] ship = .* can only coast, it has no table \[manoeuvring\]"),
-        ("speed = 4.0", "orders = [{time = 0.0, rudder_deg = 5.0}]", r"\[ships.own\] has orders, but coasts: set hydro"),
-        ("speed = 4.0", "orders = [{time = 0.0}]", r"\[ships.own.orders.0\] orders nothing: give rudder_deg or rev_per_s"),
+        ("speed = 4.0", "attitude_deg = [95.0, 0.0]", r"\[ships.own\] attitude_deg = \[95.0, 0.0\] must be within 90"),
+        ("heading_deg = 90.0", "quaternion = [0.0, 0.0, 0.0, 2.0]", r"quaternion has length 2, must be 1 within"),
+        ("speed = 4.0", "hydrodynamics = true", r"\[ships.own\] ship = .* can only coast, it has no table"),
+        ("speed = 4.0", "orders = [{time = 0.0, rudder_deg = 5.0}]", r"\[ships.own\] has orders, but coasts: set"),
+        ("speed = 4.0", "orders = [{time = 0.0}]", r"\[ships.own.orders.0\] orders nothing: give rudder_deg or"),
         ("speed = 4.0", "orders = [{time = -1.0, rudder_deg = 5.0}]", r"\[ships.own\] orders\[0\].time = -1.0 must be"),
         ("speed = 4.0", "degrees_of_freedom = 5", r"\[ships.own\] degrees_of_freedom = 5 must be 3, 4 or 6"),
-        ("position = [5.0, -64.0]", "position = [0.0, 0.0]", r"\[ships.target\] position = .* is also that of own: move"),
+        ("position = [5.0, -64.0]", "position = [0.0, 0.0]", r"\[ships.target\] position = .* is also that of own"),
         ("position = [5.0, -64.0]", "position = [0.0]", r"\[ships.own\] position = \[0.0\] .* at least 2 items"),
         ("[ships.own]", '[ships."own ship"]', r"\[ships.own ship\] is no name for a ship, .* take letters"),
         ("[ships.own]", "[ships.contact]", r"\[ships.contact\] is no name for a ship, .* none of .*contact"),
@@ -150,10 +149,10 @@ def test_every_shipped_scenario_can_be_loaded() -> None:
         ("friction = 0.3", 'response = "psg"', r"\[collision\] response = 'psg' is not offered: take one of .*pgs"),
         ("friction = 0.3", 'feedback = "state"', r'\[collision\] feedback = "state" wants ships that adopt post'),
         ("friction = 0.3", "[environment]\nwind = 10.0", r"\[environment\] wind = 10.0 is refused, .* remove the key"),
-        ("friction = 0.3", "[environment]\ncurrent = [1.0, 0.0]", r"\[environment\] current acts on no ship: set hydro"),
+        ("friction = 0.3", "[environment]\ncurrent = [1.0, 0.0]", r"\[environment\] current acts on no ship: set"),
         ("friction = 0.3", "[environment]\ncurrent = [99.0, 0.0]", r"runs faster than the limit of 10 m/s"),
-        ("friction = 0.3", "[environment]\ncurrent = {speed = 1.0}", r"\[environment\] current = .* must be two finite"),
-        ("friction = 0.3", "[waves]\nheight = 1.0", r"\[waves\] is not a known key: .*known: scenario, ships, collision"),
+        ("friction = 0.3", "[environment]\ncurrent = {speed = 1.0}", r"\[environment\] current = .* must be two"),
+        ("friction = 0.3", "[waves]\nheight = 1.0", r"\[waves\] is not a known key: .*known: scenario, ships, col"),
         ("friction = 0.3", "friction = ", r"encounter.toml: is not valid TOML: .* line"),
     ],
 )  # fmt: skip
@@ -167,12 +166,12 @@ def test_what_cannot_be_run_is_refused_in_one_line(scenario_file: Write, old: st
 @pytest.mark.parametrize(
     ("orders", "line"),
     [
-        ("[{time = 1.0, rudder_deg = 5.0}, {time = 1.0, rudder_deg = 6.0}]", r"\[ships.own\] orders: time 1 s comes after 1 s"),
+        ("[{time = 1.0, rudder_deg = 5.0}, {time = 1.0, rudder_deg = 6.0}]", r"orders: time 1 s comes after 1 s: put"),
         ("[{time = 4.0, rudder_deg = 5.0}]", r"\[ships.own\] orders: time 4 s is after the end: must be <= 3 s"),
     ],
 )  # fmt: skip
 def test_orders_that_are_never_given_are_refused(scenario_file: Write, orders: str, line: str) -> None:
-    path = scenario_file(*MANOEUVRES, ("speed = 4.0", f"speed = 4.0\norders = {orders}"))
+    path = scenario_file(MANOEUVRES, ("speed = 4.0", f"speed = 4.0\norders = {orders}"))
     with pytest.raises(ScenarioError, match=line):
         load_scenario(path)
 
@@ -180,8 +179,8 @@ def test_orders_that_are_never_given_are_refused(scenario_file: Write, orders: s
 @pytest.mark.parametrize(
     ("barge", "line"),
     [
-        (("mass = 8.2e6", "mass = -8.2e6"), r"encounter.toml: \[ships.own\] ship = './barge.toml': .*mass = -8200000.0"),
-        (("mass = 8.2e6", "mass = 22.0e6"), r"encounter.toml: \[ships.own\] ship = './barge.toml': .*rho L_pp B T|rho L B T"),
+        (("mass = 8.2e6", "mass = -8.2e6"), r"\[ships.own\] ship = './barge.toml': .*mass = -8200000.0"),
+        (("mass = 8.2e6", "mass = 22.0e6"), r"\[ships.own\] ship = './barge.toml': .*rho L_pp B T"),
     ],
 )  # fmt: skip
 def test_a_ship_that_cannot_be_is_refused(scenario_file: Write, barge: tuple[str, str], line: str) -> None:
@@ -192,11 +191,9 @@ def test_a_ship_that_cannot_be_is_refused(scenario_file: Write, barge: tuple[str
 
 def test_one_ship_is_not_enough(tmp_path: Path) -> None:
     path = tmp_path / "alone.toml"
-    path.write_text(
-        '[scenario]\nname = "alone"\nduration = 1.0\n[ships.own]\nship = "kvlcc2"\nposition = [0, 0]\nheading_deg = 0\n',
-        encoding="utf-8",
-    )
-    with pytest.raises(ScenarioError, match=r"alone.toml: \[ships\] = .* at least 2 items .*table \[ships.NAME\] for each"):
+    own = '[ships.own]\nship = "kvlcc2"\nposition = [0, 0]\nheading_deg = 0\n'
+    path.write_text(f'[scenario]\nname = "alone"\nduration = 1.0\n{own}', encoding="utf-8")
+    with pytest.raises(ScenarioError, match=r"alone.toml: \[ships\] = .* at least 2 items .*table \[ships.NAME\] for"):
         load_scenario(path)
 
 

@@ -86,6 +86,6 @@ def test_numbers_read_back_as_the_same_double(dummy: ModuleType) -> None:
         return made
 
     root = model_description(replace(dummy.INTERFACE, model=model), (), "")
-    starts = {v.get("name"): v[0].get("start") for v in root.iter("ScalarVariable")}
+    starts = {v.get("name"): v[0].get("start", "") for v in root.iter("ScalarVariable")}
     assert float(starts["gain.first"]) == 5e-324
     assert starts["gain.second"] == "-INF"

@@ -8,7 +8,6 @@ import shutil
 import subprocess
 import sys
 import zipfile
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -30,11 +29,6 @@ ROOT = Path(shipcollision_fmu.__file__).parent.parent
 @pytest.fixture(scope="module")
 def built(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     return build_fmus(tmp_path_factory.mktemp("built") / "new" / "folder")
-
-
-@pytest.fixture(autouse=True)
-def _tidy(_tidy_path: None) -> Iterator[None]:
-    yield
 
 
 def in_a_process(code: str, *arguments: object, **environment: str) -> str:
@@ -278,7 +272,8 @@ assert not messages, messages
 
 def test_an_fmu_refuses_to_run_on_another_build(built: dict[str, Path], tmp_path: Path) -> None:
     other = tmp_path / "other"
-    shutil.copytree(ROOT / "shipcollision_fmu", other / "shipcollision_fmu", ignore=shutil.ignore_patterns("__pycache__"))
+    left_out = shutil.ignore_patterns("__pycache__")
+    shutil.copytree(ROOT / "shipcollision_fmu", other / "shipcollision_fmu", ignore=left_out)
     with (other / "shipcollision_fmu" / "errors.py").open("a") as file:
         file.write("# changed\n")
     folder = unpacked(built["ShipManoeuvring"], tmp_path / "fmu")

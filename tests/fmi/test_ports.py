@@ -204,7 +204,7 @@ def test_a_state_whose_parameters_are_refused_changes_nothing(ports: Ports) -> N
         (real("input", "a", "m", "inputs.number", None, ""), "7 at inputs.number is not a value of Real"),
         (integer("input", "a", "inputs.open", ""), "False at inputs.open is not a value of Integer"),
         (boolean("input", "a", "inputs.number", ""), "7 at inputs.number is not a value of Boolean"),
-        (enumeration("parameter", "a", ("x", "y"), "parameters.method", ""), "'pgs' at .* is not a value of Enumeration"),
+        (enumeration("parameter", "a", ("x", "y"), "parameters.method", ""), "'pgs' at .* not a value of Enumeration"),
     ],
 )
 def test_a_table_must_fit_the_model(dummy: ModuleType, line: Any, reason: str) -> None:

@@ -42,8 +42,8 @@ def test_start_values_in_the_xml_are_those_of_an_instance(host: Make, unpacked: 
             variable.type, a.fmu.getInteger
         )
         (value,) = get([variable.valueReference])
-        text = {"Real": float, "Boolean": lambda t: t == "true", "String": str.encode}.get(variable.type, int)
-        assert value == text(variable.start), variable.name
+        read: dict[str, Callable[[str], Any]] = {"Real": float, "Boolean": "true".__eq__, "String": str.encode}
+        assert value == read.get(variable.type, int)(variable.start), variable.name
         seen += 1
     assert seen == 12
 
@@ -120,7 +120,7 @@ def test_a_fault_of_the_model_discards_until_restored(host: Make) -> None:
     before, saved = a.everything(), a.saved()
     a.fmu.setString(a.reference("word"), ["divide"])
     assert a.step(1) == DISCARD
-    assert a.messages[-1][1].startswith("Dummy failed at t = 0.1 s: ZeroDivisionError: float division by zero (Dummy.py,")
+    assert a.messages[-1][1].startswith("Dummy failed at t = 0.1 s: ZeroDivisionError: float division by zero (Dummy.")
     a.fmu.setString(a.reference("word"), ["start"])
     assert a.step(1) == DISCARD  # nobody knows how far the step got
     assert a.messages[-1][1].endswith("; reset it or restore a saved state")
@@ -194,14 +194,15 @@ def test_parameters_may_be_corrected_during_initialisation(host: Make) -> None:
     assert a.step(0) == OK
 
 
-def test_simulate_fmu_raises_when_initialisation_fails(dummy_fmu: Path, _tidy_path: None) -> None:
+@pytest.mark.usefixtures("_tidy_path")
+def test_simulate_fmu_raises_when_initialisation_fails(dummy_fmu: Path) -> None:
     with pytest.raises(FMICallException, match="fmi2ExitInitializationMode failed with status 4"):
         simulate_fmu(str(dummy_fmu), start_values={"name": "bad"}, stop_time=1.0)
 
 
 REFUSED = [
     (lambda a: a.fmu.setReal(a.reference("push.x", "place.x"), [5.0, 1.0]), "place.x is an output and cannot be set"),
-    (lambda a: a.fmu.setReal([a.references["push.x"], 99], [5.0, 1.0]), "value reference 99 is unknown; it has 0 to 18"),
+    (lambda a: a.fmu.setReal([a.references["push.x"], 99], [5.0, 1.0]), "value reference 99 is unknown; it has 0 to"),
     (lambda a: a.fmu.setReal([4294967295], [1.0]), "value reference -1 is unknown"),
     (lambda a: a.fmu.setReal(a.reference("number"), [1.0]), "number (value reference 10) is Integer, not Real"),
     (lambda a: a.fmu.setReal(a.reference("gain.first"), [1.0]), "parameter gain.first is fixed since initialisation"),

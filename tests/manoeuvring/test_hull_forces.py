@@ -19,7 +19,7 @@ L, D, RHO = 320.0, 20.8, 1025.0
 FORCE, MOMENT = 0.5 * RHO * L * D, 0.5 * RHO * L**2 * D
 
 speed = st.floats(-12.0, 12.0)
-yaw = st.floats(-0.1, 0.1)
+turning = st.floats(-0.1, 0.1)
 
 
 def at(U: float, beta: float, r_prime: float) -> tuple[float, float, float]:
@@ -37,19 +37,19 @@ def test_polynomials_of_the_paper() -> None:
     np.testing.assert_allclose(at(U, radians(12.0), 0.4), expected, rtol=1e-12)
 
 
-@given(speed, speed, yaw)
+@given(speed, speed, turning)
 def test_mirror_symmetry(u: float, v: float, r: float) -> None:
     X, Y, N = hull(u, v, r)
     assert hull(u, -v, -r) == pytest.approx((X, -Y, -N), rel=1e-12, abs=1e-9)
 
 
-@given(speed, speed, yaw, st.floats(1e-3, 10.0))
+@given(speed, speed, turning, st.floats(1e-3, 10.0))
 def test_forces_grow_with_the_square_of_the_motion(u: float, v: float, r: float, k: float) -> None:
     scaled = np.array(hull(k * u, k * v, k * r))
     np.testing.assert_allclose(scaled / k**2, hull(u, v, r), rtol=1e-6, atol=1e-3)
 
 
-@given(speed, speed, yaw)
+@given(speed, speed, turning)
 def test_bounded_in_every_direction(u: float, v: float, r: float) -> None:
     """No direction, not even sideways, astern or spinning, has a coefficient above a few."""
     X, Y, N = hull(u, v, r)
@@ -85,13 +85,14 @@ def test_sideways_is_cross_flow_drag() -> None:
 def test_spinning_on_the_spot_is_braked() -> None:
     """C_D = 1 over the length: N = -1/2 rho d int |x r| x r x dx = -1/2 rho L^2 d (r L)^2 / 32."""
     r = 0.02
-    assert hull(0.0, 0.0, r) == pytest.approx((0.0, 0.0, -MOMENT * (r * L) ** 2 / 32.0), abs=1e-6)
+    spinning = hull(0.0, 0.0, r)
+    assert spinning == pytest.approx((0.0, 0.0, -MOMENT * (r * L) ** 2 / 32.0), abs=1e-6)
 
 
 def test_astern_is_braked_as_ahead() -> None:
-    X, Y, N = hull(-3.0, 0.0, 0.0)
-    assert X == pytest.approx(FORCE * 0.00785 * 9.0)
-    assert (Y, N) == (0.0, 0.0)
+    surge, sway, yaw = hull(-3.0, 0.0, 0.0)
+    assert surge == pytest.approx(FORCE * 0.00785 * 9.0)
+    assert sway == yaw == 0.0
 
 
 @given(st.floats(-5.0, 5.0), st.floats(-5.0, 5.0))

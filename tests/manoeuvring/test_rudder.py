@@ -22,7 +22,7 @@ RUDDER = Rudder(SHIP, SHIP.rudder, SHIP.propeller)
 @pytest.mark.parametrize(("v", "r"), [(-1.0, 0.01), (1.0, -0.01), (0.3, 0.02)])
 @pytest.mark.parametrize("delta", [0.6, -0.3])
 def test_forces_of_the_paper(v: float, r: float, delta: float) -> None:
-    """Equations 18 to 24 as printed, with J and K_T, at u = 6 m/s, n = 1.2 /s."""
+    """The equations as published, with J and K_T, at u = 6 m/s, n = 1.2 /s."""
     u, n, L, rho, D_P, H_R, A_R = 6.0, 1.2, 320.0, 1025.0, 9.86, 15.8, 112.5
     U, beta, r_prime = hypot(u, v), atan2(-v, u), r * L / hypot(u, v)
     u_P = PROPELLER.inflow(u, v, r)

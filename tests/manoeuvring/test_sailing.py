@@ -94,6 +94,22 @@ def test_service_speed_is_the_equilibrium(start: Start) -> None:
     assert ship.outputs.attitude == [0.0, 0.0, 0.0]
 
 
+def test_equations_of_motion_of_the_paper(start: Start) -> None:
+    """Accelerations over an instant, from the forces that the model itself reports."""
+    u, v, r, h = 5.0, -0.8, 0.012, 1e-6
+    ship = start(**MMG, velocity=[u, v, 0.0], rate=[0.0, 0.0, r], orders=[0.0, 1.2])
+    o = ship.outputs
+    X, Y, N = (o.hull[i] + o.propeller[i] + o.rudder[i] for i in (0, 1, 5))
+    L, d, m, x_G = 320.0, 20.8, 320.415e6, 11.2
+    unit = 0.5 * 1025.0 * L**2 * d
+    m_x, m_y, J_z, I_zG = 0.022 * unit, 0.223 * unit, 0.011 * unit * L**2, m * 80.0**2
+    ship.step(0.0, h)
+    u_dot, v_dot, r_dot = (np.array([*o.velocity[:2], o.rate[2]]) - [u, v, r]) / h
+    assert (m + m_x) * u_dot - (m + m_y) * v * r - x_G * m * r**2 == pytest.approx(X, rel=1e-3, abs=1e3)
+    assert (m + m_y) * v_dot + (m + m_x) * u * r + x_G * m * r_dot == pytest.approx(Y, rel=1e-3)
+    assert (I_zG + x_G**2 * m + J_z) * r_dot + x_G * m * (v_dot + u * r) == pytest.approx(N, rel=1e-3)
+
+
 def test_forces_at_the_end_of_a_step_are_those_of_its_state(start: Start) -> None:
     ship = start(**MMG, velocity=[7.0, 0.0, 0.0], orders=[0.3, 1.2], current=[0.5, 0.5])
     sail(ship, 20.0)

@@ -1,9 +1,10 @@
 """Turning circles of KVLCC2 against Yasukawa & Yoshimura (2015), J. Mar. Sci. Technol. 20:37-52, tables 4 and 6.
 
-35 deg rudder at 15.5 kn (full-scale equivalent). The 7 m model with its own resistance and 10.4 rev/s, as in its free-
-running tests; the full ship with ship-scale resistance and the revolutions that go with it: lower resistance means
-fewer revolutions, a weaker race on the rudder and a wider turn. The order of port and starboard is not tested: the
-published one depends on details that these equations do not settle.
+35 deg rudder at 15.5 kn (full-scale equivalent). The rows are the paper's as quoted in a public validation script. The
+7 m model runs with its own resistance and 10.4 rev/s, as in its free-running tests; the full ship with ship-scale
+resistance and the revolutions that go with it: lower resistance means fewer revolutions, a weaker race on the rudder
+and a wider turn. The order of port and starboard is not tested: the published one depends on details that these
+equations do not settle.
 """
 
 from __future__ import annotations

@@ -1,0 +1,274 @@
+"""The command line: results on stdout, one line on stderr for a mistake, exit status 0, 1 or 2, nothing half-done."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from shipcollision_fmu import __version__
+from shipcollision_fmu.cli import main
+from shipcollision_fmu.cosim import fmu_files
+
+BARGE = """
+[ship]
+name = "Barge"
+kind = "barge"
+source = "made up for the tests"
+[particulars]
+L_pp = 100.0
+B = 20.0
+T = 5.0
+mass = 8.2e6
+[hull]
+shape = "box"
+depth = 8.0
+"""
+
+SCENARIO = """
+[scenario]
+name = "encounter"
+duration = 1.5
+[ships.own]
+ship = "./barge.toml"
+position = [5.0, -62.0]
+heading_deg = 90.0
+speed = 4.0
+[ships.target]
+ship = "./barge.toml"
+position = [0.0, 0.0]
+heading_deg = 0.0
+"""
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A working folder with a scenario in it; FMUs are kept in another."""
+    here = tmp_path / "here"
+    here.mkdir()
+    (here / "barge.toml").write_text(BARGE, encoding="utf-8")
+    (here / "encounter.toml").write_text(SCENARIO, encoding="utf-8")
+    monkeypatch.chdir(here)
+    monkeypatch.setattr(fmu_files, "fmu_directory", lambda ships=(): tmp_path / "fmus")
+    return here
+
+
+def called(*arguments: str) -> Result:
+    return CliRunner().invoke(main, list(arguments))
+
+
+def fresh(*arguments: str, cwd: Path, prelude: str = "") -> subprocess.CompletedProcess[str]:
+    """The command in an interpreter of its own, after some lines of Python."""
+    code = f"{prelude}\nfrom shipcollision_fmu.cli import main\nmain()"
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(fmu_files._PACKAGE.parent), *sys.path])}
+    return subprocess.run(
+        [sys.executable, "-c", code, *arguments], cwd=cwd, env=environment, capture_output=True, text=True, timeout=120
+    )  # fmt: skip
+
+
+def test_help_is_everywhere() -> None:
+    assert called().output == called("--help").output
+    for command in ("run", "build", "ships", "scenarios", "validate"):
+        assert command in called("--help").output
+        result = called(command, "--help")
+        assert result.exit_code == 0
+        assert result.output.startswith(f"Usage: main {command}")
+    assert __version__ in called("--version").output
+
+
+@pytest.mark.parametrize("how", [[], ["--in-process"], ["--algorithm", "jacobi"], ["--step", "0.1"]])
+def test_run_stores_and_shows_what_happened(folder: Path, how: list[str]) -> None:
+    result = called("run", "encounter.toml", *how)
+    assert result.exit_code == 0, result.stderr
+    assert "own - target" in result.stdout
+    assert "MJ dissipated in contact" in result.stdout
+    assert "stored in runs/encounter" in result.stdout
+    assert "[m/s]" in result.stdout
+    assert {path.name for path in (folder / "runs" / "encounter").iterdir()} == {
+        "states.csv", "contacts.csv", "events.json", "summary.json", "timing.json",
+    }  # fmt: skip
+
+
+def test_run_compares_with_what_was_published(folder: Path) -> None:
+    reference = """
+        [reference]
+        source = "A paper, Table 2"
+        time = 1.0
+        [reference.ships.own]
+        printed = {x = -58.0, y = 7.0, v_x = 4.0}
+        corrected = {y = 5.0}
+        tolerance = {horizontal = 0.1, vertical = 0.1, quaternion = 0.005, velocity = 1e-9, rate = 0.003}
+    """
+    with Path("encounter.toml").open("a", encoding="utf-8") as file:
+        file.write(reference)
+    result = called("run", "encounter.toml", "--in-process")
+    assert result.exit_code == 0, result.stderr
+    assert "encounter: A paper, Table 2, at 1 s" in result.stdout
+    rows = [line.split() for line in result.stdout.splitlines()]
+    (y,) = (row for row in rows if row[:2] == ["y", "m"])
+    assert y[2:4] == ["7.0000", "*5.0000"]
+    assert y[-1] == "yes"
+    (v_x,) = (row for row in rows if row[:2] == ["v_x", "m/s"])
+    assert v_x[-1] == "NO"  # the ships touch at 0.5 s
+    assert "of 3 numbers within tolerance" in result.stdout
+
+
+def test_a_published_collision_is_the_default() -> None:
+    result = called("run", "--help")
+    assert "guan2014" in result.output
+    (argument,) = (p for p in main.commands["run"].params if p.name == "scenario")
+    assert argument.default == "guan2014"
+
+
+def test_ships_and_scenarios_are_listed() -> None:
+    ships, scenarios = called("ships"), called("scenarios")
+    assert (ships.exit_code, scenarios.exit_code) == (0, 0)
+    assert "kvlcc2" in ships.stdout
+    assert "L_pp [m]" in ships.stdout
+    assert "kvlcc2_crossing" in scenarios.stdout
+
+
+def test_build_and_validate(folder: Path) -> None:
+    built = called("build", "--out", "fmus")
+    assert built.exit_code == 0, built.stderr
+    assert built.stdout.split() == ["fmus/ShipCollision.fmu", "fmus/ShipManoeuvring.fmu"]
+    for path in built.stdout.split():
+        result = called("validate", path)
+        assert (result.exit_code, result.stdout) == (0, f"{path}: no problem found\n")
+
+
+def test_validate_fails_on_a_problem(folder: Path) -> None:
+    import zipfile
+
+    with zipfile.ZipFile("spoilt.fmu", "w") as archive:
+        archive.writestr("modelDescription.xml", "<fmiModelDescription/>")
+    result = called("validate", "spoilt.fmu")
+    assert result.exit_code == 1
+    assert result.stdout.startswith("spoilt.fmu: ")
+    assert result.stderr.startswith("error: spoilt.fmu has ")
+
+
+def edited(old: str, new: str) -> None:
+    for name in ("encounter.toml", "barge.toml"):
+        path = Path(name)
+        path.write_text(path.read_text(encoding="utf-8").replace(old, new), encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "arguments", "status", "line"),
+    [
+        ("speed", "sped", [], 2, "encounter.toml: [ships.own] sped is not a known key: did you mean speed?"),
+        ("./barge.toml", "kvlc2", [], 2, "unknown ship 'kvlc2': did you mean kvlcc2?"),
+        ("8.2e6", "-8.2e6", [], 2, "[ships.own] ship = './barge.toml': barge.toml: [particulars] mass = -8200000.0"),
+        ("8.2e6", "82e6", [], 2, "rho"),
+        ("[scenario]", "[scenario]\nstep = 0.0", [], 2, "encounter.toml: [scenario] step = 0.0 must be greater than 0"),
+        ("", "", ["--step", "0"], 2, "encounter.toml with step 0.0: [scenario] step = 0.0 must be greater than 0"),
+        ("", "", ["--step", "nan"], 2, "encounter.toml with step nan: [scenario] step = nan must be a finite number"),
+        ("", "", ["--step", "0.4"], 2, "duration = 1.5 s is 3.75 steps of 0.4 s, must be a whole number: take"),
+        ("", "", ["--step", "x"], 2, "Invalid value for '--step': 'x' is not a valid float"),
+        ("4.0", "nan", [], 2, "encounter.toml: [ships.own] speed = nan must be a finite number"),
+        ("", "", ["--algorithm", "gauss"], 2, "Invalid value for '--algorithm': 'gauss' is not one of"),
+        ("", "", ["--stp", "1"], 2, "No such option"),
+        ("", "", ["--out", "barge.toml"], 1, "cannot write to barge.toml: barge.toml is not a folder; give another"),
+        ("", "", ["--out", "/proc/x"], 1, "cannot write to /proc/x: "),
+    ],
+)  # fmt: skip
+def test_a_mistake_is_one_line_and_writes_nothing(
+    folder: Path, old: str, new: str, arguments: list[str], status: int, line: str
+) -> None:
+    edited(old, new)
+    before = sorted(folder.rglob("*"))
+    result = called("run", "encounter.toml", *arguments)
+    assert result.exit_code == status
+    assert result.stdout == ""
+    assert result.stderr.startswith("error: ")
+    assert result.stderr.count("\n") == 1
+    assert line in result.stderr
+    assert sorted(folder.rglob("*")) == before
+
+
+@pytest.mark.parametrize(
+    ("arguments", "status", "line"),
+    [
+        (["rnu"], 2, "unknown command 'rnu': did you mean run? known: build, run, scenarios, ships, validate"),
+        (["run", "kvlcc2_crosing"], 2, "unknown scenario 'kvlcc2_crosing': did you mean kvlcc2_crossing? known: "),
+        (["run", "absent.toml"], 2, "scenario file absent.toml does not exist: give the path of a TOML file or one of"),
+        (["run", "one", "two"], 2, "Got unexpected extra argument"),
+        (["validate"], 2, "Missing argument 'FMU'"),
+        (["validate", "absent.fmu"], 2, "absent.fmu does not exist: build the FMUs with `shipcollision build`"),
+        (["validate", "barge.toml"], 2, "barge.toml is not a zip archive: give the path of a .fmu file"),
+        (["build", "--out", "barge.toml"], 1, "the FMUs cannot be written to barge.toml: "),
+    ],
+)
+def test_bad_usage_is_one_line(folder: Path, arguments: list[str], status: int, line: str) -> None:
+    result = called(*arguments)
+    assert result.exit_code == status
+    assert result.stdout == ""
+    assert result.stderr.startswith("error: ")
+    assert result.stderr.count("\n") == 1
+    assert line in result.stderr
+
+
+def test_a_nan_in_mid_run_is_one_line_and_writes_nothing(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from shipcollision_fmu.cosim import simulate
+
+    advance = simulate.ALGORITHMS["gauss-seidel"]
+
+    def broken(system: object, t: float, h: float) -> None:
+        system.states[1].outputs.values[0] = float("nan")  # type: ignore[attr-defined]
+        advance(system, t, h)  # type: ignore[arg-type]
+
+    monkeypatch.setitem(simulate.ALGORITHMS, "gauss-seidel", broken)
+    result = called("run", "encounter.toml")
+    assert result.exit_code == 1
+    assert result.stderr.startswith("error: collision: target.position = [nan, 0.0, 0.0] at t = 0.0 s is not finite")
+    assert result.stderr.count("\n") == 1
+    assert not (folder / "runs").exists()
+
+
+def test_an_interrupted_run_writes_nothing(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from shipcollision_fmu.cosim import simulate
+
+    def interrupted(system: object, t: float, h: float) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setitem(simulate.ALGORITHMS, "gauss-seidel", interrupted)
+    result = called("run", "encounter.toml", "--in-process")
+    assert result.exit_code == 1
+    assert result.stderr.lstrip() == "error: interrupted; nothing is written\n"
+    assert not (folder / "runs").exists()
+
+
+@pytest.mark.parametrize("command", ["run", "build"])
+def test_without_pybullet_it_is_one_line(folder: Path, command: str) -> None:
+    """Python treats a module that is None in sys.modules as one that is not installed."""
+    result = fresh(command, cwd=folder, prelude="import sys; sys.modules['pybullet'] = None")
+    assert result.returncode == 1
+    assert result.stdout == ""
+    assert result.stderr.startswith("error: pybullet, which finds the contacts, is not installed: run `python -m pip")
+    assert "3.10 or 3.11" in result.stderr
+    assert result.stderr.count("\n") == 1
+    assert sorted(path.name for path in folder.iterdir()) == ["barge.toml", "encounter.toml"]
+
+
+def test_a_real_process_ends_as_it_should(folder: Path) -> None:
+    done = fresh("run", "encounter.toml", "--in-process", "--out", "out", cwd=folder)
+    assert done.returncode == 0
+    assert "stored in out" in done.stdout
+    assert "\x1b" not in done.stdout + done.stderr  # no colours in a pipe
+    refused = fresh("run", "absent.toml", cwd=folder)
+    assert (refused.returncode, refused.stdout) == (2, "")
+    assert refused.stderr.startswith("error: scenario file absent.toml does not exist")
+    assert refused.stderr.count("\n") == 1
+
+
+def test_the_package_is_the_command_too(folder: Path) -> None:
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(fmu_files._PACKAGE.parent), *sys.path])}
+    command = [sys.executable, "-m", "shipcollision_fmu", "--version"]
+    done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert __version__ in done.stdout
