@@ -49,6 +49,10 @@ class Detector:
         """Least distance [m] between two placed hulls, negative in overlap, at most `cap`."""
         return min((c.gap for c in self.engine.closest(a, b, cap)), default=cap)
 
+    def touching(self, a: int, b: int) -> bool:
+        """Whether two placed hulls touch or overlap."""
+        return any(c.gap <= 0.0 for c in self.engine.closest(a, b, 0.0))
+
     def contacts(self, a: int, b: int, shadows: Sequence[Shadow], kept: KeptNormals) -> list[Contact]:
         """Contact points of two placed hulls, gap <= 0. Updates `kept` while the overlap is shallow."""
         touching = [c for c in self.engine.closest(a, b, 0.0) if c.gap <= 0.0]

@@ -43,8 +43,8 @@ from .slots import Slot, merged
 
 __all__ = ["ShipCollision"]
 
-REACH_MARGIN = 3.0
-"""Gap [m] within which a pair counts as near at rest: Bullet's own dynamics looks about that far ahead."""
+REACH_MARGIN = 0.1
+"""Gap [m] within which a pair at rest still counts as near."""
 
 ABSURD_SPEED = 1e3
 """Speeds [m/s] from here on are refused: a broken signal, not a ship."""

@@ -60,9 +60,14 @@ def respond_pgs(encounter: Encounter) -> list[Impulse]:
 
 
 def respond_bullet(encounter: Encounter) -> list[Impulse]:
-    """One step of Bullet's own dynamics for every near pair; its contact impulses are taken over as they are."""
+    """One step of Bullet's own dynamics for every pair that touches; its contact impulses are taken over as they are.
+
+    Bullet would act one step before touch, and so lose the restitution or not, by chance of the step: hence the wait.
+    """
     shadows, impulses = encounter.shadows, []
     for a, b in encounter.pairs:
+        if not encounter.detector.touching(a, b):
+            continue
         rows = encounter.detector.engine.dynamic_step(
             (a, b),
             (encounter.bodies[a], encounter.bodies[b]),
@@ -73,8 +78,7 @@ def respond_bullet(encounter: Encounter) -> list[Impulse]:
             encounter.restitution,
         )
         for on_a, on_b, normal, gap, P in rows:
-            if gap <= 0.0 or P.any():  # Bullet acts on what it will touch within this step
-                impulses.append(Impulse(make_contact(a, b, shadows, 0.5 * (on_a + on_b), normal, gap), P))
+            impulses.append(Impulse(make_contact(a, b, shadows, 0.5 * (on_a + on_b), normal, gap), P))
     return impulses
 
 

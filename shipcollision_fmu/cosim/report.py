@@ -22,11 +22,12 @@ _LINEAR = ("surge", "sway", "heave")
 
 
 def table(*columns: str, title: str | None = None) -> Table:
-    """An empty table; a column whose heading begins with '>' is of numbers."""
+    """An empty table; a column whose heading begins with '>' is of numbers. Units go below: 80 characters are few."""
     heading = None if title is None else Text(title)  # Text: a unit in brackets is not a style
-    empty = Table(title=heading, title_justify="left", box=SIMPLE_HEAD, pad_edge=False)
+    empty = Table(title=heading, title_justify="left", box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
     for column in columns:
-        empty.add_column(Text(column.removeprefix(">")), justify="right" if column.startswith(">") else "left")
+        name = Text(column.removeprefix(">").replace(" [", "\n["))
+        empty.add_column(name, justify="right" if column.startswith(">") else "left")
     return empty
 
 
@@ -63,7 +64,7 @@ def comparison(summary: dict[str, Any]) -> Table:
     """Published and computed numbers; a star where the printed one had to be corrected."""
     reference = summary["reference"]
     rows = table(
-        "ship", "quantity", "unit", ">printed", ">paper", ">computed", ">difference", ">tolerance", "within",
+        "ship", "", "unit", ">printed", ">paper", ">computed", ">difference", ">tolerance", "within",
         title=f"{summary['scenario']}: {reference['source']}, at {reference['time']:g} s",
     )  # fmt: skip
     last = None
@@ -96,11 +97,8 @@ def _collisions(collisions: list[dict[str, Any]]) -> Table:
 
 
 def _ships(run: Run) -> Table:
-    """Velocities before and after, and the ledger of impulses (surge, sway; yaw) in b."""
-    rows = table(
-        "ship", ">speed before [m/s]", ">after", ">heading [deg] before", ">after", ">issued [MN s]", ">pending [MN s]",
-        title="ships",
-    )  # fmt: skip
+    """Speed and heading before and after, and the ledger of impulses."""
+    rows = table("ship", ">speed [m/s]", ">heading [deg]", ">issued [MN s]", ">pending [MN s]", title="ships")
     first, last = run.states[0], run.states[-1]
     for name, books in run.summary["ledger"].items():
         columns = named(f"{name}.velocity", _LINEAR)
@@ -108,7 +106,7 @@ def _ships(run: Run) -> Table:
         headings = [degrees(float(row[f"{name}.attitude.yaw"])) for row in (first, last)]
         impulses = [hypot(*books[key][:3]) / 1e6 for key in ("issued", "pending")]
         rows.add_row(
-            name, f"{speeds[0]:.3f}", f"{speeds[1]:.3f}", f"{headings[0]:.2f}", f"{headings[1]:.2f}",
+            name, f"{speeds[0]:.3f} > {speeds[1]:.3f}", f"{headings[0]:.2f} > {headings[1]:.2f}",
             f"{impulses[0]:.2f}", f"{impulses[1]:.2g}",
         )  # fmt: skip
     return rows

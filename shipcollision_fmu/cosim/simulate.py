@@ -9,6 +9,7 @@ Both give the same bits.
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable, Mapping
 from contextlib import ExitStack, closing
 from dataclasses import dataclass, field
@@ -21,8 +22,9 @@ import numpy.typing as npt
 
 from ..fmi.ship_collision import INTERFACE as COLLISION
 from ..fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
-from .component import Component, FmuComponent, InProcessComponent, UnpackedFmu
+from .component import Component, InProcessComponent
 from .events import events
+from .fmu_component import FmuComponent, UnpackedFmu
 from .fmu_files import ready_fmus, require_pybullet
 from .folder import check_writable, write_files
 from .master import ALGORITHMS
@@ -165,7 +167,9 @@ def _cell(value: Any) -> str:
 
 
 def _json(data: Any) -> str:
-    return json.dumps(data, indent=1, allow_nan=False, default=_plain) + "\n"
+    """Indented, with a list of plain values on one line; floats as repr."""
+    text = json.dumps(data, indent=1, allow_nan=False, default=_plain) + "\n"
+    return re.sub(r"\[\n[^][{}]*\]", lambda found: re.sub(r"\n *", " ", found[0]).replace("[ ", "[")[:-2] + "]", text)
 
 
 def _plain(value: Any) -> Any:

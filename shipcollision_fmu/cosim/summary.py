@@ -1,7 +1,7 @@
 """The books of a run: what was exchanged, and what became of momentum and energy.
 
     ledger     per ship: impulse issued by the collision FMU, applied by the ship, and their difference, pending;
-               in b about CO, cumulative [N s, N m s]
+               in b about CO, cumulative [N s, N m s]. What jacobi issues in the very last step stays pending
     momentum   M nu of every ship, summed: linear in n [N s], angular in n about the scenario's origin [N m s]
     energy     1/2 nu' M nu of every ship [J]; what contact dissipated, along the normals and across them
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from math import asin, degrees
+from math import asin, degrees, sqrt
 
 import numpy as np
 import pytest
 
 from shipcollision_fmu.cosim.reference import compared, state_at, world_state
-from shipcollision_fmu.cosim.tables import Reference
+from shipcollision_fmu.cosim.tables import Reference, ShipStart
 from shipcollision_fmu.ship.frames import rotation
 from shipcollision_fmu.ship.library import load_ship
 
@@ -35,6 +35,26 @@ def test_heading_of_the_published_own_ship() -> None:
     assert degrees(-heading) == pytest.approx(33.812, abs=1e-3)
     assert got["v_x"] == pytest.approx(-2.8282, abs=1e-3)
     assert got["v_y"] == pytest.approx(4.2215, abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("h", "p", "r", "v"),
+    [(0.2908, -0.0073, 0.0014, (-2.8282, 4.2215, 0.0)), (-0.0872, 0.0034, 0.0048, (0.4467, 2.5331, 0.0))],
+)
+def test_the_published_row_before_can_be_written_as_a_scenario(
+    h: float, p: float, r: float, v: tuple[float, float, float]
+) -> None:
+    """quaternion = [r, p, -h, w], n from b; position and velocity_ned by the swap of axes. Row r as corrected."""
+    w = sqrt(1 - h * h - p * p - r * r)
+    ship = ShipStart(
+        ship="x", position=[81.6614, -343.212], quaternion=[r, p, -h, w], velocity_ned=[v[1], v[0], -v[2]],
+        angular_velocity_ned=[-0.0013, -0.0009, 0.0],
+    )  # fmt: skip
+    start = ship.start
+    got = world_state(np.array([*start.position, *start.attitude, *start.velocity, *start.rate]), NOUGHT)
+    expected = {"x": -343.212, "y": 81.6614, "z": 0, "h": h, "p": p, "r": r, "w_x": -0.0009, "w_y": -0.0013, "w_z": 0}
+    expected |= dict(zip(("v_x", "v_y", "v_z"), v, strict=True))
+    assert got == pytest.approx(expected, abs=1e-12)
 
 
 def test_small_roll_and_pitch_are_half_angles() -> None:

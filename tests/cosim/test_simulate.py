@@ -233,3 +233,12 @@ def test_without_pybullet_it_says_how_to_get_it(scenario_file: Write, monkeypatc
     )
     with pytest.raises(HostError, match=r"pybullet.* not installed: run `python -m pip .* 3.10 or 3.11"):
         ran(scenario_file())
+
+
+def test_json_keeps_its_values_when_lists_go_on_one_line() -> None:
+    nested = [["x, y [ z ]", "p\nq"], [], [[1.0, 2.0]], {"d": [None, True]}]
+    data = {"a [ b": [1.5, -0.1, 3], "c": nested, "e": "[\n1,\n 2 ]"}
+    text = module._json(data)
+    assert json.loads(text) == data
+    assert "[1.5, -0.1, 3]" in text
+    assert "[null, true]" in text
