@@ -12,7 +12,8 @@ __all__ = ["contact_axes"]
 
 
 def contact_axes(normal: Array) -> Array:
-    """Rows (normal, t1, t2), right-handed; (3, 3), from n to contact axes. t1 is horizontal unless the normal is steep."""
+    """Rows (normal, t1, t2), right-handed, (3, 3): from n to contact axes. t1 is horizontal unless the normal is
+    steep."""
     x, y, z = normal.tolist()
     if abs(z) < 0.9:
         size = hypot(x, y)

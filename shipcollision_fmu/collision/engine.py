@@ -8,7 +8,9 @@ impulses, hence its bodies are made anew for every step.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import os
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from types import ModuleType
 from typing import Any
@@ -30,13 +32,31 @@ without it Bullet returns wrong normals for faces that lie flat on each other.""
 def bullet_module() -> ModuleType:
     """pybullet, imported when first needed. Raises HostError when it is missing."""
     try:
-        import pybullet
+        with _without_banner():
+            import pybullet
     except ImportError as error:
         raise HostError(
-            f"pybullet cannot be imported ({error}): install it with `pip install pybullet`; its wheels exist for Linux and "
-            "CPython 3.10 and 3.11, on others pip needs a C++ compiler"
+            f"pybullet cannot be imported ({error}): install it with `pip install pybullet`; its wheels exist for "
+            "Linux and CPython 3.10 and 3.11, on others pip needs a C++ compiler"
         ) from error
     return pybullet  # type: ignore[no-any-return]
+
+
+@contextmanager
+def _without_banner() -> Iterator[None]:
+    """PyBullet writes its build time to the process's standard error when it is imported; nobody needs that line."""
+    try:
+        kept, nowhere = os.dup(2), os.open(os.devnull, os.O_WRONLY)
+    except OSError:  # a process without a standard error
+        yield
+        return
+    os.dup2(nowhere, 2)
+    try:
+        yield
+    finally:
+        os.dup2(kept, 2)
+        os.close(kept)
+        os.close(nowhere)
 
 
 @dataclass(frozen=True)
@@ -111,9 +131,9 @@ class Engine:
     ) -> list[tuple[Array, Array, Array, float, Array]]:
         """One step of h [s] of Bullet's rigid-body dynamics for a pair of ships.
 
-        poses: (CO in n [m], R_nb); twists: (6,) in b about CO; friction, restitution: of the pair (Bullet multiplies the
-        bodies' values, so each gets the square root). Returns (on_a, on_b, normal a to b, gap, P on b) of each contact
-        point, in n. Position correction is off: an overlap must not add velocity.
+        poses: (CO in n [m], R_nb); twists: (6,) in b about CO; friction, restitution: of the pair (Bullet multiplies
+        the bodies' values, so each gets the square root). Returns (on_a, on_b, normal a to b, gap, P on b) of each
+        contact point, in n. Position correction is off: an overlap must not add velocity.
         """
         p, client = self._p, self._client
         p.setPhysicsEngineParameter(
@@ -158,7 +178,8 @@ class Engine:
         )
         # The mass once more: with an inertia and without a mass, changeDynamics sets the mass to zero.
         p.changeDynamics(
-            handle, -1, mass=body.mass, linearDamping=0.0, angularDamping=0.0, lateralFriction=friction**0.5, restitution=restitution**0.5,
+            handle, -1, mass=body.mass, linearDamping=0.0, angularDamping=0.0, lateralFriction=friction**0.5,
+            restitution=restitution**0.5,
             localInertiaDiagonal=np.abs(swapped(body.inertia)).tolist(), physicsClientId=client,
         )  # fmt: skip
         return handle

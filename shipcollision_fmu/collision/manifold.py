@@ -25,7 +25,8 @@ MANIFOLD = 4
 def foremost(points: Array, direction: Array) -> Array:
     """The points (k, 3) of a part (n, 3) that lie foremost along a direction, within FEATURE_DEPTH."""
     height = points @ direction
-    return points[height >= height.max() - FEATURE_DEPTH]
+    feature: Array = points[height >= height.max() - FEATURE_DEPTH]
+    return feature
 
 
 def contact_manifold(feature_a: Array, feature_b: Array, normal: Array) -> list[tuple[Array, float]]:
@@ -79,8 +80,6 @@ def _spread(corners: list[Point]) -> list[Point]:
     """At most MANIFOLD corners that still span the area: the extremes along the two diagonals."""
     if len(corners) <= MANIFOLD:
         return corners
-    u_0, v_0 = corners[0]
-    diagonals = ((1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0))
-    return list(
-        dict.fromkeys(max(corners, key=lambda q, d=d: d[0] * (q[0] - u_0) + d[1] * (q[1] - v_0)) for d in diagonals)
-    )  # type: ignore[misc]
+    rising = sorted(corners, key=lambda q: q[0] + q[1])
+    falling = sorted(corners, key=lambda q: q[0] - q[1])
+    return list(dict.fromkeys((rising[0], falling[-1], rising[-1], falling[0])))

@@ -61,14 +61,14 @@ class ShipCollision:
         self._detector: Detector | None = None
         self._ships: list[Ship] = []
 
-    # -- set-up ---------------------------------------------------------------------------------------------------
+    # -- set-up -------------------------------------------------------------------------------------
 
     def initialise(self) -> None:
         """Read the parameters, load the ships, set the outputs of the start. Raises InputError on a bad parameter."""
         _check(self.parameters)
         ships = [load_ship(p.ship) for p in self.parameters.ships]
         if self.parameters.response == "bullet":
-            _refuse_added_mass(self.names, ships)
+            _refuse_what_bullet_lacks(self.names, ships, self.parameters.ships)
         hulls = [build_hull(ship.L_oa, ship.B, ship.T, ship.hull) for ship in ships]
         self.close()
         self._detector = Detector(hulls)
@@ -93,24 +93,34 @@ class ShipCollision:
             self._detector.engine.close()
             self._detector = None
 
-    # -- a step -----------------------------------------------------------------------------------------------------
+    # -- a step -------------------------------------------------------------------------------------
 
     def step(self, t: float, H: float) -> None:
         """Advance from t by H [s]. Raises StepError on an input that is not finite or absurd; nothing changes then."""
+        self._ready()
         self._check_inputs(t, H)
         shadows = self._receive()
-        near = self._near_pairs(shadows, H)
-        self._episodes.close_old(t)
-        slots: list[Slot] = []
-        if near:
-            n, h = _substeps(H, self.parameters.substep)
-            for j in range(n):
-                _advance(shadows, h)
-                impulses = self._respond(t + (j + 1) * h, h, near, shadows)
-                slots = self._book(impulses, shadows, slots)
-        else:
-            _advance(shadows, H)
+        before = self.get_state()
+        try:
+            slots = self._collide(t, H, shadows)
+        except Exception:
+            self.set_state(before)
+            raise
         self._publish(t + H, H, shadows, slots)
+
+    def _collide(self, t: float, H: float, shadows: list[Shadow]) -> list[Slot]:
+        """Take the shadows through the step; the contact points they went through."""
+        self._episodes.close_old(t)
+        near, slots = self._near_pairs(shadows, H), list[Slot]()
+        if not near:
+            _advance(shadows, H)
+            return slots
+        n, h = _substeps(H, self.parameters.substep)
+        for j in range(n):
+            _advance(shadows, h)
+            impulses = self._respond(t + (j + 1) * h, h, near, shadows)
+            slots = self._book(impulses, shadows, slots)
+        return slots
 
     def _receive(self) -> list[Shadow]:
         """Shadows at the received poses, with what is pending in their twists."""
@@ -120,9 +130,7 @@ class ShipCollision:
             account = Account(
                 self._issued[i], self._last[i], np.array(state.impulse_applied), self._nu_sent[i], nu, ship.M
             )
-            shadow = self._received(i, pending_impulse(feedback, account))
-            self._nu_sent[i] = shadow.nu
-            shadows.append(shadow)
+            shadows.append(self._received(i, pending_impulse(feedback, account)))
         return shadows
 
     def _received(self, i: int, pending: Array) -> Shadow:
@@ -153,15 +161,19 @@ class ShipCollision:
         return hypot(x_b - x_a, y_b - y_a) - self._reach[a] - self._reach[b]
 
     def _gap(self, a: int, b: int, shadows: Sequence[Shadow], cap: float) -> float:
-        assert self._detector is not None
-        self._detector.place(a, shadows[a])
-        self._detector.place(b, shadows[b])
-        return self._detector.clearance(a, b, cap)
+        detector = self._ready()
+        detector.place(a, shadows[a])
+        detector.place(b, shadows[b])
+        return detector.clearance(a, b, cap)
+
+    def _ready(self) -> Detector:
+        if self._detector is None:
+            raise StepError("ShipCollision is not initialised: call initialise() before the first step")
+        return self._detector
 
     def _respond(self, t: float, h: float, near: list[tuple[int, int]], shadows: list[Shadow]) -> list[Impulse]:
         """Contacts at the predicted poses and their impulses; collisions and scratches are opened here."""
-        detector, parameters = self._detector, self.parameters
-        assert detector is not None
+        detector, parameters = self._ready(), self.parameters
         for ship in {s for pair in near for s in pair}:
             detector.place(ship, shadows[ship])
         answered = near
@@ -196,12 +208,13 @@ class ShipCollision:
             slots = merged(slots, Slot(c, impulse.P, along + across, collision, scratch))
         return slots
 
-    # -- outputs ----------------------------------------------------------------------------------------------------
+    # -- outputs ------------------------------------------------------------------------------------
 
     def _publish(self, t: float, H: float, shadows: list[Shadow], slots: list[Slot]) -> None:
         for i, shadow in enumerate(shadows):
             self._issued[i] = self._issued[i] + shadow.issued
             self._last[i] = shadow.issued
+            self._nu_sent[i] = shadow.nu_received
             out, psi = self.outputs.ships[i], self.inputs.ships[i].attitude[2]
             out.position[:] = shadow.x.tolist()
             out.attitude[:] = attitude_unwrapped(attitude_from_rotation(shadow.R), psi).tolist()
@@ -233,7 +246,7 @@ class ShipCollision:
                     least = min(least, self._gap(a, b, shadows, least))
         return least
 
-    # -- state ------------------------------------------------------------------------------------------------------
+    # -- state --------------------------------------------------------------------------------------
 
     def get_state(self) -> dict[str, Any]:
         """What the outputs do not show: ledger of the last step, kept normals, episodes."""
@@ -255,7 +268,7 @@ class ShipCollision:
         self._kept = {(a, b): (carrier, list(normal)) for a, b, carrier, normal in state["kept"]}
         self._episodes.set_state(state["episodes"])
 
-    # -- refusals ---------------------------------------------------------------------------------------------------
+    # -- refusals -----------------------------------------------------------------------------------
 
     def _check_inputs(self, t: float, H: float) -> None:
         if not (isfinite(t) and isfinite(H) and H > 0.0):
@@ -270,7 +283,8 @@ class ShipCollision:
             speed = hypot(*state.velocity)
             if speed > ABSURD_SPEED:
                 raise StepError(
-                    f"{name}.velocity is {speed:g} m/s at t = {t} s, above {ABSURD_SPEED:g} m/s: check the signal and its unit"
+                    f"{name}.velocity is {speed:g} m/s at t = {t} s, above {ABSURD_SPEED:g} m/s: check the signal and "
+                    "its unit"
                 )
 
 
@@ -296,12 +310,17 @@ def _bullet_body(ship: Ship) -> BulletBody:
     return BulletBody(ship.mass, np.diag(ship.M_RB[3:, 3:] + ship.mass * S @ S).copy(), np.array(ship.r_bg))
 
 
-def _refuse_added_mass(names: Sequence[str], ships: Sequence[Ship]) -> None:
-    for name, ship in zip(names, ships, strict=True):
+def _refuse_what_bullet_lacks(names: Sequence[str], ships: Sequence[Ship], given: Sequence[ShipParameters]) -> None:
+    for name, ship, parameters in zip(names, ships, given, strict=True):
+        if parameters.degrees_of_freedom != 6:
+            raise InputError(
+                f"response 'bullet' moves bodies freely, and {name}.degrees_of_freedom = "
+                f"{parameters.degrees_of_freedom}: take response 'pgs', or 6 degrees of freedom"
+            )
         if ship.M_A.any():
             raise InputError(
-                f"response 'bullet' knows a scalar mass only, and {name} = {ship.name!r} has added mass: take response 'pgs', "
-                "or a ship whose [added_mass] is zero"
+                f"response 'bullet' knows a scalar mass only, and {name} = {ship.name!r} has added mass: take response "
+                "'pgs', or a ship whose [added_mass] is zero"
             )
 
 

@@ -138,7 +138,8 @@ def _slide(W: Block, v: Row, mu: float, near: float | None) -> tuple[Row, float]
 
 
 def _zero_near(f: Callable[[float], float], start: float) -> float:
-    """The zero of f next to `start`, f being an angle in (-pi, pi] of period 2 pi: bracketed outwards, then closed in."""
+    """The zero of f next to `start`, f being an angle in (-pi, pi] of period 2 pi: bracketed outwards, then closed
+    in."""
     step = pi / 48
     left = right = start
     f_left = f_right = f(start)

@@ -23,7 +23,8 @@ def zeros(n: int) -> list[float]:
 
 @dataclass
 class ShipParameters:
-    """Which ship it is: a name or a file; degrees_of_freedom 3 (surge, sway, yaw), 4 (and roll) or 6, as its model has."""
+    """Which ship it is: a name or a file; degrees_of_freedom 3 (surge, sway, yaw), 4 (and roll) or 6, as its model
+    has."""
 
     ship: str = "kvlcc2"
     degrees_of_freedom: int = 6
@@ -31,7 +32,8 @@ class ShipParameters:
 
 @dataclass
 class CollisionParameters:
-    """Fixed parameters. numbers: friction, restitution, substep [s], minimum_separation_time [s], clearance_range [m]."""
+    """Fixed parameters. numbers: friction, restitution, substep [s], minimum_separation_time [s], clearance_range
+    [m]."""
 
     ships: list[ShipParameters]
     numbers: list[float] = field(default_factory=lambda: [0.3, 0.0, 0.01, 10.0, 200.0])
@@ -97,7 +99,7 @@ class ShipPost:
 @dataclass
 class ContactSlot:
     """A contact point of the step. point, normal in n; r_a, r_b its places in the ships' b [m]; impulse (3) on ship_b
-    in n [N s]; values: gap [m], normal and tangential impulse [N s], energy dissipated [J]. Ships are 1-based, 0: unused."""
+    in n [N s]; values: gap [m], normal and tangential impulse [N s], energy dissipated [J]. Ships from 1, 0: unused."""
 
     point: list[float] = field(default_factory=lambda: zeros(3))
     normal: list[float] = field(default_factory=lambda: zeros(3))

@@ -29,8 +29,8 @@ class Encounter:
     """What a response is given: ships within reach of each other, at one substep.
 
     pairs: indices (a, b) of ships near each other; shadows: of all ships, hulls already placed there; kept: normals of
-    the last shallow contacts; bodies: the ships as Bullet knows them; friction, restitution: of every pair; h: length of
-    the substep [s].
+    the last shallow contacts; bodies: the ships as Bullet knows them; friction, restitution: of every pair; h: length
+    of the substep [s].
     """
 
     pairs: Sequence[tuple[int, int]]

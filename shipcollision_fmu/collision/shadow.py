@@ -41,6 +41,7 @@ class Shadow:
     x: Array
     R: Array
     nu: Array
+    nu_received: Array  # (6,) the twist at the start, what was pending taken in
     M_inverse: Array
     issued: Array  # (6,) impulse booked in this communication step, in b about CO at the received pose
 
@@ -48,7 +49,7 @@ class Shadow:
     def at(cls, position: Array, attitude: Array, nu: Array, M_inverse: Array) -> Shadow:
         """Shadow at a pose (n [m], rad) with the twist nu (b about CO)."""
         R = rotation(attitude)
-        return cls(position, R, position, R, nu, M_inverse, np.zeros(6))
+        return cls(position, R, position, R, nu, nu, M_inverse, np.zeros(6))
 
     def advance(self, h: float) -> None:
         """Move the predicted pose on by h [s] with the twist as it is."""

@@ -18,7 +18,8 @@ SAME_PLACE = 2.0
 
 @dataclass(frozen=True)
 class Slot:
-    """A contact point over a step: its latest geometry, the impulse P (3,) on ship b summed in n, the energy lost [J]."""
+    """A contact point over a step: its latest geometry, the impulse P (3,) on ship b summed in n, the energy lost
+    [J]."""
 
     contact: Contact | None
     P: Array

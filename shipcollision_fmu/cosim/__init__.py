@@ -1,11 +1,11 @@
 """Scenarios run in time: the master, its components, and what is recorded.
 
-    tables, scenario            a scenario file
-    component, fmu_component    a model in process and an FMU, seen alike
-    master, wiring              the two algorithms; from a scenario to connected components
-    recorder                    what happened, at communication points
-    events, reference, summary  what follows from it: collisions, the paper beside us, the books
-    fmu_files, folder           where FMUs are found and runs are written
-    simulate                    all of it in one call
-    report, compliance          for people: tables, and the FMI check
+tables, scenario            a scenario file
+component, fmu_component    a model in process and an FMU, seen alike
+master, wiring              the two algorithms; from a scenario to connected components
+recorder                    what happened, at communication points
+events, reference, summary  what follows from it: collisions, the paper beside us, the books
+fmu_files, folder           where FMUs are found and runs are written
+simulate                    all of it in one call
+report, compliance          for people: tables, and the FMI check
 """

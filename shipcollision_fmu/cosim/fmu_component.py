@@ -180,7 +180,6 @@ class FmuComponent:
         return _WRAPPER.sub("", " ".join(self._messages[-1].split()))
 
 
-
 class _FmuGroup:
     def __init__(self, owner: FmuComponent, kind: str, references: Array[c_uint], values: Buffer) -> None:
         self.values = values

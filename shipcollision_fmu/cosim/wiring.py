@@ -1,9 +1,9 @@
 """From a scenario to a System: instances, parameters, wires and orders.
 
-    ship      position attitude velocity rate impulse_applied  ->  S.position ... S.impulse_applied      collision
-    ship      impulse                                          <-  S.impulse           feedback "ledger"
-    ship      force, moment                                    <-  S.force, S.moment   feedback "force"
-                                                               nothing                 feedback "none"
+ship      position attitude velocity rate impulse_applied  ->  S.position ... S.impulse_applied      collision
+ship      impulse                                          <-  S.impulse           feedback "ledger"
+ship      force, moment                                    <-  S.force, S.moment   feedback "force"
+                                                           nothing                 feedback "none"
 """
 
 from __future__ import annotations

@@ -59,7 +59,8 @@ def _ship(i: int, s: str) -> Table:
             depends_on=(f"{s}.position",),
         ),
         *vector(
-            "output", f"{s}.post.attitude", ANGLES, "rad", f"{given}.attitude", f"Attitude of {s} at the end of the step",
+            "output", f"{s}.post.attitude", ANGLES, "rad", f"{given}.attitude",
+            f"Attitude of {s} at the end of the step",
             depends_on=(f"{s}.attitude",),
         ),
         *vector(
@@ -78,7 +79,10 @@ def _ship(i: int, s: str) -> Table:
             "output", f"{s}.force", f"{s}.moment", FORCE, f"{given}.force",
             f"Mean contact force on {s} over the last step, in b about CO", depends_on=(),
         ),
-        string("parameter", f"{s}.ship", f"parameters.ships.{i}.ship", f"Ship of {s}: a name in the FMU's resources or a TOML file"),
+        string(
+            "parameter", f"{s}.ship", f"parameters.ships.{i}.ship",
+            f"Ship of {s}: a name in the FMU's resources or a TOML file",
+        ),
         integer(
             "parameter", f"{s}.degrees_of_freedom", f"parameters.ships.{i}.degrees_of_freedom",
             "As in the model that sails it; 3: surge, sway, yaw; 4: and roll; 6: all", minimum=3, maximum=6,
@@ -104,20 +108,32 @@ def _contacts() -> Table:
                 depends_on=(),
             ),
             real("output", f"{name}.gap", "m", f"{path}.values", 0, "Gap, negative in overlap", depends_on=()),
-            real("output", f"{name}.impulse_normal", "N.s", f"{path}.values", 1, "Normal impulse over the step", depends_on=()),
+            real(
+                "output", f"{name}.impulse_normal", "N.s", f"{path}.values", 1,
+                "Normal impulse over the step", depends_on=(),
+            ),
             real(
                 "output", f"{name}.impulse_tangential", "N.s", f"{path}.values", 2, "Friction impulse over the step",
                 depends_on=(),
             ),
-            real("output", f"{name}.energy", "J", f"{path}.values", 3, "Energy dissipated over the step", depends_on=()),
+            real(
+                "output", f"{name}.energy", "J", f"{path}.values", 3,
+                "Energy dissipated over the step", depends_on=(),
+            ),
             *vector(
                 "output", f"{name}.impulse", NED, "N.s", f"{path}.impulse",
                 "Impulse on ship_b in n over the step; ship_a takes the opposite", depends_on=(),
             ),
             *vector("output", f"{name}.a", BODY, "m", f"{path}.r_a", "Contact point in b of ship_a", depends_on=()),
             *vector("output", f"{name}.b", BODY, "m", f"{path}.r_b", "Contact point in b of ship_b", depends_on=()),
-            integer("output", f"{name}.ship_a", f"{path}.ship_a", "First ship, from 1; 0: slot unused", minimum=0, depends_on=()),
-            integer("output", f"{name}.ship_b", f"{path}.ship_b", "Second ship, from 1; 0: slot unused", minimum=0, depends_on=()),
+            integer(
+                "output", f"{name}.ship_a", f"{path}.ship_a",
+                "First ship, from 1; 0: slot unused", minimum=0, depends_on=(),
+            ),
+            integer(
+                "output", f"{name}.ship_b", f"{path}.ship_b",
+                "Second ship, from 1; 0: slot unused", minimum=0, depends_on=(),
+            ),
             integer("output", f"{name}.impact", f"{path}.impact", "Number of the collision", minimum=0, depends_on=()),
             integer("output", f"{name}.scratch", f"{path}.scratch", "Number of the scratch", minimum=0, depends_on=()),
         ))  # fmt: skip
@@ -141,13 +157,31 @@ def _events() -> Table:
             "output", "impact.angle", "rad", "outputs.impact", 2,
             "Angle between the headings at the latest collision, 0 (same) to pi (head-on)", depends_on=(),
         ),
-        integer("output", "impact.ship_a", "outputs.impact_ship_a", "First ship of the latest collision, from 1", minimum=0, depends_on=()),
-        integer("output", "impact.ship_b", "outputs.impact_ship_b", "Second ship of the latest collision, from 1", minimum=0, depends_on=()),
-        integer("output", "scratch.id", "outputs.scratch_id", "Scratch being drawn, 0 when nothing touches", minimum=0, depends_on=()),
-        real("output", "energy.dissipated", "J", "outputs.energy", 0, "Kinetic energy lost to contact since the start", depends_on=()),
-        real("output", "energy.normal", "J", "outputs.energy", 1, "Part of it lost along the contact normals", depends_on=()),
+        integer(
+            "output", "impact.ship_a", "outputs.impact_ship_a",
+            "First ship of the latest collision, from 1", minimum=0, depends_on=(),
+        ),
+        integer(
+            "output", "impact.ship_b", "outputs.impact_ship_b",
+            "Second ship of the latest collision, from 1", minimum=0, depends_on=(),
+        ),
+        integer(
+            "output", "scratch.id", "outputs.scratch_id",
+            "Scratch being drawn, 0 when nothing touches", minimum=0, depends_on=(),
+        ),
+        real(
+            "output", "energy.dissipated", "J", "outputs.energy", 0,
+            "Kinetic energy lost to contact since the start", depends_on=(),
+        ),
+        real(
+            "output", "energy.normal", "J", "outputs.energy", 1,
+            "Part of it lost along the contact normals", depends_on=(),
+        ),
         real("output", "energy.tangential", "J", "outputs.energy", 2, "Part of it lost to friction", depends_on=()),
-        real("output", "clearance", "m", "outputs.clearance", 0, "Least distance between hulls, at most clearance_range"),
+        real(
+            "output", "clearance", "m", "outputs.clearance", 0,
+            "Least distance between hulls, at most clearance_range",
+        ),
     )  # fmt: skip
 
 
@@ -155,8 +189,14 @@ def _parameters() -> Table:
     """What holds for all pairs."""
     numbers = "parameters.numbers"
     return (
-        real("parameter", "friction", "1", numbers, 0, "Coulomb friction coefficient of the hulls", minimum=0.0, maximum=10.0),
-        real("parameter", "restitution", "1", numbers, 1, "Normal velocity after over before impact", minimum=0.0, maximum=1.0),
+        real(
+            "parameter", "friction", "1", numbers, 0,
+            "Coulomb friction coefficient of the hulls", minimum=0.0, maximum=10.0,
+        ),
+        real(
+            "parameter", "restitution", "1", numbers, 1,
+            "Normal velocity after over before impact", minimum=0.0, maximum=1.0,
+        ),
         real("parameter", "substep", "s", numbers, 2, "Length of an internal step", minimum=0.0),
         real(
             "parameter", "minimum_separation_time", "s", numbers, 3,

@@ -1,7 +1,7 @@
 """Units of the FMUs' variables, as FMI 2.0 wants them: exponents of the SI base units.
 
-    value in base units = factor * value in the unit            (BaseUnit)
-    value in the display unit = factor * value in the unit      (DisplayUnit)
+value in base units = factor * value in the unit            (BaseUnit)
+value in the display unit = factor * value in the unit      (DisplayUnit)
 """
 
 from __future__ import annotations

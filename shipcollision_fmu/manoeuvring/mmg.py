@@ -137,9 +137,7 @@ def _current_in_b(around: Surroundings, cos_psi: float, sin_psi: float) -> tuple
     return north * cos_psi + east * sin_psi, east * cos_psi - north * sin_psi
 
 
-def _moved(
-    eta: Planar, nu: Planar, k: Sequence[float], dt: float
-) -> tuple[float, float, float, float, float, float]:
+def _moved(eta: Planar, nu: Planar, k: Sequence[float], dt: float) -> tuple[float, float, float, float, float, float]:
     return (
         eta[0] + dt * k[0], eta[1] + dt * k[1], eta[2] + dt * k[2],
         nu[0] + dt * k[3], nu[1] + dt * k[4], nu[2] + dt * k[5],

@@ -21,6 +21,7 @@ Frame b about CO [m]. Every triangle's normal points outwards.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from math import radians, tan
 from typing import TYPE_CHECKING
 
@@ -68,7 +69,7 @@ class HullMesh:
 
 @dataclass(frozen=True)
 class _Plan:
-    """Convex deck polygon, counter-clockwise seen from above, and what each edge belongs to."""
+    """Convex deck polygon, from the stem along starboard and back along port, and what each edge belongs to."""
 
     corners: Array  # (n, 2)
     is_bow: npt.NDArray[np.bool_]  # (n,) edge i runs from corner i to corner i + 1
@@ -87,8 +88,9 @@ def build_hull(L_oa: float, B: float, T: float, table: HullTable) -> HullMesh:
     rings = [_ring(plan, z, rake, flare, bilge) for z, rake, flare, bilge in levels]
     if min(_edge_lengths(ring, plan).min() for ring in rings) <= 0.0:
         raise ShipError(
-            f"[hull]: rake, flare and bilge leave no room for the bow: bow_length = {table.bow_length} m, stem_rake_deg = "
-            f"{table.stem_rake_deg}, flare_deg = {table.flare_deg}, bilge = {table.bilge} m; lengthen the bow or reduce them"
+            f"[hull]: rake, flare and bilge leave no room for the bow: bow_length = {table.bow_length} m, "
+            f"stem_rake_deg = {table.stem_rake_deg}, flare_deg = {table.flare_deg}, bilge = {table.bilge} m; lengthen "
+            "the bow or reduce them"
         )
     vertices = np.vstack(rings) + [table.trim_x, 0.0, 0.0]
     return HullMesh(vertices, _triangles(len(rings), len(plan.corners)), _convex_parts(vertices, rings, levels))
@@ -165,10 +167,8 @@ def _triangles(levels: int, n: int) -> Indices:
 def _convex_parts(
     vertices: Array, rings: list[Array], levels: list[tuple[float, float, float, float]]
 ) -> tuple[Array, ...]:
-    """Bands of levels joined while they are convex together: only a flare's knuckle at the waterline splits the hull."""
+    """Bands of levels joined while convex together: only a flare's knuckle at the waterline splits the hull."""
     n = len(rings[0])
-    knuckle = [
-        k for k, level in enumerate(levels) if level[0] == 0.0 and 0 < k < len(levels) - 1 and levels[-2] is level
-    ]
+    knuckle = [len(levels) - 2] if len(levels) > 2 and levels[-2][0] == 0.0 else []
     bounds = [0, *knuckle, len(levels) - 1]
-    return tuple(vertices[start * n : (end + 1) * n] for start, end in zip(bounds, bounds[1:], strict=False))
+    return tuple(vertices[start * n : (end + 1) * n] for start, end in pairwise(bounds))

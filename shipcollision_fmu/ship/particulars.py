@@ -279,9 +279,7 @@ class ShipFile(_Table):
         limits = (p.L_pp / 2, p.B / 2, max(p.T, self.hull.depth))
         for axis, value, limit in zip("xyz", p.r_bg or (0.0, 0.0, 0.0), limits, strict=True):
             if abs(value) > limit:
-                raise ValueError(
-                    f"[particulars] r_bg: {axis} = {value} m puts CG outside the ship: at most {limit} m"
-                )
+                raise ValueError(f"[particulars] r_bg: {axis} = {value} m puts CG outside the ship: at most {limit} m")
         return self
 
     @model_validator(mode="after")

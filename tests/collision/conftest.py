@@ -42,8 +42,8 @@ class World:
     The algorithm is a master's: "gauss-seidel" hands impulses over at once, "jacobi" one step late.
     """
 
-    def __init__(self, ships: list[str], start: list[dict], *, algorithm: str = "gauss-seidel", degrees_of_freedom: int = 6,
-                 **parameters: object) -> None:  # fmt: skip
+    def __init__(self, ships: list[str], start: list[dict], *, algorithm: str = "gauss-seidel",
+                 degrees_of_freedom: int = 6, **parameters: object) -> None:  # fmt: skip
         self.model = ShipCollision([f"s{i}" for i in range(len(ships))])
         for slot, ship in zip(self.model.parameters.ships, ships, strict=True):
             slot.ship, slot.degrees_of_freedom = ship, degrees_of_freedom

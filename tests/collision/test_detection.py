@@ -53,7 +53,7 @@ def test_apart_is_no_contact_however_near(detector: Detector) -> None:
 
 
 def test_plumb_stem_on_a_side_touches_over_the_common_height(detector: Detector) -> None:
-    """Ship 1 heads west into the starboard side of the box; both reach from -10 m to 10 m, the stem is 4 m deeper set."""
+    """Ship 1 heads west into the starboard side of the box; both reach from -10 to 10 m, the stem is 4 m deeper."""
     shadows = place(detector, box=shadow(0, 0), plumb=shadow(20.0, 115.0 - 0.02, z=4.0, heading=-EAST))
     contacts = detector.contacts(0, 1, shadows, {})
     assert sorted(round(c.point[2], 3) for c in contacts) == [-6.0, 10.0]

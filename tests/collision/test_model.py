@@ -43,7 +43,7 @@ def balance(world: World) -> float:
 
 @pytest.mark.parametrize("algorithm", ALGORITHMS)
 def test_head_on_equal_boxes_end_together(make_ship: Make, world: MakeWorld, algorithm: str) -> None:
-    """Plastic central impact: both go on with the mean velocity; lost: 1/2 (m/2) (relative speed)^2, with added mass."""
+    """Plastic central impact: both go on with the mean velocity; lost: 1/2 (m/2) (relative speed)^2, m with water."""
     box = make_ship("box", BOX)
     w = world([box, box], HEAD_ON, algorithm=algorithm).run(2.0, 0.05)
     np.testing.assert_allclose(w.nu[0], [0.5, 0, 0, 0, 0, 0], atol=1e-9)
@@ -208,7 +208,7 @@ def test_contact_slots_add_up_to_the_ledger(make_ship: Make, world: MakeWorld) -
             step += slot.impulse
             energy += slot.values[3]
         assert all(slot.ship_a == 0 for slot in out.contacts[out.contact_count :])
-        x, R, J = w.increments[-1][1]
+        _, R, J = w.increments[-1][1]
         np.testing.assert_allclose(step, R @ J[:3], rtol=1e-9, atol=1e-3)
         P += step
     assert np.linalg.norm(P) > 1e7
@@ -224,7 +224,7 @@ def test_events_of_one_incident(make_ship: Make, world: MakeWorld) -> None:
     assert out.impact_point[0] == pytest.approx(-15.0, abs=0.3)
 
 
-# -- what the ship models answer ----------------------------------------------------------------------------------------
+# -- what the ship models answer --------------------------------------------------------------------
 
 
 def test_none_issues_one_impact_per_collision(make_ship: Make, world: MakeWorld) -> None:
@@ -254,7 +254,7 @@ def test_answers_without_an_echo_are_seen_in_the_velocity(
     np.testing.assert_allclose([w.nu[0][0], -w.nu[1][0]], [0.5, 0.5], atol=1e-9)
 
 
-# -- the whole state ----------------------------------------------------------------------------------------------------
+# -- the whole state --------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("response", ["pgs", "bullet"])
@@ -296,7 +296,7 @@ def test_jitter_in_the_step_does_not_reach_the_solver(make_ship: Make, world: Ma
     np.testing.assert_allclose(jitter.nu, exact.nu, atol=1e-12)
 
 
-# -- refusals -----------------------------------------------------------------------------------------------------------
+# -- refusals ---------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(

@@ -41,7 +41,7 @@ def encounter(seed: int, contacts: int, degrees_of_freedom: int = 6) -> tuple[np
 
 
 def check_solution(W: np.ndarray, v: np.ndarray, mu: float, P: np.ndarray, accuracy: float) -> None:
-    """The complementarity conditions of plastic impact with Coulomb friction, relative to approach speed and impulse."""
+    """The conditions of plastic impact with Coulomb friction, relative to approach speed and impulse."""
     speed, impulse = -v[0::3].min(), max(P[:, 0].max(), 1e-300)
     after = (v + W @ P.ravel()).reshape(-1, 3)
     assert after[:, 0].min() >= -accuracy * speed, "approach left"

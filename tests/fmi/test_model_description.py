@@ -52,9 +52,7 @@ def test_no_output_depends_on_an_input_at_the_same_instant(dummy_fmu: Path) -> N
 
 def test_what_an_output_depends_on_at_the_start(dummy_fmu: Path) -> None:
     unknowns = read_model_description(str(dummy_fmu)).initialUnknowns
-    depends = {
-        u.variable.name: None if u.dependencies is None else [v.name for v in u.dependencies] for u in unknowns
-    }
+    depends = {u.variable.name: None if u.dependencies is None else [v.name for v in u.dependencies] for u in unknowns}
     assert depends == {
         "place.x": ["gain.first", "gain.second"],  # the group "gain"
         "place.y": ["gain.first", "gain.second"],

@@ -256,7 +256,9 @@ def test_a_host_without_the_package_runs_what_the_fmu_carries(built: dict[str, P
         for k in (1, 2)
         for name in ("ShipManoeuvring", "ShipCollision")
     ]
-    code = INSTANTIATE + """
+    code = (
+        INSTANTIATE
+        + """
 first = True
 for folder in sys.argv[1:]:
     run(folder)
@@ -267,6 +269,7 @@ for folder in sys.argv[1:]:
     shutil.rmtree(folder)
 assert not messages, messages
 """
+    )
     in_a_process(code, *folders)
 
 
@@ -277,7 +280,9 @@ def test_an_fmu_refuses_to_run_on_another_build(built: dict[str, Path], tmp_path
     with (other / "shipcollision_fmu" / "errors.py").open("a") as file:
         file.write("# changed\n")
     folder = unpacked(built["ShipManoeuvring"], tmp_path / "fmu")
-    code = INSTANTIATE + """
+    code = (
+        INSTANTIATE
+        + """
 sys.path.insert(0, sys.argv[2])
 import shipcollision_fmu
 try:
@@ -286,6 +291,7 @@ except Exception as error:
     print(error)
 print(len(messages), messages[0])
 """
+    )
     said = in_a_process(code, folder, other)
     assert said.startswith("Failed to instantiate model\n1 Fatal py exception encountered: ")
     assert f"ShipManoeuvring.fmu was built from shipcollision_fmu {shipcollision_fmu.__version__} (" in said

@@ -18,8 +18,9 @@ FORMS = {
     "raked": {"shape": "parametric", "depth": 24.0, "bow_length": 40.0, "stern_length": 60.0, "stem_rake_deg": 12.0},
     "bilge": {"shape": "parametric", "depth": 24.0, "bow_length": 40.0, "stern_length": 60.0, "bilge": 2.0},
     "full": {
-        "shape": "parametric", "depth": 24.0, "bow_length": 50.0, "bow_exponent": 2.5, "stem_rake_deg": 8.0, "stern_length": 70.0,
-        "stern_exponent": 3.0, "transom_fraction": 0.4, "flare_deg": 5.0, "bilge": 1.5, "trim_x": 3.0,
+        "shape": "parametric", "depth": 24.0, "bow_length": 50.0, "bow_exponent": 2.5, "stem_rake_deg": 8.0,
+        "stern_length": 70.0, "stern_exponent": 3.0, "transom_fraction": 0.4,
+        "flare_deg": 5.0, "bilge": 1.5, "trim_x": 3.0,
     },
 }  # fmt: skip
 

@@ -38,9 +38,7 @@ def test_what_is_missing_is_estimated_and_said(tmp_path: Path) -> None:
     ship = load_ship(written(tmp_path, "barge.toml", BARGE))
     m, I_xx, I_zz = 8.2e6, 8.2e6 * (0.37 * 20) ** 2, 8.2e6 * 25.0**2
     np.testing.assert_allclose(np.diag(ship.M_RB), [m, m, m, I_xx, I_zz, I_zz], rtol=1e-14)
-    np.testing.assert_allclose(
-        np.diag(ship.M_A), [0.05 * m, 0.85 * m, m, 0.2 * I_xx, I_zz, 0.21 * I_zz], rtol=1e-14
-    )
+    np.testing.assert_allclose(np.diag(ship.M_A), [0.05 * m, 0.85 * m, m, 0.2 * I_xx, I_zz, 0.21 * I_zz], rtol=1e-14)
     np.testing.assert_array_equal(ship.M, ship.M_RB + ship.M_A)
     assert ship.L_oa == 100.0
     assert ship.C_b == pytest.approx(0.8)
