@@ -1,0 +1,184 @@
+"""Every shipped scenario under both algorithms: the books balance, contact gives no energy, and both masters agree."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from shipcollision_fmu import load_scenario, simulate
+from shipcollision_fmu.collision.model import ShipCollision
+from shipcollision_fmu.cosim.scenario import Scenario, scenario_names
+from shipcollision_fmu.cosim.simulate import Run
+from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
+from shipcollision_fmu.ship.frames import rotation
+from shipcollision_fmu.ship.inertia import FREE
+from shipcollision_fmu.ship.library import load_ship
+
+ALGORITHMS = ("gauss-seidel", "jacobi")
+
+
+@dataclass
+class Watch:
+    """What went through the models of a run, taken down beside them."""
+
+    issued: list[list[tuple[np.ndarray, np.ndarray, np.ndarray]]] = field(default_factory=list)  # per step: x, R, J
+    dissipated: list[float] = field(default_factory=list)
+    strikes: list[dict[str, Any]] = field(default_factory=list)
+
+    def step(self, model: ShipCollision, original: Any, t: float, h: float) -> None:
+        before = [np.array(ship.impulse) for ship in model.outputs.ships]
+        poses = [(np.array(s.position), rotation(s.attitude)) for s in model.inputs.ships]
+        original(model, t, h)
+        new = [np.array(ship.impulse) - old for ship, old in zip(model.outputs.ships, before, strict=True)]
+        self.issued.append([(x, R, J) for (x, R), J in zip(poses, new, strict=True)])
+        self.dissipated.append(model.outputs.energy[0])
+
+    def strike(self, model: ShipManoeuvring, original: Any, *arguments: Any) -> Any:
+        nu, applied = np.array(model.outputs.velocity + model.outputs.rate), np.array(model.outputs.impulse_applied)
+        struck = original(model, *arguments)
+        self.strikes.append({
+            "ship": model.parameters.ship, "free": list(FREE[model.parameters.degrees_of_freedom]), "before": nu,
+            "after": np.array(struck[0]), "impulse": np.array(model.inputs.impulse) - applied,
+        })  # fmt: skip
+        return struck
+
+
+@dataclass(frozen=True)
+class Watched:
+    scenario: Scenario
+    run: Run
+    watch: Watch
+
+
+@pytest.fixture(scope="module")
+def runs() -> dict[tuple[str, str], Watched]:
+    """Every scenario in process, with step 0.05 s, watched."""
+    found = {}
+    for name in scenario_names():
+        scenario = load_scenario(name)
+        for algorithm in ALGORITHMS:
+            watch = Watch()
+            step, struck = ShipCollision.step, ShipManoeuvring._struck
+            with pytest.MonkeyPatch.context() as patch:
+                patch.setattr(ShipCollision, "step", lambda m, t, h, w=watch, o=step: w.step(m, o, t, h))
+                patch.setattr(ShipManoeuvring, "_struck", lambda m, *a, w=watch, o=struck: w.strike(m, o, *a))
+                run = simulate(scenario, algorithm=algorithm, step=0.05, in_process=True)
+            found[name, algorithm] = Watched(scenario, run, watch)
+    return found
+
+
+def each() -> Any:
+    return pytest.mark.parametrize(("name", "algorithm"), [(n, a) for n in scenario_names() for a in ALGORITHMS])
+
+
+Runs = dict[tuple[str, str], Watched]
+
+
+@each()
+def test_ships_collide_once_and_come_clear(runs: Runs, name: str, algorithm: str) -> None:
+    watched = runs[name, algorithm]
+    assert watched.run.summary["collisions"] == 1
+    assert watched.run.contacts["time"].max() < watched.run.states["time"][-1] - 0.1
+
+
+@each()
+def test_impulses_and_moments_on_the_ships_are_equal_and_opposite(runs: Runs, name: str, algorithm: str) -> None:
+    """About n's origin, and so about any fixed point; to 1e-12 of the impulse and of its moment there."""
+    steps = [rows for rows in runs[name, algorithm].watch.issued if any(J.any() for _, _, J in rows)]
+    assert steps
+    largest = max(np.linalg.norm(J[:3]) for rows in steps for _, _, J in rows)
+    for rows in steps:
+        P = [R @ J[:3] for _, R, J in rows]
+        L = [R @ J[3:] + np.cross(x, p) for (x, R, J), p in zip(rows, P, strict=True)]
+        # A small impulse is a difference of two large cumulative numbers: their rounding is the floor.
+        total = sum(np.linalg.norm(p) for p in P) + 1e-3 * largest
+        moment = sum(np.linalg.norm(l) for l in L) + 1e-3 * largest * 500.0  # noqa: E741
+        assert np.abs(sum(P)).max() <= 1e-12 * total
+        assert np.abs(sum(L)).max() <= 1e-12 * moment
+
+
+@each()
+def test_every_application_is_inertia_times_change_of_velocity(runs: Runs, name: str, algorithm: str) -> None:
+    struck = [s for s in runs[name, algorithm].watch.strikes if s["impulse"].any()]
+    assert struck
+    for s in struck:
+        free = s["free"]
+        M = load_ship(s["ship"]).M[np.ix_(free, free)]
+        momentum = M @ (s["after"] - s["before"])[free]
+        scale = np.abs(M) @ np.abs(s["before"])[free]  # nu is rounded to its own size
+        assert np.all(np.abs(momentum - s["impulse"][free]) <= 1e-12 * (np.abs(s["impulse"][free]) + scale))
+
+
+@each()
+def test_all_that_was_issued_has_been_applied(runs: Runs, name: str, algorithm: str) -> None:
+    for books in runs[name, algorithm].run.summary["ledger"].values():
+        assert books["issued"] == books["applied"]
+        assert books["pending"] == [0.0] * 6
+
+
+@each()
+def test_contact_never_gives_kinetic_energy(runs: Runs, name: str, algorithm: str) -> None:
+    """Neither in the collision model's account nor in that of the ships, in any step."""
+    watched = runs[name, algorithm]
+    dissipated = np.array([0.0, *watched.watch.dissipated])
+    assert np.diff(dissipated).min() >= -1e-9 * dissipated[-1]
+    n, work = len(watched.scenario.ships), []
+    strikes = watched.watch.strikes
+    for k in range(0, len(strikes), n):
+        change = 0.0
+        for s in strikes[k : k + n]:
+            M = load_ship_M(s["ship"])
+            change += 0.5 * (s["after"] @ M @ s["after"] - s["before"] @ M @ s["before"])
+        work.append(change)
+    assert len(work) == watched.scenario.changed(step=0.05).steps
+    assert max(work) <= 1e-9 * dissipated[-1]
+    assert -sum(work) == pytest.approx(dissipated[-1], rel=0.02)
+
+
+@pytest.mark.parametrize("name", scenario_names())
+def test_both_masters_end_at_the_same_velocities(runs: Runs, name: str) -> None:
+    """Within 2 % of the change that the collision made, linear and angular, at 0.05 s."""
+    one, other = (runs[name, algorithm] for algorithm in ALGORITHMS)
+    for ship in one.scenario.ships:
+        change = final(one, ship, 0.0)
+        for k, made in enumerate(change):
+            difference = np.linalg.norm(final(one, ship, None)[k] - final(other, ship, None)[k])
+            assert difference <= 0.02 * np.linalg.norm(made)
+
+
+def final(watched: Watched, ship: str, since: float | None) -> tuple[np.ndarray, np.ndarray]:
+    """Velocity of CO and angular velocity in n at the end, or, with `since`, what the strikes added up to."""
+    if since is not None:
+        names = list(watched.scenario.ships)
+        mine = watched.watch.strikes[names.index(ship) :: len(names)]
+        total = np.zeros(6)
+        for k, s in enumerate(mine):
+            R = rotation([float(watched.run.states[f"{ship}.attitude.{c}"][k]) for c in ("roll", "pitch", "yaw")])
+            change = s["after"] - s["before"]
+            total += np.concatenate([R @ change[:3], R @ change[3:]])
+        return total[:3], total[3:]
+    last = watched.run.states[-1]
+    R = rotation([float(last[f"{ship}.attitude.{c}"]) for c in ("roll", "pitch", "yaw")])
+    v = np.array([last[f"{ship}.velocity.{c}"] for c in ("surge", "sway", "heave")])
+    w = np.array([last[f"{ship}.rate.{c}"] for c in ("roll", "pitch", "yaw")])
+    return R @ v, R @ w
+
+
+_M: dict[str, np.ndarray] = {}
+
+
+def load_ship_M(name: str) -> np.ndarray:
+    return _M.setdefault(name, load_ship(name).M)
+
+
+@pytest.mark.parametrize("name", scenario_names())
+def test_fmus_and_models_in_process_give_identical_states(name: str, tmp_path: Path) -> None:
+    scenario = load_scenario(name)
+    simulate(scenario, out=tmp_path / "fmu")
+    simulate(scenario, in_process=True, out=tmp_path / "process")
+    for file in ("states.csv", "contacts.csv", "events.json", "summary.json"):
+        assert (tmp_path / "fmu" / file).read_bytes() == (tmp_path / "process" / file).read_bytes()
