@@ -1,8 +1,8 @@
 """Projected Gauss-Seidel: non-penetration and Coulomb friction at all contacts at once.
 
-For every contact, with v = v(0) + W P split along the normal (n) and across it (t), e restitution, mu friction:
+For every contact, with v = v(0) + W P split along the normal (n) and across it (t), and friction mu:
 
-    0 <= P_n   perpendicular to   v_n + e v_n(0) >= 0              no approach left, no pull
+    0 <= P_n   perpendicular to   v_n >= 0                         no approach left, no pull
     |P_t| <= mu P_n,   and while sliding   P_t = -mu P_n v_t / |v_t|    friction inside the cone, against the slip
 
 Guan et al. 2014, equations (5)-(13), state this with a pyramid for the cone, one scalar row at a time, and stop after a
@@ -55,20 +55,18 @@ class Solution:
     sweeps: int
 
 
-def solve_pgs(W: Array, v: Array, mu: float, e: float) -> Solution:
-    """Impulses of k contacts. W (3k, 3k) [1/kg] and v (3k,) [m/s] in contact axes, per contact (normal, t1, t2).
+def solve_pgs(W: Array, v: Array, mu: float) -> Solution:
+    """Impulses of k contacts in a plastic impact. W (3k, 3k) [1/kg] and v (3k,) [m/s] in contact axes, per contact (normal, t1, t2).
 
-    v is the relative velocity before; its normal part is negative on approach. Restitution acts on approach only.
+    v is the relative velocity before; its normal part is negative on approach. Restitution is in restitution.py.
     """
     k = len(v) // 3
     scale = max((-float(x) for x in v[0::3]), default=0.0)
     if scale <= 0.0:
         return Solution(np.zeros((k, 3)), 0.0, 0)
-    target = v.astype(float)
-    target[0::3] += e * np.minimum(v[0::3], 0.0)  # so that "normal velocity zero" means v_n = -e v_n(0)
     blocks = [_block(W[3 * i : 3 * i + 3, 3 * i : 3 * i + 3]) for i in range(k)]
     inverses = [_block(np.linalg.pinv(W[3 * i : 3 * i + 3, 3 * i : 3 * i + 3], RANK, hermitian=True)) for i in range(k)]
-    rows, start = W.tolist(), target.tolist()
+    rows, start = W.tolist(), v.tolist()
     P = [0.0] * (3 * k)
     angles: list[float | None] = [None] * k
     residual, sweeps = np.inf, 0

@@ -18,7 +18,7 @@ from .contact import Impulse, contact_velocity, make_contact
 from .delassus import contact_jacobian, delassus
 from .detection import Detector, KeptNormals
 from .engine import BulletBody
-from .pgs import solve_pgs
+from .restitution import solve_impact
 from .shadow import Shadow
 
 __all__ = ["RESPONSES", "Encounter", "respond_bullet", "respond_pgs"]
@@ -55,7 +55,7 @@ def respond_pgs(encounter: Encounter) -> list[Impulse]:
     if velocity[0::3].min() >= 0.0:  # touching, but parting
         return [Impulse(c, np.zeros(3)) for c in contacts]
     local = np.vstack([axis @ G[3 * i : 3 * i + 3] for i, axis in enumerate(axes)])
-    solution = solve_pgs(delassus(local, ships, shadows), velocity, encounter.friction, encounter.restitution)
+    solution = solve_impact(delassus(local, ships, shadows), velocity, encounter.friction, encounter.restitution)
     return [Impulse(c, axis.T @ P) for c, axis, P in zip(contacts, axes, solution.P, strict=True)]
 
 

@@ -59,7 +59,7 @@ def check_solution(W: np.ndarray, v: np.ndarray, mu: float, P: np.ndarray, accur
 def test_one_contact_is_solved_exactly(seed: int, mu: float, dof: int) -> None:
     W, v = encounter(seed, 1, dof)
     assume(v[0] < 0.0)
-    solution = solve_pgs(W, v, mu, 0.0)
+    solution = solve_pgs(W, v, mu)
     assert (solution.sweeps, solution.residual) == (1, 0.0)
     check_solution(W, v, mu, solution.P, 1e-12)
 
@@ -68,44 +68,36 @@ def test_one_contact_is_solved_exactly(seed: int, mu: float, dof: int) -> None:
 def test_several_contacts_to_the_residual(seed: int, contacts: int, mu: float) -> None:
     W, v = encounter(seed, contacts)
     assume(v[0::3].min() < 0.0)
-    solution = solve_pgs(W, v, mu, 0.0)
+    solution = solve_pgs(W, v, mu)
     assume(solution.residual <= 1e-11)  # the rare case that does not get there says so, and is the solver's known limit
     check_solution(W, v, mu, solution.P, 1e-8)
 
 
 def test_nearly_all_random_patches_converge() -> None:
-    residuals = [solve_pgs(*encounter(seed, 3), 0.3, 0.0).residual for seed in range(60)]
+    residuals = [solve_pgs(*encounter(seed, 3), 0.3).residual for seed in range(60)]
     assert sum(r > 1e-11 for r in residuals) <= 1
 
 
 @given(SEEDS, st.integers(1, 4), st.floats(0.0, 1.0))
 def test_plastic_impact_never_creates_energy(seed: int, contacts: int, mu: float) -> None:
     W, v = encounter(seed, contacts)
-    P = solve_pgs(W, v, mu, 0.0).P.ravel()
+    P = solve_pgs(W, v, mu).P.ravel()
     gained = P @ (v + 0.5 * W @ P)
     assert gained <= 1e-9 * np.abs(P * v).sum()
-
-
-@given(SEEDS, st.floats(0.0, 1.0))
-def test_restitution_returns_that_share_of_the_approach(seed: int, e: float) -> None:
-    W, v = encounter(seed, 1)
-    assume(v[0] < -1e-3)
-    after = v + W @ solve_pgs(W, v, 0.0, e).P.ravel()
-    assert after[0] == pytest.approx(-e * v[0], rel=1e-9, abs=1e-12)
 
 
 def test_frictionless_impact_is_the_effective_mass_times_the_approach() -> None:
     W, v = encounter(7, 1)
     v[0] = -3.0
-    assert solve_pgs(W, v, 0.0, 0.0).P[0] == pytest.approx([3.0 / W[0, 0], 0.0, 0.0])
+    assert solve_pgs(W, v, 0.0).P[0] == pytest.approx([3.0 / W[0, 0], 0.0, 0.0])
 
 
 def test_a_row_repeated_shares_the_same_total() -> None:
     """Two contacts at one place are one contact: the split is free, the sum is not."""
     W, v = encounter(3, 1)
     v[0] = -abs(v[0])
-    single = solve_pgs(W, v, 0.3, 0.0).P.sum(axis=0)
-    double = solve_pgs(np.tile(W, (2, 2)), np.tile(v, 2), 0.3, 0.0).P.sum(axis=0)
+    single = solve_pgs(W, v, 0.3).P.sum(axis=0)
+    double = solve_pgs(np.tile(W, (2, 2)), np.tile(v, 2), 0.3).P.sum(axis=0)
     np.testing.assert_allclose(double, single, rtol=1e-9, atol=1e-6 * np.abs(single).max())
 
 
@@ -113,7 +105,7 @@ def test_a_row_repeated_shares_the_same_total() -> None:
 def test_parting_or_resting_contacts_get_nothing(speed: float) -> None:
     W, v = encounter(1, 2)
     v[0::3] = speed
-    assert not solve_pgs(W, v, 0.5, 0.5).P.any()
+    assert not solve_pgs(W, v, 0.5).P.any()
 
 
 @given(SEEDS, st.integers(1, 3), st.floats(-np.pi, np.pi))
@@ -122,7 +114,7 @@ def test_turning_the_tangents_turns_the_friction(seed: int, contacts: int, angle
     W, v = encounter(seed, contacts)
     c, s = np.cos(angle), np.sin(angle)
     turn = np.kron(np.eye(contacts), np.array([[1, 0, 0], [0, c, -s], [0, s, c]]))
-    straight, turned = solve_pgs(W, v, 0.4, 0.0), solve_pgs(turn @ W @ turn.T, turn @ v, 0.4, 0.0)
+    straight, turned = solve_pgs(W, v, 0.4), solve_pgs(turn @ W @ turn.T, turn @ v, 0.4)
     assume(max(straight.residual, turned.residual) <= 1e-11)
     # The split among redundant contacts may differ; the motion may not.
     np.testing.assert_allclose(

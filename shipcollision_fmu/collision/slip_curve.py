@@ -1,0 +1,146 @@
+"""A slip that turns while friction acts, in a time of its own in which nothing is singular.
+
+Along the normal impulse p the slip s = sigma (cos phi, sin phi) of a contact obeys, with D = (cos phi, sin phi) and D'
+across it,
+
+    dsigma/dp = g(phi) = D.w - mu D.A D          w (2,), A (2, 2): rows of W for the slip, by normal and by friction
+    sigma dphi/dp = h(phi) = D'.w - mu D'.A D
+
+which is singular where the slip stops. With dp = sigma dtau it is not:
+
+    dphi/dtau = h,    d(ln sigma)/dtau = g,    dp/dtau = sigma,    dP_t/dtau = -mu sigma D,    dN/dtau = sigma v_n
+
+A stop is at tau = infinity, and is met along a direction that no longer turns, h = 0: from there on the path is straight.
+The integration is Gragg's midpoint rule, extrapolated (Bulirsch and Stoer); the direction is an angle in axes in which A
+is diagonal. Speeds are in units of the approach speed, W in units of W_nn.
+
+Sources: Keller (1986), J. Appl. Mech. 53:1-4; Batlle (1996), J. Appl. Mech. 63:168-172 (the flow of the slip); Hairer,
+Norsett and Wanner (1993), Solving Ordinary Differential Equations I, section II.9 (extrapolation).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import cos, exp, hypot, sin
+
+__all__ = ["Curve", "SlipFlow"]
+
+TOLERANCE = 1e-13
+"""Local error of a step, absolute in units of the approach speed, relative where a number is larger than 1."""
+
+SETTLED = 1e-14
+"""Turning of the slip, as a share of the largest there could be, below which it counts as none: rounding."""
+
+COLUMNS = tuple(range(2, 22, 2))
+"""Midpoint steps of the columns of the extrapolation: order 20 at most."""
+
+State = tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Curve:
+    """End of a stretch: angle and ln sigma there; impulses p and P_t = (P_1, P_2), and N = integral of v_n dp, along it."""
+
+    angle: float
+    log_slip: float
+    p: float
+    P_1: float
+    P_2: float
+    N: float
+
+
+@dataclass(frozen=True)
+class SlipFlow:
+    """How the slip of one contact turns: w = (w_1, w_2), A = diag(A_1, A_2), friction mu."""
+
+    w_1: float
+    w_2: float
+    A_1: float
+    A_2: float
+    mu: float
+
+    @property
+    def rate(self) -> float:
+        """Bound of |g| and |h|."""
+        return hypot(self.w_1, self.w_2) + self.mu * max(self.A_1, self.A_2)
+
+    def growth(self, angle: float) -> float:
+        """g: change of the slip's size per normal impulse."""
+        c, s = cos(angle), sin(angle)
+        return self.w_1 * c + self.w_2 * s - self.mu * (self.A_1 * c * c + self.A_2 * s * s)
+
+    def turning(self, angle: float) -> float:
+        """h: change of the slip's direction per normal impulse, times its size."""
+        c, s = cos(angle), sin(angle)
+        return self.w_2 * c - self.w_1 * s + self.mu * (self.A_1 - self.A_2) * s * c
+
+    def settled(self, angle: float) -> bool:
+        """Whether the slip keeps this direction."""
+        return abs(self.turning(angle)) <= SETTLED * self.rate
+
+    def stretch(self, angle: float, log_slip: float, v_n: float, tau: float) -> tuple[Curve, int | None]:
+        """The path over tau from a slip and a normal velocity; and the columns that it took, None if they did not do."""
+        w_1, w_2, A_1, A_2, mu = self.w_1, self.w_2, self.A_1, self.A_2, self.mu
+        diagonal_1, diagonal_2, across = mu * A_1, mu * A_2, mu * (A_1 - A_2)
+
+        def derivative(y: State) -> State:
+            c, s, sigma = cos(y[0]), sin(y[0]), exp(y[1])
+            friction = -mu * sigma
+            return (
+                w_2 * c - w_1 * s + across * s * c,
+                w_1 * c + w_2 * s - diagonal_1 * c * c - diagonal_2 * s * s,
+                sigma,
+                friction * c,
+                friction * s,
+                sigma * (v_n + y[2] + w_1 * y[3] + w_2 * y[4]),
+            )
+
+        end, columns = _extrapolated(derivative, (angle, log_slip, 0.0, 0.0, 0.0, 0.0), tau)
+        return Curve(*end), columns
+
+    def restart(self) -> tuple[float, float]:
+        """Direction (cos, sin) in which slip starts from rest when friction cannot hold it.
+
+        There h = 0 and g > 0:  (g + mu A) D = w with |D| = 1, one equation for g, and it has one root (Batlle).
+        """
+        mu, w_1, w_2, A_1, A_2 = self.mu, self.w_1, self.w_2, self.A_1, self.A_2
+        g = max(abs(w_1) - mu * A_1, abs(w_2) - mu * A_2, 0.0)
+        for _ in range(100):
+            b_1, b_2 = g + mu * A_1, g + mu * A_2
+            x = w_1 / b_1 if w_1 else 0.0
+            y = w_2 / b_2 if w_2 else 0.0
+            size = hypot(x, y)
+            # Newton's method for 1/|D(g)| = 1, concave and rising: from the left it never overshoots.
+            slope = (x * x / b_1 if w_1 else 0.0) + (y * y / b_2 if w_2 else 0.0)
+            step = size * size * (size - 1.0) / slope
+            if step <= 1e-16 * g:
+                break
+            g += step
+        return x / size, y / size
+
+
+def _extrapolated(f: Callable[[State], State], y: State, H: float) -> tuple[State, int | None]:
+    """y after H: midpoint rules with ever more steps, extrapolated to none; and the columns it took, None: not enough."""
+    slope = f(y)
+    row: list[State] = []
+    for column, n in enumerate(COLUMNS):
+        new = [_midpoint(f, y, slope, H, n)]
+        for j, last in enumerate(row):
+            share = 1.0 / ((n / COLUMNS[column - 1 - j]) ** 2 - 1.0)
+            new.append(tuple(a + (a - b) * share for a, b in zip(new[j], last, strict=True)))
+        if column >= 3:
+            best, second = new[-1], new[-2]
+            if all(abs(a - b) <= TOLERANCE * max(1.0, abs(a)) for a, b in zip(best, second, strict=True)):
+                return best, column
+        row = new
+    return row[-1], None
+
+
+def _midpoint(f: Callable[[State], State], y: State, slope: State, H: float, n: int) -> State:
+    """Gragg's smoothed midpoint rule of n (even) steps: its error is a series in (H/n)^2."""
+    h = H / n
+    old, now = y, tuple(a + h * b for a, b in zip(y, slope, strict=True))
+    for _ in range(n - 1):
+        old, now = now, tuple(a + 2.0 * h * b for a, b in zip(old, f(now), strict=True))
+    return tuple(0.5 * (a + b + h * c) for a, b, c in zip(old, now, f(now), strict=True))

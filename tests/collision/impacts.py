@@ -1,0 +1,163 @@
+"""Random impacts of two ships: what the property tests of the single-contact laws draw from.
+
+Numbers are drawn one by one, not from a seed, so that zeros, head-on courses and level ships come up and shrink well.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from hypothesis import strategies as st
+
+from shipcollision_fmu.collision.axes import contact_axes
+from shipcollision_fmu.collision.shadow import point_jacobian
+from shipcollision_fmu.ship.frames import rotation
+from shipcollision_fmu.ship.inertia import FREE, added_mass_matrix, free_inverse, rigid_body_inertia
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+
+@dataclass(frozen=True, eq=False)
+class Ship:
+    """A ship at impact: CO x (3,) in n, R_nb, M (6, 6) about CO in b, its free inverse, twist nu (6,)."""
+
+    x: Array
+    R: Array
+    M: Array
+    M_inverse: Array
+    nu: Array
+
+    def jacobian(self, point: Array) -> Array:
+        return point_jacobian(self.R, self.R.T @ (point - self.x))
+
+    def struck(self, point: Array, P: Array) -> Ship:
+        """The ship after the impulse P (in n) at `point`."""
+        return replace(self, nu=self.nu + self.M_inverse @ self.jacobian(point).T @ P)
+
+    def momentum(self, about: Array) -> Array:
+        """Virtual momentum M nu in n, linear and angular about a fixed point; (6,)."""
+        h = self.M @ self.nu
+        linear = self.R @ h[:3]
+        return np.concatenate([linear, self.R @ h[3:] + np.cross(self.x - about, linear)])
+
+    @property
+    def energy(self) -> float:
+        return float(0.5 * self.nu @ self.M @ self.nu)
+
+
+@dataclass(frozen=True, eq=False)
+class Impact:
+    """Two ships that touch at `point` with the normal from a to b; friction, restitution."""
+
+    a: Ship
+    b: Ship
+    point: Array
+    normal: Array
+    mu: float
+    e: float
+
+    @property
+    def axes(self) -> Array:
+        return contact_axes(self.normal)
+
+    @property
+    def W(self) -> Array:
+        """(3, 3) in contact axes."""
+        return sum(  # type: ignore[return-value]
+            (G @ ship.M_inverse @ G.T)
+            for ship in (self.a, self.b)
+            for G in [self.axes @ ship.jacobian(self.point)]
+        )  # fmt: skip
+
+    @property
+    def v(self) -> Array:
+        """Relative velocity b less a in contact axes; (3,)."""
+        v: Array = self.axes @ (self.b.jacobian(self.point) @ self.b.nu - self.a.jacobian(self.point) @ self.a.nu)
+        return v
+
+    @property
+    def scale(self) -> float:
+        """Kinetic energy of both ships [J]."""
+        return self.a.energy + self.b.energy
+
+    def after(self, P: Array) -> Impact:
+        """Both ships after the impulse P (3,) in contact axes."""
+        P_n = self.axes.T @ P
+        return replace(self, a=self.a.struck(self.point, -P_n), b=self.b.struck(self.point, P_n))
+
+    def swapped(self) -> Impact:
+        return replace(self, a=self.b, b=self.a, normal=-self.normal)
+
+    def moved(self, turn: Array, shift: Array) -> Impact:
+        """The same in a world turned and shifted."""
+        a, b = (replace(s, x=turn @ s.x + shift, R=turn @ s.R) for s in (self.a, self.b))
+        return replace(self, a=a, b=b, point=turn @ self.point + shift, normal=turn @ self.normal)
+
+    def mirrored(self) -> Impact:
+        """Port for starboard, in the world and in both ships."""
+        F = np.diag([1.0, -1.0, 1.0])
+        S = np.diag([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
+        a, b = (
+            replace(s, x=F @ s.x, R=F @ s.R @ F, M=S @ s.M @ S, M_inverse=S @ s.M_inverse @ S, nu=S @ s.nu)
+            for s in (self.a, self.b)
+        )
+        return replace(self, a=a, b=b, point=F @ self.point, normal=F @ self.normal)
+
+
+def floats(low: float, high: float) -> st.SearchStrategy[float]:
+    return st.floats(low, high, allow_subnormal=False)
+
+
+@st.composite
+def ships(draw: st.DrawFn, degrees_of_freedom: int) -> Ship:
+    """10 t to 400 000 t, any heading; 6 degrees of freedom also heeled, trimmed and with heave, roll and pitch."""
+    m = 10.0 ** draw(floats(4.0, 8.6))
+    L = 2.0 * m ** (1 / 3)
+    m_y = draw(floats(0.0, 1.3)) * m
+    M = rigid_body_inertia(m, [draw(floats(-0.05, 0.05)) * L, 0.0, draw(floats(-0.02, 0.02)) * L], np.array([0.06, 0.25, 0.25]) * L)
+    M = M + added_mass_matrix(
+        draw(floats(0.0, 0.1)) * m, m_y, m, 0.2 * m * (0.06 * L) ** 2, m * (0.25 * L) ** 2,
+        draw(floats(0.0, 0.9)) * m * (0.25 * L) ** 2, z_y=draw(floats(0.0, 0.02)) * L,
+    )  # fmt: skip
+    tilt = [draw(floats(-0.3, 0.3)), draw(floats(-0.1, 0.1))] if degrees_of_freedom == 6 else [0.0, 0.0]
+    nu = np.array([draw(floats(-10, 10)), draw(floats(-3, 3)), 0.0, 0.0, 0.0, draw(floats(-0.03, 0.03))])
+    if degrees_of_freedom == 6:
+        nu[2:5] = [draw(floats(-1, 1)), draw(floats(-0.1, 0.1)), draw(floats(-0.03, 0.03))]
+    if degrees_of_freedom == 4:
+        nu[3] = draw(floats(-0.1, 0.1))
+    offset = np.array([draw(floats(-0.5, 0.5)), draw(floats(-0.1, 0.1)), draw(floats(-0.05, 0.05))]) * L
+    R = rotation([*tilt, draw(floats(-np.pi, np.pi))])
+    return Ship(-R @ offset, R, M, free_inverse(M, degrees_of_freedom), nu)
+
+
+@st.composite
+def impacts(
+    draw: st.DrawFn,
+    mu: st.SearchStrategy[float] | None = None,
+    e: st.SearchStrategy[float] | None = None,
+    degrees_of_freedom: tuple[int, ...] = tuple(FREE),
+) -> Impact:
+    """Ships that approach each other at a contact point, both with the same degrees of freedom."""
+    free = draw(st.sampled_from(degrees_of_freedom))
+    one, other = draw(ships(free)), draw(ships(free))
+    angle, steep = draw(floats(-np.pi, np.pi)), draw(floats(-0.7, 0.7)) if free == 6 else 0.0
+    normal = np.array([np.cos(angle) * np.cos(steep), np.sin(angle) * np.cos(steep), np.sin(steep)])
+    point = np.array([draw(floats(-1e3, 1e3)), draw(floats(-1e3, 1e3)), draw(floats(-10, 10))])
+    one, other = replace(one, x=one.x + point), replace(other, x=other.x + point)
+    impact = Impact(one, other, point, normal, draw(mu or floats(0.0, 1.0)), draw(e or floats(0.0, 1.0)))
+    closing = -float(impact.v[0])
+    if closing < 0.0:  # parting: the other way round they approach
+        one, other = (replace(s, nu=-s.nu) for s in (one, other))
+    if abs(closing) < 1e-3:
+        # Drive a along the normal.
+        push = free_push(one, normal)
+        one = replace(one, nu=one.nu + push)
+    return replace(impact, a=one, b=other)
+
+
+def free_push(ship: Ship, normal: Array) -> Array:
+    """A twist of 1 m/s along the horizontal part of the normal."""
+    forward = ship.R.T @ np.array([normal[0], normal[1], 0.0])
+    return np.array([forward[0], forward[1], 0.0, 0.0, 0.0, 0.0])
