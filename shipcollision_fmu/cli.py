@@ -164,6 +164,126 @@ def validate(fmu: Path) -> None:
     click.echo(f"{fmu}: no problem found")
 
 
+@main.command()
+@click.argument("ship")
+@click.argument("manoeuvre", type=click.Choice(["turning-circle", "zigzag", "crash-stop"]))
+@click.option("--rudder-deg", type=float, metavar="DEG", help="Rudder angle.  [default: 35, in a zigzag 10]")
+@click.option("--heading-deg", type=float, default=10.0, show_default=True, metavar="DEG", help="Of a zigzag.")
+@click.option("--starboard/--port", default=True, help="Side of the first rudder.  [default: --starboard]")
+@click.option("--speed", type=float, metavar="M/S", help="Approach speed.  [default: the service speed]")
+@click.option(
+    "--rev-per-s", type=float, metavar="REV/S", help="Propeller on the approach.  [default: as the speed asks]"
+)
+@click.option("--degrees-of-freedom", type=click.Choice(["3", "4", "6"]), default="3", show_default=True)
+@click.option("--out", type=click.Path(path_type=Path), metavar="FILE.csv", help="Store the track.")
+def trial(
+    ship: str,
+    manoeuvre: str,
+    rudder_deg: float | None,
+    heading_deg: float,
+    starboard: bool,
+    speed: float | None,
+    rev_per_s: float | None,
+    degrees_of_freedom: str,
+    out: Path | None,
+) -> None:
+    """Sail a standard trial with SHIP and print its figures beside IMO's limits.
+
+    SHIP is a name that `shipcollision ships` lists, or the path of a TOML file. Limits: IMO resolution MSC.137(76), for
+    ships of 100 m and more. Distances are of midship, in lengths L.
+    """
+    from .cosim.folder import check_writable, write_file
+    from .cosim.trial_report import figures, track_csv
+    from .cosim.trials import approach, crash_stop, turning_circle, zigzag
+
+    start = approach(ship, speed=speed, rev_per_s=rev_per_s, degrees_of_freedom=int(degrees_of_freedom))
+    if out is not None:
+        check_writable(out.parent)
+    if manoeuvre == "turning-circle":
+        sailed = turning_circle(start, 35.0 if rudder_deg is None else rudder_deg, port=not starboard)
+    elif manoeuvre == "zigzag":
+        sailed = zigzag(start, 10.0 if rudder_deg is None else rudder_deg, heading_deg, port=not starboard)
+    else:
+        sailed = crash_stop(start)
+    if out is not None:
+        write_file(out, track_csv(sailed))
+    _console().print(figures(start, sailed))
+    if out is not None:
+        click.echo(f"stored in {out}")
+
+
+@main.command()
+@click.argument("kind", metavar="TYPE")
+@click.option("--own", default="kvlcc2", show_default=True, metavar="SHIP", help="The ship that strikes.")
+@click.option("--target", default="kvlcc2", show_default=True, metavar="SHIP", help="The ship that is struck.")
+@click.option("--angle-deg", type=float, metavar="DEG", help="Between the headings: 0 overtaking, 180 head-on.")
+@click.option("--at", type=float, metavar="S", help="Place on the target: -0.5 stern, 0 amidships, 0.5 stem.")
+@click.option("--side", type=click.Choice(["starboard", "port"]), default="starboard", show_default=True)
+@click.option("--own-speed", type=float, metavar="M/S")
+@click.option("--target-speed", type=float, metavar="M/S")
+@click.option("--time", type=float, metavar="S", help="From the start to the impact.  [default: 60; imazu 1800]")
+@click.option("--after", type=float, metavar="S", help="From the impact to the end.  [default: 60; imazu 120]")
+@click.option("--before", type=float, metavar="S", help="Of the rudder order: late-evasive, loss-of-steering.")
+@click.option("--rudder-deg", type=float, metavar="DEG", help="That order, positive to starboard.")
+@click.option("--drift-speed", type=float, metavar="M/S", help="Of a drifting target.")
+@click.option("--drift-deg", type=float, metavar="DEG", help="Where she drifts, from her bow.  [default: 90]")
+@click.option("--case", type=int, metavar="N", help="Of imazu: 1 to 22.")
+@click.option("--hydrodynamics/--coasting", default=None, help="Sail the ships, or let them coast.  [default: by TYPE]")
+@click.option("--step", type=float, default=0.05, show_default=True, metavar="S", help="Communication step.")
+@click.option("--name", help="Of the scenario.")
+@click.option("--out", type=click.Path(path_type=Path), metavar="FILE.toml", help="Store it; else it is printed.")
+def encounter(kind: str, out: Path | None, case: int | None, **options: Any) -> None:
+    """Make a scenario in which two ships collide as wanted.
+
+    TYPE is head-on, crossing, overtaking, glancing, t-bone, drifting-target, late-evasive, loss-of-steering, or imazu
+    with --case: one of the 22 cases of Imazu's problem, with one to three targets.
+    """
+    from .cosim.encounters import encounter as made
+    from .cosim.encounters import wanted
+    from .cosim.folder import check_writable, write_file
+    from .cosim.imazu import imazu_with
+
+    directory = Path(".") if out is None else out.parent
+    if kind == "imazu":
+        text = imazu_with(case, options, directory).text
+    else:
+        if case is not None:
+            raise click.UsageError("--case goes with TYPE imazu only")
+        text = made(wanted(kind, options), directory).text
+    if out is None:
+        click.echo(text, nl=False)
+        return
+    check_writable(directory)
+    write_file(out, text)
+    click.echo(f"stored in {out}: run it with `shipcollision run {out}`")
+
+
+@main.command("import")
+@click.argument("file", type=click.Path(path_type=Path))
+@click.option("--ship", metavar="SHIP", help="Plays every ship.  [default: ships made from the file's dimensions]")
+@click.option("--own", metavar="SHIP", help="Plays own ship.")
+@click.option("--duration", type=float, metavar="S", help="[default: what own ship's route takes]")
+@click.option("--step", type=float, default=0.05, show_default=True, metavar="S", help="Communication step.")
+@click.option("--hydrodynamics", is_flag=True, help="Sail the ships along their waypoints; else they coast.")
+@click.option("--out", type=click.Path(path_type=Path), required=True, metavar="FILE.toml", help="Scenario to write.")
+def import_(
+    file: Path, ship: str | None, own: str | None, duration: float | None, step: float, hydrodynamics: bool, out: Path
+) -> None:
+    """Make a scenario of a traffic situation in JSON.
+
+    FILE is one of DNV's trafficgen or maritime-schema, version 0.1 or 0.2. Ships of which it gives the size only get a
+    ship file beside the scenario.
+    """
+    from .cosim.folder import check_writable, write_files
+    from .cosim.traffic import imported
+
+    made = imported(file, out=out, ship=ship, own=own, duration=duration, step=step, hydrodynamics=hydrodynamics)
+    check_writable(out.parent)
+    write_files(out.parent, {**made.ship_files, out.name: made.text})
+    for name in (*made.ship_files, out.name):
+        click.echo(out.parent / name)
+
+
 def _fail(message: str, status: int) -> NoReturn:
     click.echo(f"error: {' '.join(message.split())}", err=True)
     sys.exit(status)

@@ -38,11 +38,16 @@ from ..ship.frames import Array
 
 __all__ = ["ClosedForm", "energy_of_stick", "solve_closed_form"]
 
+STILL = 1e-12
+"""Slip, as a share of the approach speed, that counts as none: the direction of less is chance, made by rounding."""
+
 
 @dataclass(frozen=True, eq=False)
 class ClosedForm:
-    """An impact. P (d,) [N s] on ship b in contact axes (normal first); after (d,): relative velocity [m/s]; energy lost
-    along the normal and across it [J]; whether the contact stuck, slid, or was not approaching."""
+    """An impact. P (d,) [N s] on ship b in contact axes (normal first); after (d,): relative velocity [m/s].
+
+    Energy lost along the normal and across it [J]; whether the contact stuck, slid, or was not approaching.
+    """
 
     P: Array
     after: Array
@@ -69,8 +74,8 @@ def solve_closed_form(W: Array, v: Array, mu: float, e: float) -> ClosedForm:
         felt = float(W[0, 0] - mu * W[0, 1:] @ D)
         if felt <= 0.0:
             raise StepError(
-                f"the closed form for sliding has no solution: W_nn - mu W_nt.D = {felt:g} 1/kg at mu = {mu:g} must be > 0; "
-                "follow the slip (solve_slip_path)"
+                f"the closed form for sliding has no solution: W_nn - mu W_nt.D = {felt:g} 1/kg at mu = {mu:g} must be "
+                "> 0: take less friction, or follow the slip (solve_slip_path)"
             )
         P = -float(target[0]) / felt * np.concatenate([[1.0], -mu * D])
     after = v + W @ P
@@ -80,11 +85,9 @@ def solve_closed_form(W: Array, v: Array, mu: float, e: float) -> ClosedForm:
 
 def _slip_direction(W: Array, v: Array) -> Array:
     """Unit vector along the slip, or along the slip that the normal impulse is about to make where there is none."""
-    for slip in (v[1:], W[1:, 0]):
-        size = float(np.linalg.norm(slip))
-        if size > 0.0:
-            return slip / size
-    return np.zeros(len(v) - 1)
+    slip = v[1:] if np.linalg.norm(v[1:]) > STILL * abs(v[0]) else W[1:, 0]
+    size = float(np.linalg.norm(slip))
+    return slip / size if size > 0.0 else np.zeros(len(v) - 1)
 
 
 def energy_of_stick(W: Array, v: Array) -> float:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from ..ship.frames import Array
 from .shadow import Shadow
 
-__all__ = ["Contact", "Impulse", "contact_velocity", "make_contact"]
+__all__ = ["Contact", "Impulse", "actual_velocity", "contact_velocity", "make_contact"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,6 +54,15 @@ def make_contact(a: int, b: int, shadows: Sequence[Shadow], point: Array, normal
 
 
 def contact_velocity(contact: Contact, shadows: Sequence[Shadow]) -> Array:
-    """Velocity of b relative to a at a contact, in n [m/s]; (3,). Approaching when its normal part is negative."""
+    """Velocity of b relative to a at a contact, in n [m/s]; (3,). Approaching when its normal part is negative.
+
+    It is the mean expected over the step, which is what a response has to stop; the ships' own is actual_velocity.
+    """
+    v: Array = contact.G_b @ shadows[contact.b].expected - contact.G_a @ shadows[contact.a].expected
+    return v
+
+
+def actual_velocity(contact: Contact, shadows: Sequence[Shadow]) -> Array:
+    """The same with the ships' twists as they are now, without what other forces may add; (3,)."""
     v: Array = contact.G_b @ shadows[contact.b].nu - contact.G_a @ shadows[contact.a].nu
     return v

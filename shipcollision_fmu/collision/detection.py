@@ -5,6 +5,8 @@
    of what the two facing features have in common (manifold.py).
 3. In deep overlap the direction of least overlap jumps, for a ship soon to the vertical: while the overlap is deeper
    than SHALLOW the last normal from before is kept, turning with the hull whose face it belongs to.
+4. The convex parts of one hull are joined (joined.py): faces and edges inside the hull give no contact, and what the
+   parts of a face have in contact is one contact.
 """
 
 from __future__ import annotations
@@ -18,7 +20,9 @@ from ..ship.frames import Array
 from ..ship.hull import HullMesh
 from .contact import Contact, make_contact
 from .engine import Closest, Engine
-from .manifold import contact_manifold, foremost
+from .joined import JoinedParts, as_one, on_the_outside
+from .level import least_overlap
+from .manifold import FEATURE_DEPTH, contact_manifold, foremost
 from .shadow import Shadow
 
 __all__ = ["SHALLOW", "Detector", "KeptNormals"]
@@ -39,6 +43,7 @@ class Detector:
 
     def __init__(self, hulls: Sequence[HullMesh]) -> None:
         self._hulls = tuple(hulls)
+        self._joined = [JoinedParts(hull) for hull in hulls]
         self.engine = Engine(hulls)
 
     def place(self, ship: int, shadow: Shadow) -> None:
@@ -59,31 +64,85 @@ class Detector:
         if not touching:
             kept.pop((a, b), None)
             return []
+        one, other = self._joined[a], self._joined[b]
+        joined = not (one.whole and other.whole)
+        if joined:
+            touching = on_the_outside(touching, one, other, (shadows[a], shadows[b]))
         shallow = min(c.gap for c in touching) > -SHALLOW
         carried = None if shallow else kept.get((a, b))
+        if carried is None and not shallow:  # deep inside each other, and never seen apart
+            carried = kept[(a, b)] = self._level(a, b, touching, shadows)
         found: list[Contact] = []
+        hidden: list[Contact] = []
         for closest in touching:
             normal = closest.normal if carried is None else _turned(carried, shadows[a], shadows[b])
             feature_a, feature_b = self._features(a, b, closest, normal, shadows)
-            if shallow:
+            if shallow and closest is touching[0]:
                 carrier = 0 if len(feature_a) > len(feature_b) else 1
                 kept[(a, b)] = (carrier, (normal @ shadows[(a, b)[carrier]].R).tolist())
             # Features that pass each other (a corner beside a face's edge) leave Bullet's own point.
-            places = contact_manifold(feature_a, feature_b, normal) or [
-                (0.5 * (closest.on_a + closest.on_b), closest.gap)
-            ]
-            for point, gap in places:
-                if gap <= 0.0 and all(dist(point, c.point) > SAME_POINT for c in found):
-                    found.append(make_contact(a, b, shadows, point, normal, gap))
-        return found
+            corners = contact_manifold(feature_a, feature_b, normal)
+            for point, gap in corners or [(0.5 * (closest.on_a + closest.on_b), closest.gap)]:
+                if gap <= 0.0:
+                    contact = make_contact(a, b, shadows, point, normal, gap)
+                    # With a kept normal, parts that pass each other along it or lie behind others have no contact.
+                    inside = joined and not shallow and (not corners or self._is_inside(contact, closest, shadows))
+                    (hidden if inside else found).append(contact)
+        return _distinct(as_one(found or hidden) if joined else found)
+
+    def facing(self, a: int, b: int, distance: float, shadows: Sequence[Shadow], kept: KeptNormals) -> Contact | None:
+        """The middle of what is nearer than `distance` [m] of two placed hulls, with the least gap; None: nothing."""
+        near = self.engine.closest(a, b, distance)
+        if not near:
+            return None
+        nearest = min(near, key=lambda c: c.gap)
+        gap, normal = nearest.gap, nearest.normal
+        if gap <= -SHALLOW and (a, b) in kept:
+            normal = _turned(kept[a, b], shadows[a], shadows[b])
+        feature_a, feature_b = self._features(a, b, nearest, normal, shadows, max(FEATURE_DEPTH, distance - gap))
+        places = contact_manifold(feature_a, feature_b, normal) or [(0.5 * (nearest.on_a + nearest.on_b), gap)]
+        weights = [max(distance - g, 0.0) for _, g in places]
+        if not any(weights):
+            weights = [1.0] * len(places)
+        total = sum(weights)
+        middle: Array = sum((w / total * point for (point, _), w in zip(places, weights, strict=True)), np.zeros(3))
+        return make_contact(a, b, shadows, middle, normal, gap)
+
+    def _level(self, a: int, b: int, touching: Sequence[Closest], shadows: Sequence[Shadow]) -> tuple[int, list[float]]:
+        """Level normal of least overlap of the two hulls' plans, carried by ship a."""
+        in_a = np.vstack([self._placed_part(a, i, shadows) for i in sorted({c.part_a for c in touching})])
+        in_b = np.vstack([self._placed_part(b, i, shadows) for i in sorted({c.part_b for c in touching})])
+        _, normal = least_overlap(in_a, in_b)
+        return 0, (normal @ shadows[a].R).tolist()
+
+    def _is_inside(self, contact: Contact, closest: Closest, shadows: Sequence[Shadow]) -> bool:
+        """Whether a contact with a kept normal lies on a face that another part of the same hull covers."""
+        half = 0.5 * contact.gap * contact.normal
+        a, b = shadows[contact.a], shadows[contact.b]
+        return self._joined[contact.a].covers(
+            closest.part_a, a.body(contact.point - half), contact.normal @ a.R
+        ) or self._joined[contact.b].covers(closest.part_b, b.body(contact.point + half), -(contact.normal @ b.R))
+
+    def _placed_part(self, ship: int, part: int, shadows: Sequence[Shadow]) -> Array:
+        points: Array = shadows[ship].x + self._hulls[ship].parts[part] @ shadows[ship].R.T
+        return points
 
     def _features(
-        self, a: int, b: int, closest: Closest, normal: Array, shadows: Sequence[Shadow]
+        self, a: int, b: int, closest: Closest, normal: Array, shadows: Sequence[Shadow], depth: float = FEATURE_DEPTH
     ) -> tuple[Array, Array]:
-        """Points (n, 3) of either part that face the other one: foremost along the normal."""
-        in_a = shadows[a].x + self._hulls[a].parts[closest.part_a] @ shadows[a].R.T
-        in_b = shadows[b].x + self._hulls[b].parts[closest.part_b] @ shadows[b].R.T
-        return foremost(in_a, normal), foremost(in_b, -normal)
+        """Points (n, 3) of either part that face the other one: foremost along the normal, within `depth` [m]."""
+        in_a = self._placed_part(a, closest.part_a, shadows)
+        in_b = self._placed_part(b, closest.part_b, shadows)
+        return foremost(in_a, normal, depth), foremost(in_b, -normal, depth)
+
+
+def _distinct(contacts: list[Contact]) -> list[Contact]:
+    """Contacts more than SAME_POINT apart, the first of those that are nearer."""
+    found: list[Contact] = []
+    for contact in contacts:
+        if all(dist(contact.point, c.point) > SAME_POINT for c in found):
+            found.append(contact)
+    return found
 
 
 def _turned(carried: tuple[int, list[float]], one: Shadow, other: Shadow) -> Array:

@@ -7,24 +7,26 @@ angle from x to t, beta from x to ship B's forward axis u, both positive clockwi
     u = (cos beta, -sin beta)       v = (sin beta, cos beta)             B's surge and sway axes
     impulse on A = -(I_xi n + I_eta t)      on B = +(I_xi n + I_eta t)
 
-Rates are right-handed about x (u for B) and z. M_x = M (1 + m_x) and so on contain the added mass, J_x and J_z the added
-inertia; h is the height of the contact above the centre of gravity. With g = beta - alpha, the arms of unit impulses are
+Rates are right-handed about x (u for B) and z. M_x = M (1 + m_x) and so on contain the added mass, J_x and J_z the
+added inertia; h is the height of the contact above the centre of gravity, d = (x_C, y_C) - (x, y). With g = beta -
+alpha, the arms of unit impulses are (a_Bn, a_Bt like A's, with d_B)
 
-    yaw    a_An = d_Ax cos alpha - d_Ay sin alpha      a_At = -(d_Ax sin alpha + d_Ay cos alpha)      a_Bn, a_Bt with d_B
+    yaw    a_An = d_Ax cos alpha - d_Ay sin alpha      a_At = -(d_Ax sin alpha + d_Ay cos alpha)
     roll   b_An = -h_A cos alpha     b_At = h_A sin alpha     b_Bn = -h_B cos g     b_Bt = -h_B sin g
 
 What the paper prints and what is corrected here:
 
-- (4), yaw of B: the arm is printed with (x_C - x_A), twice; it is (x_C - x_B). As printed, angular momentum is not kept.
-- (3), (4), signs of yaw: printed for yaw clockwise, as alpha and beta are, beside a roll that is right-handed. Here both
-  are right-handed: the bracket has + for A and - for B.
+- (4), yaw of B: the arm is printed with (x_C - x_A), twice; it is (x_C - x_B). As printed, angular momentum is lost.
+- (3), (4), signs of yaw: printed for yaw clockwise, as alpha and beta are, beside a roll that is right-handed. Here
+  both are right-handed: the bracket has + for A and - for B.
 - (4), roll of B: printed with +; it is -, else action and reaction differ for any sign of h.
 - (3), (4), rates: printed without the rates before impact, which must be zero then. Here they are added.
 - 2.2: no equation for I_xi and I_eta. They follow from restitution and Coulomb friction at the contact, below.
 
     stick    I_xi  = ((1+e) xi_0 W_tt - eta_0 W_nt) / D      I_eta = (eta_0 W_nn - (1+e) xi_0 W_nt) / D
              D = W_nn W_tt - W_nt^2                           if |I_eta| <= mu I_xi
-    slide    I_xi  = (1+e) xi_0 / (W_nn + s mu W_nt)          I_eta = s mu I_xi,      s = sign(eta_0)
+    slide    I_xi  = (1+e) xi_0 / (W_nn + s mu W_nt)          I_eta = s mu I_xi
+             s = sign(eta_0), or -sign(W_nt) where there is no slip yet
 
 Pedersen and Zhang (1998) write D_xi = W_nn, K_eta = W_tt, D_eta = K_xi = W_nt (no roll), mu* = I_eta/I_xi at stick.
 The general form, in 6 x 6 and any direction, is closed_form.py: the two agree to rounding.
@@ -33,15 +35,20 @@ The general form, in 6 x 6 and any direction, is closed_form.py: the two agree t
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import copysign, cos, sin
+from math import copysign, cos, inf, sin
+
+from .closed_form import STILL
 
 __all__ = ["FourDofImpact", "FourDofShip", "four_dof_impact"]
 
 
 @dataclass(frozen=True)
 class FourDofShip:
-    """A ship at impact. M_x, M_y [kg], J_x, J_z [kg m2]: with added mass, math.inf for what cannot move; x, y: centre of
-    gravity [m]; h: height of the contact above it [m]; u, v: surge, sway [m/s]; p, r: roll and yaw rate [rad/s]."""
+    """A ship at impact. M_x, M_y [kg], J_x, J_z [kg m2]: with added mass, math.inf for what cannot move.
+
+    x, y: centre of gravity [m]; h: height of the contact above it [m]; u, v: surge, sway [m/s]; p, r: roll and yaw rate
+    [rad/s].
+    """
 
     M_x: float
     M_y: float
@@ -58,8 +65,11 @@ class FourDofShip:
 
 @dataclass(frozen=True)
 class FourDofImpact:
-    """What the impact makes: I_xi, I_eta [N s]; W_nn, W_tt, W_nt [1/kg]; closing and tangential speed (A less B) before
-    and after [m/s]; impulse ratio at stick; the ships after; energy lost along and across the normal [J]; stuck or slid."""
+    """What the impact makes: I_xi, I_eta [N s]; W_nn, W_tt, W_nt [1/kg]; the ships after; stuck or slid.
+
+    Closing and tangential speed (A less B) before (0) and after (f) [m/s]; impulse ratio I_eta/I_xi at stick; energy
+    lost along and across the normal [J].
+    """
 
     I_xi: float
     I_eta: float
@@ -111,10 +121,10 @@ def four_dof_impact(
     D = W_nn * W_tt - W_nt**2
     I_xi = ((1 + e) * xi_0 * W_tt - eta_0 * W_nt) / D
     I_eta = (eta_0 * W_nn - (1 + e) * xi_0 * W_nt) / D
-    ratio = I_eta / I_xi
+    ratio = I_eta / I_xi if I_xi else inf
     stuck = I_xi > 0 and abs(I_eta) <= mu * I_xi
     if not stuck:
-        s = copysign(1.0, eta_0)
+        s = copysign(1.0, eta_0 if abs(eta_0) > STILL * xi_0 else -W_nt)
         I_xi = (1 + e) * xi_0 / (W_nn + s * mu * W_nt)
         I_eta = s * mu * I_xi
 

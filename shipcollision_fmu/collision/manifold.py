@@ -12,7 +12,7 @@ from ..ship.frames import Array
 from .axes import contact_axes
 from .clipping import Point, common_points, convex_polygon
 
-__all__ = ["FEATURE_DEPTH", "MANIFOLD", "contact_manifold", "foremost"]
+__all__ = ["FEATURE_DEPTH", "MANIFOLD", "contact_manifold", "foremost", "spread"]
 
 FEATURE_DEPTH = 0.05
 """Points of a part within this depth [m] of the foremost one belong to the touching feature: plates, edges and stems
@@ -22,10 +22,10 @@ MANIFOLD = 4
 """Contact points kept of one pair of parts: enough for the resultant of an area."""
 
 
-def foremost(points: Array, direction: Array) -> Array:
-    """The points (k, 3) of a part (n, 3) that lie foremost along a direction, within FEATURE_DEPTH."""
+def foremost(points: Array, direction: Array, depth: float = FEATURE_DEPTH) -> Array:
+    """The points (k, 3) of a part (n, 3) that lie foremost along a direction, within `depth` [m]."""
     height = points @ direction
-    feature: Array = points[height >= height.max() - FEATURE_DEPTH]
+    feature: Array = points[height >= height.max() - depth]
     return feature
 
 
@@ -40,7 +40,7 @@ def contact_manifold(feature_a: Array, feature_b: Array, normal: Array) -> list[
         return []
     plane_a, plane_b = _plane(a), _plane(b)
     places = []
-    for u, v in _spread(corners):
+    for u, v in spread(corners):
         height_a, height_b = _height(plane_a, u, v), _height(plane_b, u, v)
         places.append((np.array([0.5 * (height_a + height_b), u, v]), height_b - height_a))
     least = min(gap for _, gap in places)
@@ -76,7 +76,7 @@ def _height(plane: Plane, u: float, v: float) -> float:
     return h_0 + (u - u_0) * along_u + (v - v_0) * along_v
 
 
-def _spread(corners: list[Point]) -> list[Point]:
+def spread(corners: list[Point]) -> list[Point]:
     """At most MANIFOLD corners that still span the area: the extremes along the two diagonals."""
     if len(corners) <= MANIFOLD:
         return corners

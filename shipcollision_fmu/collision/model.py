@@ -3,12 +3,16 @@
 A communication step [t, t + H]:
 
     receive       check what came in; shadows of the ships at the received poses, pending impulses taken in
-    find near     pairs whose hulls could touch within the step; far pairs cost a comparison of two circles
+    find near     pairs whose hulls could touch within the step (broad_phase.py); far pairs are never looked at
     for each substep of fixed length h:
-        advance   the shadows' predicted poses
+        advance   the predicted poses of the shadows that are near another
+        press     fenders that are compressed there (fenders.py), booked one by one
         respond   contacts there, answered by one of the rival responses
         book      impulses into twists and ledger, energy lost, contact points, episodes
     publish       poses, twists, impulses, mean forces, contacts, events
+
+Bodies are the ships in the order of the build, then the obstacles (obstacles.py), which are bodies with zero inverse
+mass and a fixed pose: wherever a ship has an index, so has an obstacle, beyond the ships.
 
 Impulses are solved and booked with the ships at their *received* poses, which is where a sequential master applies
 them: linear and angular momentum then balance to rounding, and the kinetic energy lost is that of the real ships. The
@@ -26,16 +30,18 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError, StepError
-from ..ship.frames import Array, attitude_from_rotation, attitude_unwrapped, skew
-from ..ship.hull import build_hull
-from ..ship.inertia import free_inverse
-from ..ship.library import Ship, load_ship
-from .contact import Impulse, contact_velocity
+from ..ship.frames import Array, attitude_from_rotation, attitude_unwrapped
+from .axes import contact_axes
+from .bodies import Body, apart, prepared
+from .broad_phase import Rectangle, near_pairs
+from .contact import Contact, Impulse, actual_velocity
 from .detection import Detector, KeptNormals
+from .drift import Seen, drift
 from .energy import energy_lost
-from .engine import BulletBody
 from .episodes import Episodes
+from .fenders import Fender, friction_impulse, in_series, squeezed
 from .ledger import FEEDBACKS, Account, pending_impulse
+from .passive import passive
 from .ports import SLOTS, CollisionInputs, CollisionOutputs, CollisionParameters, ShipParameters, ShipPost, ShipState
 from .responses import RESPONSES, Encounter
 from .shadow import Shadow
@@ -49,6 +55,11 @@ REACH_MARGIN = 0.1
 ABSURD_SPEED = 1e3
 """Speeds [m/s] from here on are refused: a broken signal, not a ship."""
 
+ABSURD_PLACE = 1e9
+"""Distances from the origin [m] from here on are refused: the Earth is not that large."""
+
+Pair = tuple[int, int]
+
 
 class ShipCollision:
     """Collision of two or more ships. Names of ships are those of the FMU's variables."""
@@ -59,33 +70,40 @@ class ShipCollision:
         self.inputs = CollisionInputs([ShipState() for _ in ships])
         self.outputs = CollisionOutputs([ShipPost() for _ in ships])
         self._detector: Detector | None = None
-        self._ships: list[Ship] = []
+        self._bodies: list[Body] = []
+        self._circles: list[tuple[float, float]] = []
 
     # -- set-up -------------------------------------------------------------------------------------
 
     def initialise(self) -> None:
-        """Read the parameters, load the ships, set the outputs of the start. Raises InputError on a bad parameter."""
+        """Read the parameters, load ships and obstacles, set the outputs of the start. Raises InputError on a bad
+        parameter."""
         _check(self.parameters)
-        ships = [load_ship(p.ship) for p in self.parameters.ships]
-        if self.parameters.response == "bullet":
-            _refuse_what_bullet_lacks(self.names, ships, self.parameters.ships)
-        hulls = [build_hull(ship.L_oa, ship.B, ship.T, ship.hull) for ship in ships]
+        bodies = prepared(self.names, self.parameters)
         self.close()
-        self._detector = Detector(hulls)
-        self._ships = ships
-        self._reach = [hull.reach for hull in hulls]
-        self._M_inverse = [
-            free_inverse(ship.M, p.degrees_of_freedom) for ship, p in zip(ships, self.parameters.ships, strict=True)
-        ]
-        self._bodies = [_bullet_body(ship) for ship in ships]
-        self._issued = [np.zeros(6) for _ in ships]
-        self._last = [np.zeros(6) for _ in ships]
-        self._nu_sent = [np.zeros(6) for _ in ships]
+        self._detector = Detector([body.hull for body in bodies])
+        self._bodies = bodies
+        self._bullets = [body.bullet for body in bodies]
+        self._walls = [body.wall for body in bodies if body.wall is not None]
+        n = len(self.names)
+        for i, wall in enumerate(self._walls, start=n):
+            self._detector.place(i, wall)
+        self._issued = [np.zeros(6) for _ in range(n)]
+        self._last = [np.zeros(6) for _ in range(n)]
+        self._nu_sent = [np.zeros(6) for _ in range(n)]
+        self._seen: list[Seen | None] = [None] * n
         self._energy = np.zeros(3)
+        self._fenders: dict[Pair, float] = {}
+        self._fender_dissipated = 0.0
         self._kept: KeptNormals = {}
         self._episodes = Episodes(self.parameters.minimum_separation_time)
-        shadows = [self._received(i, np.zeros(6)) for i in range(len(ships))]
-        self._publish(0.0, 0.0, shadows, [])
+        shadows = [self._received(i, np.zeros(6)) for i in range(n)] + self._walls
+        self._publish(0.0, 0.0, shadows, [], self._candidates(shadows, 0.0))
+
+    @property
+    def obstacles(self) -> tuple[str, ...]:
+        """Names of the obstacles, in the order of their numbers."""
+        return tuple(body.name for body in self._bodies[len(self.names) :])
 
     def close(self) -> None:
         """Leave the Bullet world."""
@@ -99,71 +117,117 @@ class ShipCollision:
         """Advance from t by H [s]. Raises StepError on an input that is not finite or absurd; nothing changes then."""
         self._ready()
         self._check_inputs(t, H)
-        shadows = self._receive()
+        shadows = self._receive(t)
+        candidates = self._candidates(shadows, H)
+        near = self._near(candidates, shadows, H)
+        if not near:
+            self._episodes.close_old(t)
+            _advance(shadows[: len(self.names)], H)
+            self._publish(t + H, H, shadows, [], candidates)
+            return
         before = self.get_state()
         try:
-            slots = self._collide(t, H, shadows)
+            slots = self._collide(t, H, near, shadows)
         except Exception:
             self.set_state(before)
             raise
-        self._publish(t + H, H, shadows, slots)
+        self._publish(t + H, H, shadows, slots, candidates)
 
-    def _collide(self, t: float, H: float, shadows: list[Shadow]) -> list[Slot]:
+    def _collide(self, t: float, H: float, near: list[Pair], shadows: list[Shadow]) -> list[Slot]:
         """Take the shadows through the step; the contact points they went through."""
         self._episodes.close_old(t)
-        near, slots = self._near_pairs(shadows, H), list[Slot]()
-        if not near:
-            _advance(shadows, H)
-            return slots
+        moving = {i for pair in near for i in pair if not shadows[i].fixed}
+        _advance([s for i, s in enumerate(shadows[: len(self.names)]) if i not in moving], H)
+        fenders = {pair: fender for pair in near if (fender := self._fender(pair)) is not None}
+        slots = list[Slot]()
         n, h = _substeps(H, self.parameters.substep)
         for j in range(n):
-            _advance(shadows, h)
+            for i in moving:
+                shadows[i].advance(h)
+                self._ready().place(i, shadows[i])
+            for pair, fender in fenders.items():
+                slots = self._press(pair, fender, h, shadows, slots)
             impulses = self._respond(t + (j + 1) * h, h, near, shadows)
             slots = self._book(impulses, shadows, slots)
         return slots
 
-    def _receive(self) -> list[Shadow]:
-        """Shadows at the received poses, with what is pending in their twists."""
+    def _receive(self, t: float) -> list[Shadow]:
+        """Shadows at the received poses, with what is pending in their twists; then those of the obstacles."""
         feedback, shadows = self.parameters.feedback, []
-        for i, (state, ship) in enumerate(zip(self.inputs.ships, self._ships, strict=True)):
-            nu = np.array(state.velocity + state.rate)
+        for i, state in enumerate(self.inputs.ships):
+            nu, body = np.array(state.velocity + state.rate), self._bodies[i]
             account = Account(
-                self._issued[i], self._last[i], np.array(state.impulse_applied), self._nu_sent[i], nu, ship.M
+                self._issued[i], self._last[i], np.array(state.impulse_applied), self._nu_sent[i], nu, body.M
             )
-            shadows.append(self._received(i, pending_impulse(feedback, account)))
-        return shadows
+            pending, before = pending_impulse(feedback, account), self._seen[i]
+            shadow = self._received(i, pending)
+            if before is not None and feedback == "ledger":
+                found = drift(before, _seen(t, 0.0, state), body.M_inverse, body.reach)
+                if found is not None:
+                    shadow.drift = found.mean
+                    if pending.any():  # a parallel master: what is issued now is applied to a ship that has gone on
+                        shadow.nu = shadow.nu + found.gain
+            shadows.append(shadow)
+        return shadows + self._walls
 
     def _received(self, i: int, pending: Array) -> Shadow:
-        state = self.inputs.ships[i]
+        state, M_inverse = self.inputs.ships[i], self._bodies[i].M_inverse
         nu = np.array(state.velocity + state.rate)
         if pending.any():
-            nu = nu + self._M_inverse[i] @ pending
-        return Shadow.at(np.array(state.position), np.array(state.attitude), nu, self._M_inverse[i])
+            nu = nu + M_inverse @ pending
+        return Shadow.at(np.array(state.position), np.array(state.attitude), nu, M_inverse)
 
-    def _near_pairs(self, shadows: Sequence[Shadow], H: float) -> list[tuple[int, int]]:
-        """Pairs whose hulls could touch within H [s]."""
+    # -- who is near whom -----------------------------------------------------------------------------
+
+    def _candidates(self, shadows: Sequence[Shadow], H: float) -> list[Pair]:
+        """Pairs that could come within clearance_range, or touch, in H [s]; all others are out of this step."""
+        half = 0.5 * self.parameters.clearance_range
+        rectangles: list[Rectangle] = []
+        for body, shadow in zip(self._bodies, shadows, strict=True):
+            if shadow.fixed:
+                n_0, n_1, e_0, e_1 = body.rectangle
+                d = half + (body.fender.thickness if body.fender else 0.0)
+                rectangles.append((n_0 - d, n_1 + d, e_0 - d, e_1 + d))
+                continue
+            n, e, _ = shadow.x.tolist()
+            d = half + self._room(body, shadow, H) + body.reach
+            rectangles.append((n - d, n + d, e - d, e + d))
+        return near_pairs(rectangles, len(self.names))
+
+    def _near(self, candidates: Sequence[Pair], shadows: Sequence[Shadow], H: float) -> list[Pair]:
+        """Pairs of them whose hulls, or fenders, could touch within H [s]."""
         near = []
-        for a in range(len(shadows)):
-            for b in range(a + 1, len(shadows)):
-                approach = REACH_MARGIN + H * (self._speed_bound(a, shadows[a]) + self._speed_bound(b, shadows[b]))
-                if self._circles_apart(a, b, shadows) <= approach and self._gap(a, b, shadows, approach) < approach:
-                    near.append((a, b))
+        for a, b in candidates:
+            room = (
+                REACH_MARGIN + self._room(self._bodies[a], shadows[a], H) + self._room(self._bodies[b], shadows[b], H)
+            )
+            if self._bounds_apart(a, b, shadows) <= room and self._gap(a, b, shadows, room) < room:
+                near.append((a, b))
         return near
 
-    def _speed_bound(self, i: int, shadow: Shadow) -> float:
-        """No point of the hull moves faster than this [m/s]."""
-        u, v, w, p, q, r = shadow.nu.tolist()
-        return hypot(u, v, w) + hypot(p, q, r) * self._reach[i]
+    def _room(self, body: Body, shadow: Shadow, H: float) -> float:
+        """How far any point of the hull may get in H [s], and the fender before it [m]."""
+        fender = body.fender.thickness if body.fender else 0.0
+        if shadow.fixed:
+            return fender
+        u, v, w, p, q, r = shadow.expected.tolist()
+        return fender + H * (hypot(u, v, w) + hypot(p, q, r) * body.reach)
 
-    def _circles_apart(self, a: int, b: int, shadows: Sequence[Shadow]) -> float:
-        """Horizontal distance [m] of the circles about the hulls; roll and pitch only shrink them."""
-        (x_a, y_a, _), (x_b, y_b, _) = shadows[a].x.tolist(), shadows[b].x.tolist()
-        return hypot(x_b - x_a, y_b - y_a) - self._reach[a] - self._reach[b]
+    def _bounds_apart(self, a: int, b: int, shadows: Sequence[Shadow]) -> float:
+        """Horizontal distance [m] of the bounds of two hulls, circles or an obstacle's rectangle; not more than the
+        hulls'."""
+        n, e, _ = shadows[a].x.tolist()
+        one, other = self._bodies[a], self._bodies[b]
+        if shadows[b].fixed:
+            return apart((n, e), one.reach, other.rectangle)
+        n_b, e_b, _ = shadows[b].x.tolist()
+        return hypot(n_b - n, e_b - e) - one.reach - other.reach
 
     def _gap(self, a: int, b: int, shadows: Sequence[Shadow], cap: float) -> float:
         detector = self._ready()
         detector.place(a, shadows[a])
-        detector.place(b, shadows[b])
+        if not shadows[b].fixed:
+            detector.place(b, shadows[b])
         return detector.clearance(a, b, cap)
 
     def _ready(self) -> Detector:
@@ -171,11 +235,40 @@ class ShipCollision:
             raise StepError("ShipCollision is not initialised: call initialise() before the first step")
         return self._detector
 
-    def _respond(self, t: float, h: float, near: list[tuple[int, int]], shadows: list[Shadow]) -> list[Impulse]:
+    # -- contact --------------------------------------------------------------------------------------
+
+    def _fender(self, pair: Pair) -> Fender | None:
+        return in_series(self._bodies[pair[0]].fender, self._bodies[pair[1]].fender)
+
+    def _press(self, pair: Pair, fender: Fender, h: float, shadows: list[Shadow], slots: list[Slot]) -> list[Slot]:
+        """One substep of the fender between two bodies: its impulse booked, its energy kept."""
+        contact = self._ready().facing(*pair, fender.thickness, shadows, self._kept)
+        stored = self._fenders.get(pair, 0.0)
+        compression = 0.0 if contact is None else fender.thickness - contact.gap
+        if contact is None or compression <= 0.0:
+            self._fender_dissipated += self._fenders.pop(pair, 0.0)  # what a released spring still holds is lost
+            return slots
+        axes = contact_axes(contact.normal)
+        W = axes @ _mobility(contact, shadows) @ axes.T
+        v = axes @ actual_velocity(contact, shadows)
+        squeeze = squeezed(fender, compression, -float(v[0]), float(W[0, 0]), stored, h)
+        P = squeeze.P * contact.normal
+        rubbed = friction_impulse(W[1:, 1:], v[1:] + squeeze.P * W[1:, 0], self.parameters.friction, squeeze.P)
+        P = P + rubbed @ axes[1:]
+        lost = self._apply(Impulse(contact, P), shadows)
+        self._fenders[pair] = squeeze.stored
+        self._fender_dissipated += lost - (squeeze.stored - stored)
+        return merged(slots, Slot(contact, P, lost, 0, 0))
+
+    def _apply(self, impulse: Impulse, shadows: list[Shadow]) -> float:
+        """Book one impulse; the kinetic energy that it takes [J]."""
+        c, before = impulse.contact, actual_velocity(impulse.contact, shadows)
+        _take(impulse, shadows)
+        return float(-impulse.P @ (before + actual_velocity(c, shadows)) * 0.5)
+
+    def _respond(self, t: float, h: float, near: list[Pair], shadows: list[Shadow]) -> list[Impulse]:
         """Contacts at the predicted poses and their impulses; collisions and scratches are opened here."""
         detector, parameters = self._ready(), self.parameters
-        for ship in {s for pair in near for s in pair}:
-            detector.place(ship, shadows[ship])
         answered = near
         if parameters.feedback == "none":  # one impact per collision: what follows is watched, not answered
             answered = [pair for pair in near if not self._episodes.is_open(*pair)]
@@ -184,25 +277,23 @@ class ShipCollision:
                     self._episodes.touch(t, watched, shadows)
         impulses = RESPONSES[parameters.response](
             Encounter(
-                answered, shadows, detector, self._kept, self._bodies, parameters.friction, parameters.restitution, h
+                answered, shadows, detector, self._kept, self._bullets, parameters.friction, parameters.restitution, h
             )
         )
         for pair in answered:
             contacts = [i.contact for i in impulses if (i.contact.a, i.contact.b) == pair]
             if contacts:
                 self._episodes.touch(t, contacts, shadows)
-        return impulses
+        return passive(impulses, shadows) if impulses else impulses
 
     def _book(self, impulses: list[Impulse], shadows: list[Shadow], slots: list[Slot]) -> list[Slot]:
         """Impulses into both ships' twists and ledgers, the energy they cost, and the contact slots of the step."""
-        before = [contact_velocity(i.contact, shadows) for i in impulses]
+        before = [actual_velocity(i.contact, shadows) for i in impulses]
         for impulse in impulses:
-            c = impulse.contact
-            shadows[c.a].book(-impulse.P @ c.G_a)
-            shadows[c.b].book(impulse.P @ c.G_b)
+            _take(impulse, shadows)
         for impulse, v_before in zip(impulses, before, strict=True):
             c = impulse.contact
-            along, across = energy_lost(impulse.P, c.normal, v_before, contact_velocity(c, shadows))
+            along, across = energy_lost(impulse.P, c.normal, v_before, actual_velocity(c, shadows))
             self._energy = self._energy + [along + across, along, across]
             collision, scratch = self._episodes.numbers(c.a, c.b)
             slots = merged(slots, Slot(c, impulse.P, along + across, collision, scratch))
@@ -210,51 +301,63 @@ class ShipCollision:
 
     # -- outputs ------------------------------------------------------------------------------------
 
-    def _publish(self, t: float, H: float, shadows: list[Shadow], slots: list[Slot]) -> None:
-        for i, shadow in enumerate(shadows):
-            self._issued[i] = self._issued[i] + shadow.issued
+    def _publish(
+        self, t: float, H: float, shadows: list[Shadow], slots: list[Slot], candidates: Sequence[Pair]
+    ) -> None:
+        for i, shadow in enumerate(shadows[: len(self.names)]):
+            out, state = self.outputs.ships[i], self.inputs.ships[i]
             self._last[i] = shadow.issued
             self._nu_sent[i] = shadow.nu_received
-            out, psi = self.outputs.ships[i], self.inputs.ships[i].attitude[2]
+            if shadow.issued.any():
+                self._issued[i] = self._issued[i] + shadow.issued
+                self._seen[i] = _seen(t - H, H, state)
+                out.force[:] = (shadow.issued / H).tolist()
+            else:
+                self._seen[i] = None
+                out.force[:] = [0.0] * 6
+            nu = shadow.nu.tolist()
             out.position[:] = shadow.x.tolist()
-            out.attitude[:] = attitude_unwrapped(attitude_from_rotation(shadow.R), psi).tolist()
-            out.velocity[:] = shadow.nu[:3].tolist()
-            out.rate[:] = shadow.nu[3:].tolist()
+            out.attitude[:] = attitude_unwrapped(attitude_from_rotation(shadow.R), state.attitude[2]).tolist()
+            out.velocity[:], out.rate[:] = nu[:3], nu[3:]
             out.impulse[:] = self._issued[i].tolist()
-            out.force[:] = (shadow.issued / H).tolist() if H > 0.0 else [0.0] * 6
         self._publish_contacts(t, slots)
         self.outputs.energy[:] = self._energy.tolist()
-        self.outputs.clearance[0] = self._clearance(shadows)
+        self.outputs.fender[:] = [sum(self._fenders.values()), self._fender_dissipated]
+        self.outputs.clearance[0] = self._clearance(candidates, shadows)
 
     def _publish_contacts(self, t: float, slots: list[Slot]) -> None:
         out, latest = self.outputs, self._episodes.latest
         slots = sorted(slots, key=lambda s: -float(np.linalg.norm(s.P)))[:SLOTS] if len(slots) > SLOTS else slots
         for k, place in enumerate(out.contacts):
             (slots[k] if k < len(slots) else Slot.unused()).fill(place)
-        out.contact_active, out.contact_count = bool(slots), len(slots)
+        out.contact_active, out.contact_count = any(s.impact for s in slots), len(slots)
         out.scratch_id = max((s.scratch for s in slots), default=0)
         out.impact_count, out.impact_ship_a, out.impact_ship_b = self._episodes.impacts, latest.ship_a, latest.ship_b
         out.impact[:] = [latest.time, latest.closing_speed, latest.angle]
         out.impact_point[:] = latest.point
 
-    def _clearance(self, shadows: Sequence[Shadow]) -> float:
-        cap = self.parameters.clearance_range
-        least = cap
-        for a in range(len(shadows)):
-            for b in range(a + 1, len(shadows)):
-                if self._circles_apart(a, b, shadows) < least:
-                    least = min(least, self._gap(a, b, shadows, least))
+    def _clearance(self, candidates: Sequence[Pair], shadows: Sequence[Shadow]) -> float:
+        """Least distance between hulls [m], capped. The nearest bounds first: they soon rule out the others."""
+        least = self.parameters.clearance_range
+        bounds = [(self._bounds_apart(a, b, shadows), a, b) for a, b in candidates]
+        for bound, a, b in sorted(bounds) if len(bounds) > 1 else bounds:
+            if bound >= least:
+                break
+            least = min(least, self._gap(a, b, shadows, least))
         return least
 
     # -- state --------------------------------------------------------------------------------------
 
     def get_state(self) -> dict[str, Any]:
-        """What the outputs do not show: ledger of the last step, kept normals, episodes."""
+        """What the outputs do not show: ledger of the last step, energy in fenders, kept normals, episodes."""
         return {
             "issued": [v.tolist() for v in self._issued],
             "last": [v.tolist() for v in self._last],
             "nu_sent": [v.tolist() for v in self._nu_sent],
             "energy": self._energy.tolist(),
+            "seen": [None if s is None else list(s) for s in self._seen],
+            "fenders": [[a, b, stored] for (a, b), stored in self._fenders.items()],
+            "fender_dissipated": self._fender_dissipated,
             "kept": [[a, b, carrier, list(normal)] for (a, b), (carrier, normal) in self._kept.items()],
             "episodes": self._episodes.get_state(),
         }
@@ -265,6 +368,9 @@ class ShipCollision:
         self._last = [np.array(v) for v in state["last"]]
         self._nu_sent = [np.array(v) for v in state["nu_sent"]]
         self._energy = np.array(state["energy"])
+        self._seen = [None if s is None else Seen(*s) for s in state["seen"]]
+        self._fenders = {(a, b): stored for a, b, stored in state["fenders"]}
+        self._fender_dissipated = state["fender_dissipated"]
         self._kept = {(a, b): (carrier, list(normal)) for a, b, carrier, normal in state["kept"]}
         self._episodes.set_state(state["episodes"])
 
@@ -273,18 +379,22 @@ class ShipCollision:
     def _check_inputs(self, t: float, H: float) -> None:
         if not (isfinite(t) and isfinite(H) and H > 0.0):
             raise StepError(f"a step from t = {t} s by {H} s cannot be made: both must be finite and the step positive")
-        for name, state in zip(self.names, self.inputs.ships, strict=True):
-            for quantity in ("position", "attitude", "velocity", "rate", "impulse_applied"):
-                values = getattr(state, quantity)
-                if not all(map(isfinite, values)):
-                    raise StepError(
-                        f"{name}.{quantity} = {values} at t = {t} s is not finite: check the ship model's output"
-                    )
-            speed = hypot(*state.velocity)
-            if speed > ABSURD_SPEED:
+        for body, state in zip(self._bodies, self.inputs.ships, strict=False):
+            if not isfinite(
+                sum(state.position) + sum(state.attitude) + sum(state.velocity) + sum(state.rate)
+                + sum(state.impulse_applied)
+            ):  # fmt: skip
+                _refuse_not_finite(body.name, state, t)
+            speed, tip, place = hypot(*state.velocity), hypot(*state.rate) * body.reach, hypot(*state.position)
+            if speed > ABSURD_SPEED or tip > ABSURD_SPEED or place > ABSURD_PLACE:
+                quantity, value, unit, limit = (
+                    ("velocity", speed, "m/s", ABSURD_SPEED) if speed > ABSURD_SPEED
+                    else ("rate", tip, "m/s at the ship's ends", ABSURD_SPEED) if tip > ABSURD_SPEED
+                    else ("position", place, "m from the origin", ABSURD_PLACE)
+                )  # fmt: skip
                 raise StepError(
-                    f"{name}.velocity is {speed:g} m/s at t = {t} s, above {ABSURD_SPEED:g} m/s: check the signal and "
-                    "its unit"
+                    f"{body.name}.{quantity} is {value:g} {unit} at t = {t} s, above {limit:g} {unit}: check the "
+                    "signal and its unit"
                 )
 
 
@@ -305,23 +415,31 @@ def _substeps(H: float, substep: float) -> tuple[int, float]:
     return n, H / n
 
 
-def _bullet_body(ship: Ship) -> BulletBody:
-    S = skew(ship.r_bg)
-    return BulletBody(ship.mass, np.diag(ship.M_RB[3:, 3:] + ship.mass * S @ S).copy(), np.array(ship.r_bg))
+def _refuse_not_finite(name: str, state: ShipState, t: float) -> None:
+    for quantity in ("position", "attitude", "velocity", "rate", "impulse_applied"):
+        values = getattr(state, quantity)
+        if not all(map(isfinite, values)):
+            raise StepError(f"{name}.{quantity} = {values} at t = {t} s is not finite: check the ship model's output")
 
 
-def _refuse_what_bullet_lacks(names: Sequence[str], ships: Sequence[Ship], given: Sequence[ShipParameters]) -> None:
-    for name, ship, parameters in zip(names, ships, given, strict=True):
-        if parameters.degrees_of_freedom != 6:
-            raise InputError(
-                f"response 'bullet' moves bodies freely, and {name}.degrees_of_freedom = "
-                f"{parameters.degrees_of_freedom}: take response 'pgs', or 6 degrees of freedom"
-            )
-        if ship.M_A.any():
-            raise InputError(
-                f"response 'bullet' knows a scalar mass only, and {name} = {ship.name!r} has added mass: take response "
-                "'pgs', or a ship whose [added_mass] is zero"
-            )
+def _seen(t: float, H: float, state: ShipState) -> Seen:
+    return Seen(
+        t, H, list(state.position), list(state.attitude), state.velocity + state.rate, list(state.impulse_applied)
+    )
+
+
+def _take(impulse: Impulse, shadows: Sequence[Shadow]) -> None:
+    """The impulse into the twists and ledgers of both bodies; an obstacle has neither."""
+    c, P = impulse.contact, impulse.P
+    for i, G, sign in ((c.a, c.G_a, -1.0), (c.b, c.G_b, 1.0)):
+        if not shadows[i].fixed:
+            shadows[i].book(sign * P @ G)
+
+
+def _mobility(c: Contact, shadows: Sequence[Shadow]) -> Array:
+    """What a unit impulse at a contact does to its relative velocity, in n; (3, 3) [1/kg]."""
+    W: Array = c.G_a @ shadows[c.a].M_inverse @ c.G_a.T + c.G_b @ shadows[c.b].M_inverse @ c.G_b.T
+    return W
 
 
 def _check(p: CollisionParameters) -> None:

@@ -24,21 +24,23 @@ def zeros(n: int) -> list[float]:
 @dataclass
 class ShipParameters:
     """Which ship it is: a name or a file; degrees_of_freedom 3 (surge, sway, yaw), 4 (and roll) or 6, as its model
-    has."""
+    has; fender around its hull: stiffness [N/m], damping [N s/m], thickness [m], all 0 for none."""
 
     ship: str = "kvlcc2"
     degrees_of_freedom: int = 6
+    fender: list[float] = field(default_factory=lambda: zeros(3))
 
 
 @dataclass
 class CollisionParameters:
     """Fixed parameters. numbers: friction, restitution, substep [s], minimum_separation_time [s], clearance_range
-    [m]."""
+    [m]. obstacles: TOML text or the path of a TOML file, see obstacles.py; empty: none."""
 
     ships: list[ShipParameters]
     numbers: list[float] = field(default_factory=lambda: [0.3, 0.0, 0.01, 10.0, 200.0])
     response: str = "pgs"
     feedback: str = "ledger"
+    obstacles: str = ""
 
     @property
     def friction(self) -> float:
@@ -99,7 +101,8 @@ class ShipPost:
 @dataclass
 class ContactSlot:
     """A contact point of the step. point, normal in n; r_a, r_b its places in the ships' b [m]; impulse (3) on ship_b
-    in n [N s]; values: gap [m], normal and tangential impulse [N s], energy dissipated [J]. Ships from 1, 0: unused."""
+    in n [N s]; values: gap [m], normal and tangential impulse [N s], energy dissipated [J]. Ships from 1, 0: unused;
+    ship_b beyond the number of ships is an obstacle, the first one being the number of ships plus 1."""
 
     point: list[float] = field(default_factory=lambda: zeros(3))
     normal: list[float] = field(default_factory=lambda: zeros(3))
@@ -116,7 +119,8 @@ class ContactSlot:
 @dataclass
 class CollisionOutputs:
     """energy: dissipated, normal, tangential [J]; impact: time [s], closing speed [m/s], angle [rad] of the latest
-    collision, impact_point its first contact point in n; clearance [m] (one entry)."""
+    collision, impact_point its first contact point in n; fender: energy stored in fenders now and dissipated by them
+    so far [J]; clearance [m] (one entry)."""
 
     ships: list[ShipPost]
     contacts: list[ContactSlot] = field(default_factory=lambda: [ContactSlot() for _ in range(SLOTS)])
@@ -129,4 +133,5 @@ class CollisionOutputs:
     impact_point: list[float] = field(default_factory=lambda: zeros(3))
     scratch_id: int = 0
     energy: list[float] = field(default_factory=lambda: zeros(3))
+    fender: list[float] = field(default_factory=lambda: zeros(2))
     clearance: list[float] = field(default_factory=lambda: zeros(1))

@@ -2,14 +2,15 @@
 
     respond(encounter) -> impulses        what ship b takes at each contact point in this substep, in n
 
-pgs      Projected Gauss-Seidel on the 6x6 masses: cleaned contacts, friction cone, iterated to a residual
-bullet   Bullet's own dynamics with a scalar mass and Bullet's own contacts: what Guan et al. 2014 ran
+pgs          Projected Gauss-Seidel on the 6x6 masses: cleaned contacts, friction cone, iterated to a residual
+closed_form  one resultant contact per pair, its impact followed along the slip: Keller, Stronge (slip_path.py)
+bullet       Bullet's own dynamics with a scalar mass and Bullet's own contacts: what Guan et al. 2014 ran
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -19,9 +20,16 @@ from .delassus import contact_jacobian, delassus
 from .detection import Detector, KeptNormals
 from .engine import BulletBody
 from .restitution import solve_impact
+from .resultant import resultant_contact
 from .shadow import Shadow
+from .slip_path import solve_slip_path
 
-__all__ = ["RESPONSES", "Encounter", "respond_bullet", "respond_pgs"]
+__all__ = ["RESPONSES", "Encounter", "respond_bullet", "respond_closed_form", "respond_pgs"]
+
+
+AT_REST = 1e-12
+"""Approach [m/s] that is rounding: what a solved contact is left with. Solving it again would cost as much as an
+impact."""
 
 
 @dataclass(frozen=True)
@@ -52,11 +60,35 @@ def respond_pgs(encounter: Encounter) -> list[Impulse]:
     G, ships = contact_jacobian(contacts)
     axes = [contact_axes(c.normal) for c in contacts]
     velocity = np.concatenate([axis @ contact_velocity(c, shadows) for axis, c in zip(axes, contacts, strict=True)])
-    if velocity[0::3].min() >= 0.0:  # touching, but parting
+    if velocity[0::3].min() >= -AT_REST:  # touching, but parting, or stopped in the substep before
         return [Impulse(c, np.zeros(3)) for c in contacts]
     local = np.vstack([axis @ G[3 * i : 3 * i + 3] for i, axis in enumerate(axes)])
     solution = solve_impact(delassus(local, ships, shadows), velocity, encounter.friction, encounter.restitution)
     return [Impulse(c, axis.T @ P) for c, axis, P in zip(contacts, axes, solution.P, strict=True)]
+
+
+def respond_closed_form(encounter: Encounter) -> list[Impulse]:
+    """One pair after the other, each as one impact at its resultant contact (resultant.py, slip_path.py).
+
+    A pair sees what the pairs before it did to its ships. What is not answered exactly in a substep, contacts that the
+    resultant's friction or another pair closes, is met again in the next.
+    """
+    shadows, impulses = list(encounter.shadows), []
+    for a, b in encounter.pairs:
+        contacts = encounter.detector.contacts(a, b, shadows, encounter.kept)
+        contact = resultant_contact(contacts, shadows) if contacts else None
+        if contact is None:  # apart, or touching but parting
+            impulses += [Impulse(c, np.zeros(3)) for c in contacts]
+            continue
+        axis = contact_axes(contact.normal)
+        G, ships = contact_jacobian([contact])
+        W = delassus(axis @ G, ships, shadows)
+        path = solve_slip_path(W, axis @ contact_velocity(contact, shadows), encounter.friction, encounter.restitution)
+        P = axis.T @ path.P
+        shadows[a] = replace(shadows[a], nu=shadows[a].nu - shadows[a].M_inverse @ (P @ contact.G_a))
+        shadows[b] = replace(shadows[b], nu=shadows[b].nu + shadows[b].M_inverse @ (P @ contact.G_b))
+        impulses.append(Impulse(contact, P))
+    return impulses
 
 
 def respond_bullet(encounter: Encounter) -> list[Impulse]:
@@ -82,4 +114,8 @@ def respond_bullet(encounter: Encounter) -> list[Impulse]:
     return impulses
 
 
-RESPONSES: dict[str, Callable[[Encounter], list[Impulse]]] = {"pgs": respond_pgs, "bullet": respond_bullet}
+RESPONSES: dict[str, Callable[[Encounter], list[Impulse]]] = {
+    "pgs": respond_pgs,
+    "closed_form": respond_closed_form,
+    "bullet": respond_bullet,
+}

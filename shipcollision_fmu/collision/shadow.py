@@ -5,6 +5,7 @@ model will apply the impulse, so there it is booked, and momentum balances to ro
 with the substeps and is where contact is looked for.
 
     nu      twist in b about CO, changed by impulses only
+    drift   what other forces are expected to add to it, in the mean over the step (drift.py); None: nothing
     G       = [R, -R skew(r)]              velocity of the point r (in b) in n is G nu;  (3, 6)
     J       = G^T P                        impulse P (in n) at that point, as the ship books it, in b about CO
     nu     += M^-1 J
@@ -44,6 +45,8 @@ class Shadow:
     nu_received: Array  # (6,) the twist at the start, what was pending taken in
     M_inverse: Array
     issued: Array  # (6,) impulse booked in this communication step, in b about CO at the received pose
+    drift: Array | None = None  # (6,)
+    fixed: bool = False  # an obstacle: M_inverse is zero, and it never moves
 
     @classmethod
     def at(cls, position: Array, attitude: Array, nu: Array, M_inverse: Array) -> Shadow:
@@ -51,10 +54,23 @@ class Shadow:
         R = rotation(attitude)
         return cls(position, R, position, R, nu, nu, M_inverse, np.zeros(6))
 
+    @classmethod
+    def wall(cls, position: Array, heading: float) -> Shadow:
+        """Shadow of an obstacle: it has no twist and takes none."""
+        shadow = cls.at(position, np.array([0.0, 0.0, heading]), np.zeros(6), np.zeros((6, 6)))
+        shadow.fixed = True
+        return shadow
+
     def advance(self, h: float) -> None:
-        """Move the predicted pose on by h [s] with the twist as it is."""
-        self.x = self.x + self.R @ self.nu[:3] * h
-        self.R = self.R @ rotation_vector(self.nu[3:] * h)
+        """Move the predicted pose on by h [s] with the twist expected over the step."""
+        nu = self.expected
+        self.x = self.x + self.R @ nu[:3] * h
+        self.R = self.R @ rotation_vector(nu[3:] * h)
+
+    @property
+    def expected(self) -> Array:
+        """Mean twist (6,) over the step, other forces taken in."""
+        return self.nu if self.drift is None else self.nu + self.drift
 
     def point(self, r_b: Array) -> Array:
         """Where the point r_b [m] (in b) is at the predicted pose, in n; (3,)."""

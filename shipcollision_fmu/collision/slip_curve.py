@@ -10,9 +10,9 @@ which is singular where the slip stops. With dp = sigma dtau it is not:
 
     dphi/dtau = h,    d(ln sigma)/dtau = g,    dp/dtau = sigma,    dP_t/dtau = -mu sigma D,    dN/dtau = sigma v_n
 
-A stop is at tau = infinity, and is met along a direction that no longer turns, h = 0: from there on the path is straight.
-The integration is Gragg's midpoint rule, extrapolated (Bulirsch and Stoer); the direction is an angle in axes in which A
-is diagonal. Speeds are in units of the approach speed, W in units of W_nn.
+A stop is at tau = infinity, and is met along a direction that no longer turns, h = 0: from there on the path is
+straight. The integration is Gragg's midpoint rule, extrapolated (Bulirsch and Stoer); the direction is an angle in axes
+in which A is diagonal. Speeds are in units of the approach speed, W in units of W_nn.
 
 Sources: Keller (1986), J. Appl. Mech. 53:1-4; Batlle (1996), J. Appl. Mech. 63:168-172 (the flow of the slip); Hairer,
 Norsett and Wanner (1993), Solving Ordinary Differential Equations I, section II.9 (extrapolation).
@@ -40,7 +40,7 @@ State = tuple[float, ...]
 
 @dataclass(frozen=True)
 class Curve:
-    """End of a stretch: angle and ln sigma there; impulses p and P_t = (P_1, P_2), and N = integral of v_n dp, along it."""
+    """End of a stretch: angle and ln sigma there; impulses p and P_t = (P_1, P_2), and N = integral of v_n dp."""
 
     angle: float
     log_slip: float
@@ -80,7 +80,7 @@ class SlipFlow:
         return abs(self.turning(angle)) <= SETTLED * self.rate
 
     def stretch(self, angle: float, log_slip: float, v_n: float, tau: float) -> tuple[Curve, int | None]:
-        """The path over tau from a slip and a normal velocity; and the columns that it took, None if they did not do."""
+        """The path over tau from a slip and a normal velocity; and the columns it took, None if they did not do."""
         w_1, w_2, A_1, A_2, mu = self.w_1, self.w_2, self.A_1, self.A_2, self.mu
         diagonal_1, diagonal_2, across = mu * A_1, mu * A_2, mu * (A_1 - A_2)
 
@@ -121,7 +121,7 @@ class SlipFlow:
 
 
 def _extrapolated(f: Callable[[State], State], y: State, H: float) -> tuple[State, int | None]:
-    """y after H: midpoint rules with ever more steps, extrapolated to none; and the columns it took, None: not enough."""
+    """y after H: midpoint rules with ever more steps, extrapolated; and the columns it took, None if too few."""
     slope = f(y)
     row: list[State] = []
     for column, n in enumerate(COLUMNS):

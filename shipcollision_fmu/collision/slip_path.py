@@ -16,15 +16,15 @@ normal impulse has given back the share e^2 of the work that it took in (Stronge
     E_t = -integral of s.dP_t = mu integral of |s| dp >= 0   energy lost to friction          [J]
 
 so energy is never created, whatever the geometry. Newton's restitution (v_n after = -e v_n before) with friction can
-create it, see closed_form.py. Where slip neither stops nor turns the impulse is that of the closed form at e = 0; without
-friction it is Newton's at any e.
+create it, see closed_form.py. Where slip neither stops nor turns, and without friction, the impulse is that of the
+closed form at any e; where a plastic impact ends in stick, too.
 
 Friction that presses the hulls together faster than the normal impulse parts them (a "jam") needs no special case: the
 slip then decelerates, stops, and the path goes on from there. W may be singular, as it is for ships that move in the
 plane. The arithmetic is in units of the approach speed and of W_nn.
 
-Sources: Keller (1986), "Impact with friction", J. Appl. Mech. 53:1-4; Stronge (2000), Impact Mechanics, chapters 3 and 4;
-Batlle (1996), "Rough balanced collisions", J. Appl. Mech. 63:168-172.
+Sources: Keller (1986), "Impact with friction", J. Appl. Mech. 53:1-4; Stronge (2000), Impact Mechanics, chapters 3
+and 4; Batlle (1996), "Rough balanced collisions", J. Appl. Mech. 63:168-172.
 """
 
 from __future__ import annotations
@@ -63,8 +63,11 @@ Ending = Literal["apart", "slip", "stick", "again"]
 
 @dataclass(frozen=True, eq=False)
 class SlipPath:
-    """An impact. P (d,) [N s] on ship b in contact axes (normal first); after (d,): relative velocity [m/s]; energy lost
-    along the normal and to friction [J]; how it ended: apart (no approach), slip (it never stopped), stick, or again."""
+    """An impact. P (d,) [N s] on ship b in contact axes (normal first); after (d,): relative velocity [m/s].
+
+    Energy lost along the normal and to friction [J]; how it ended: apart (there was no approach), slip (it never
+    stopped), stick, or again (it stopped and started anew).
+    """
 
     P: Array
     after: Array
@@ -215,7 +218,7 @@ def _slid(impact: _Impact) -> bool:
 
 
 def _friction_work(impact: _Impact, end: Curve) -> float:
-    """Energy [in the units here] lost to friction along a stretch: all that is lost, less what is lost along the normal."""
+    """Energy (in the units here) lost to friction along a stretch: all that is lost, less that along the normal."""
     flow = impact.flow
     dv_n = end.p + flow.w_1 * end.P_1 + flow.w_2 * end.P_2
     ds_1, ds_2 = flow.w_1 * end.p + flow.A_1 * end.P_1, flow.w_2 * end.p + flow.A_2 * end.P_2
@@ -237,8 +240,8 @@ def _event(impact: _Impact, end: Curve) -> Event:
     if impact.compressing:
         return "turn" if v_n >= 0.0 else ""
     if v_n < 0.0:  # rare: a slip that turned presses the hulls together anew
-        return "again, shorter" if impact.v_n == 0.0 or end.N + RANK >= impact.stored else "turn"
-    return "given back" if end.N >= impact.stored else ""
+        return "again, shorter" if impact.v_n == 0.0 or impact.stored <= end.N + RANK else "turn"
+    return "given back" if impact.stored <= end.N else ""
 
 
 def _located(impact: _Impact, angle: float, log_slip: float, tau: float, event: Event) -> Curve:

@@ -19,7 +19,7 @@ SAME_PLACE = 2.0
 @dataclass(frozen=True)
 class Slot:
     """A contact point over a step: its latest geometry, the impulse P (3,) on ship b summed in n, the energy lost
-    [J]."""
+    [J]. Numbers of collision and scratch are 0 where a fender acts and the hulls do not touch."""
 
     contact: Contact | None
     P: Array
@@ -53,7 +53,8 @@ def merged(slots: list[Slot], new: Slot) -> list[Slot]:
     assert c is not None
     for k, old in enumerate(slots):
         o = old.contact
-        if o is not None and (o.a, o.b) == (c.a, c.b) and np.linalg.norm(o.r_a - c.r_a) < SAME_PLACE:
+        alike = o is not None and (o.a, o.b) == (c.a, c.b) and (old.impact > 0) == (new.impact > 0)
+        if o is not None and alike and np.linalg.norm(o.r_a - c.r_a) < SAME_PLACE:
             joined = Slot(c, old.P + new.P, old.energy + new.energy, new.impact, new.scratch)
             return [*slots[:k], joined, *slots[k + 1 :]]
     return [*slots, new]

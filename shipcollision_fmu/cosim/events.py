@@ -7,6 +7,8 @@
                               Delta impulse from each one's contact points instead.
     energy                    sum of what its contact points dissipated
     angle                     between the headings, 0 (overtaking) to pi (head-on)
+    damage                    indicative, from the energy, only when the scenario asks for it (collision/damage.py);
+                              the striking bow is that of the ship that was touched farther forward, if that far
 
 A scratch has one point per step, that of the largest impulse; it is kept in both ships' b, where paint keeps it.
 """
@@ -14,15 +16,18 @@ A scratch has one point per step, that of the largest impulse; it is kept in bot
 from __future__ import annotations
 
 from collections.abc import Mapping
+from math import radians
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from ..collision.damage import BOW, indicative_damage
 from ..ship.frames import Array, rotation
 from ..ship.inertia import free_inverse
 from ..ship.ship import Ship
 from .recorder import Record
+from .tables import DamageTable
 from .wiring import named
 
 __all__ = ["events"]
@@ -30,21 +35,29 @@ __all__ = ["events"]
 Rows = npt.NDArray[Any]
 
 
-def events(record: Record, ships: Mapping[str, Ship], free: Mapping[str, int], step: float) -> dict[str, Any]:
+def events(
+    record: Record, ships: Mapping[str, Ship], free: Mapping[str, int], step: float, damage: DamageTable | None = None
+) -> dict[str, Any]:
     """{"collisions": [...], "scratches": [...]} as JSON-able data; the schema is cosim/events.schema.json.
 
-    `free` are the ships' degrees of freedom, `step` is the communication step [s].
+    `free` are the ships' degrees of freedom, `step` is the communication step [s]; with `damage` every collision has an
+    object of that name.
     """
     contacts = record.contacts
     gained = _velocity_gains(record, ships, free, step)
+    collisions = [
+        _collision(int(number), contacts[contacts["impact"] == number], record, gained)
+        for number in np.unique(contacts["impact"])
+        if number > 0  # 0: a fender acts, which is no collision
+    ]
+    if damage is not None:
+        collisions = [{**collision, "damage": _damage(collision, ships, damage)} for collision in collisions]
     return {
-        "collisions": [
-            _collision(int(number), contacts[contacts["impact"] == number], record, gained)
-            for number in np.unique(contacts["impact"])
-        ],
+        "collisions": collisions,
         "scratches": [
             _scratch(int(number), contacts[contacts["scratch"] == number])
             for number in np.unique(contacts["scratch"])
+            if number > 0
         ],
     }  # fmt: skip
 
@@ -64,9 +77,30 @@ def _collision(number: int, rows: Rows, record: Record, gained: dict[tuple[int, 
         "closing_speed": None if start is None else start.closing_speed,
         "angle": None if start is None else start.angle,
         "impulse": {"n": impulse.tolist(), "magnitude": float(np.linalg.norm(impulse))},
-        "delta_v": {name: gained[number, name].tolist() for name in pair},
+        "delta_v": {name: gained.get((number, name), np.zeros(3)).tolist() for name in pair},  # an obstacle's is none
         "energy": float(rows["energy"].sum()),
     }
+
+
+def _damage(collision: Mapping[str, Any], ships: Mapping[str, Ship], table: DamageTable) -> dict[str, Any]:
+    """Indicative damage of a collision, and whose bow struck: the ship's that was first touched farther forward."""
+    point = collision["first_point"]
+    forward = {
+        collision[ship]: point[b][0] / ships[collision[ship]].L_pp
+        for ship, b in (("ship_a", "b_a"), ("ship_b", "b_b"))
+        if collision[ship] in ships  # an obstacle has no bow
+    }
+    striking = max(forward, key=lambda name: forward[name])
+    by_bow = forward[striking] > BOW
+    found = indicative_damage(
+        collision["energy"],
+        table.t_eq,
+        radians(table.half_angle_deg),
+        bow_length=ships[striking].L_pp if by_bow else None,
+        closing_speed=collision["closing_speed"],
+        shells=[(height, thickness) for height, thickness in table.shells],
+    )
+    return {**found, "striking": striking if by_bow else None}
 
 
 def _scratch(number: int, rows: Rows) -> dict[str, Any]:

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from ..errors import HostError
 
-__all__ = ["check_writable", "write_files"]
+__all__ = ["check_writable", "write_file", "write_files"]
 
 
 def check_writable(out: Path) -> None:
@@ -47,6 +47,13 @@ def write_files(out: Path, files: Mapping[str, str]) -> None:
             if place.is_dir() and not any(place.iterdir()):
                 place.rmdir()
         raise _refused(out, error) from None
+
+
+def write_file(out: Path, text: str) -> None:
+    """Write one text file, whole or not at all; a file of that name is replaced. Raises HostError."""
+    if out.is_dir():
+        raise HostError(f"cannot write to {out}: it is a folder; give the name of a file with --out")
+    write_files(out.parent, {out.name: text})
 
 
 def _refused(out: Path, error: OSError) -> HostError:

@@ -6,6 +6,7 @@ and contact points only while there are any.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -51,6 +52,7 @@ class Record:
     energy     dissipated, normal, tangential [J] at the end
     applied    what the ships say they applied at the end (ships, 6); the final `issued` is `issued_finally`
     clearance  least distance between hulls at any communication point [m], capped
+    fender     stored in fenders, dissipated in them [J] at the end
     """
 
     states: npt.NDArray[Any]
@@ -61,6 +63,7 @@ class Record:
     issued_finally: Array
     applied: Array
     clearance: float
+    fender: tuple[float, float] = (0.0, 0.0)
 
 
 @dataclass
@@ -71,10 +74,13 @@ class _Contacts:
 
 
 class Recorder:
-    """Takes down a run of `steps` steps of `step` [s] of a system of named ships."""
+    """Takes down a run of `steps` steps of `step` [s] of a system of named ships, and of obstacles that they meet."""
 
-    def __init__(self, system: System, names: list[str], step: float, steps: int) -> None:
+    def __init__(
+        self, system: System, names: list[str], step: float, steps: int, obstacles: Sequence[str] = ()
+    ) -> None:
         self._names, self._step = names, step
+        self._bodies = [*names, *obstacles]  # as the collision FMU counts them
         self._states = np.zeros((steps + 1, 1 + len(names) * len(STATE)))
         self._buffers = [np.ctypeslib.as_array(wire.outputs.values) for wire in system.states]
         collision = system.collision
@@ -85,6 +91,7 @@ class Recorder:
         self._impact = collision.reals(_IMPACT)
         self._issued = collision.reals([variable for name in names for variable in named(name, IMPULSE)])
         self._energy = collision.reals(named("energy", ("dissipated", "normal", "tangential")))
+        self._fender = collision.reals(named("fender", ("stored", "dissipated")))
         self._clearance = collision.reals(["clearance"])
         self._least_clearance = float("inf")
         self._seen = _Contacts()
@@ -111,18 +118,20 @@ class Recorder:
         """The record of the whole run."""
         columns = ["time"] + [f"{name}.{variable}" for name in self._names for variable in STATE]
         states = self._states.view([(column, np.float64) for column in columns])[:, 0]
-        text = f"U{max(map(len, self._names))}"
+        text = f"U{max(map(len, self._bodies))}"
         contact_type = [
             ("time", np.float64), ("ship_a", text), ("ship_b", text), ("impact", np.int64), ("scratch", np.int64),
             *((column, np.float64) for column in CONTACT_COLUMNS),
         ]  # fmt: skip
         dissipated, normal, tangential = _read(self._energy)
+        stored, lost = _read(self._fender)
         return Record(
             states=states,
             contacts=np.array(self._seen.rows, dtype=contact_type),
             issued=self._seen.issued,
             impacts=self._seen.impacts,
             energy=(dissipated, normal, tangential),
+            fender=(stored, lost),
             issued_finally=np.array(_read(self._issued)).reshape(-1, 6),
             applied=np.array([buffer[len(STATE) :] for buffer in self._buffers]),
             clearance=self._least_clearance,
@@ -135,7 +144,7 @@ class Recorder:
         for i in range(count):
             a, b, impact, scratch = self._numbers.values[i * ids : (i + 1) * ids]
             values = self._reals.values[i * width : (i + 1) * width]
-            self._seen.rows.append((time, self._names[a - 1], self._names[b - 1], impact, scratch, *values))
+            self._seen.rows.append((time, self._bodies[a - 1], self._bodies[b - 1], impact, scratch, *values))
         self._seen.issued[k] = np.array(_read(self._issued)).reshape(-1, 6)
 
 

@@ -12,18 +12,22 @@ from typing import Any
 
 from pydantic import Field, PrivateAttr, ValidationError, model_validator
 
+from ..collision.obstacles import ObstacleTable
 from ..errors import ScenarioError, ShipError
 from ..ship.library import load_ship, models_directory
 from ..ship.refusal import one_line, suggestion
 from ..ship.ship import Ship
-from ..ship.toml import read_toml
+from ..ship.toml import parsed, read_toml
+from .apart import refuse_overlap
 from .tables import Algorithm, Collision, Environment, Header, Reference, ShipStart, Table
 
-__all__ = ["RESERVED", "Scenario", "load_scenario", "order_table", "scenario_names"]
+__all__ = [
+    "RESERVED", "Scenario", "heading_table", "load_scenario", "order_table", "scenario_names", "scenario_of",
+]  # fmt: skip
 
 RESERVED = frozenset({
-    "clearance", "clearance_range", "contact", "energy", "feedback", "friction", "impact", "minimum_separation_time",
-    "response", "restitution", "scratch", "substep", "time",
+    "clearance", "clearance_range", "contact", "energy", "feedback", "fender", "friction", "impact",
+    "minimum_separation_time", "obstacles", "response", "restitution", "scratch", "substep", "time",
 })  # fmt: skip
 """Names that no ship may have: the collision FMU's own variables, and the column `time` of states.csv."""
 
@@ -32,9 +36,10 @@ class Scenario(Table):
     """A whole scenario file."""
 
     scenario: Header
-    ships: dict[str, ShipStart] = Field(min_length=2, description="a table [ships.NAME] for each of two or more ships")
+    ships: dict[str, ShipStart] = Field(min_length=1, description="a table [ships.NAME] for each of two or more ships")
     collision: Collision = Collision()
     environment: Environment = Environment()
+    obstacles: dict[str, ObstacleTable] = Field(default={}, description="a table [obstacles.NAME] for each")
     reference: Reference | None = None
 
     _source: str = PrivateAttr(default="scenario")
@@ -72,6 +77,10 @@ class Scenario(Table):
         """The ships by their names in the scenario; ScenarioError, in one line, for one that cannot be had."""
         return {name: self._load_ship(name) for name in self.ships}
 
+    def check(self) -> None:
+        """Raises ScenarioError for ships that cannot be had, and for bodies that start inside each other."""
+        refuse_overlap(self._source, self.ships, self.load_ships(), self.obstacles)
+
     def changed(self, *, algorithm: str | None = None, step: float | None = None) -> Scenario:
         """The same scenario with another algorithm or communication step [s]; ScenarioError if that does not fit."""
         options = {key: value for key, value in (("algorithm", algorithm), ("step", step)) if value is not None}
@@ -94,6 +103,21 @@ class Scenario(Table):
                 f"{key} can only coast, it has no table [manoeuvring]: set hydrodynamics = false, or take one that has"
             )
         return ship
+
+    @model_validator(mode="after")
+    def _something_to_meet(self) -> Scenario:
+        if len(self.ships) + len(self.obstacles) < 2:
+            raise ValueError("[ships] has one ship and nothing to meet: give another [ships.NAME], or [obstacles.NAME]")
+        return self
+
+    @model_validator(mode="after")
+    def _obstacles_named_apart(self) -> Scenario:
+        for name in self.obstacles:
+            if not (name.isidentifier() and name.isascii()) or name in self.ships:
+                raise ValueError(
+                    f"[obstacles.{name}] is no name for an obstacle: take letters, digits and '_', and no ship's name"
+                )
+        return self
 
     @model_validator(mode="after")
     def _named_apart(self) -> Scenario:
@@ -123,10 +147,15 @@ class Scenario(Table):
                 raise ValueError(
                     f"[ships.{name}] orders: time {ship.orders[-1].time:g} s is after the end: must be <= {end:g} s"
                 )
-        if any(self.environment.current) and not any(ship.hydrodynamics for ship in self.ships.values()):
-            raise ValueError(
-                "[environment] current acts on no ship: set hydrodynamics = true for one, or remove current"
-            )
+            if ship.evasion is not None and ship.evasion.of not in set(self.ships) - {name}:
+                of, others = ship.evasion.of, ", ".join(other for other in self.ships if other != name)
+                raise ValueError(f"[ships.{name}] evasion: of = {of!r} is no other ship here: take {others}")
+        acting = {"current": any(self.environment.current), "wind": self.environment.wind is not None}
+        for name, acts in acting.items():
+            if acts and not any(ship.hydrodynamics for ship in self.ships.values()):
+                raise ValueError(
+                    f"[environment] {name} acts on no ship: set hydrodynamics = true for one, or remove {name}"
+                )
         return self
 
     @model_validator(mode="after")
@@ -157,7 +186,17 @@ def load_scenario(name_or_path: str | Path) -> Scenario:
     """
     path = _located(name_or_path)
     scenario = _validated(read_toml(path, ScenarioError), path.name, path.parent)
-    scenario.load_ships()  # so that everything a file can get wrong is said here
+    scenario.check()  # so that everything a file can get wrong is said here
+    return scenario
+
+
+def scenario_of(text: str, source: str, directory: str | Path = ".") -> Scenario:
+    """The scenario that TOML text describes; `source` names it in messages, paths of ships start in `directory`.
+
+    Raises ScenarioError as load_scenario does.
+    """
+    scenario = _validated(parsed(text, source, ScenarioError), source, Path(directory))
+    scenario.check()
     return scenario
 
 
@@ -172,8 +211,22 @@ def order_table(start: ShipStart, step: float) -> list[tuple[int, list[float]]]:
     for order in start.orders:
         rudder = rudder if order.rudder_deg is None else radians(order.rudder_deg)
         revolutions = revolutions if order.rev_per_s is None else float(order.rev_per_s)
-        table[ceil(order.time / step - 1e-9)] = [rudder, revolutions]
+        table[_point(order.time, step)] = [rudder, revolutions]
     return list(table.items())
+
+
+def heading_table(start: ShipStart, step: float) -> list[tuple[int, float | None]]:
+    """Communication points k and the heading to steer from there [rad], None for a rudder by hand; k rising."""
+    table: dict[int, float | None] = {}
+    for order in start.orders:
+        if order.heading_deg is not None or order.rudder_deg is not None:
+            heading = None if order.heading_deg is None else radians(order.heading_deg)
+            table[_point(order.time, step)] = heading
+    return list(table.items())
+
+
+def _point(time: float, step: float) -> int:
+    return ceil(time / step - 1e-9)
 
 
 def _located(name_or_path: str | Path) -> Path:

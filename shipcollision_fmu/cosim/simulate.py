@@ -97,7 +97,7 @@ def simulate(
             factories = through_fmus(ready_fmus(tuple(scenario.ships)), stack)
         record, wall_time = stepped(scenario, factories, progress)
     free = {name: start.free for name, start in scenario.ships.items()}
-    found = events(record, ships, free, scenario.step)
+    found = events(record, ships, free, scenario.step, scenario.collision.damage)
     duration = scenario.step * scenario.steps
     run = Run(
         states=record.states,
@@ -118,7 +118,7 @@ def simulate(
 def stepped(scenario: Scenario, factories: Factories, progress: Progress | None = None) -> tuple[Record, float]:
     """The record of a run with components from `factories`, and the wall time of the step loop [s]."""
     system, helms = connected(scenario, *factories)
-    recorder = Recorder(system, list(scenario.ships), scenario.step, scenario.steps)
+    recorder = Recorder(system, list(scenario.ships), scenario.step, scenario.steps, list(scenario.obstacles))
     advance, step, steps = ALGORITHMS[scenario.algorithm], scenario.step, scenario.steps
     recorder.record(0)
     begin = perf_counter()

@@ -3,7 +3,10 @@
     ledger     per ship: impulse issued by the collision FMU, applied by the ship, and their difference, pending;
                in b about CO, cumulative [N s, N m s]. What jacobi issues in the very last step stays pending
     momentum   M nu of every ship, summed: linear in n [N s], angular in n about the scenario's origin [N m s]
-    energy     1/2 nu' M nu of every ship [J]; what contact dissipated, along the normals and across them
+    energy     1/2 nu' M nu of every ship [J]; what contact dissipated, along the normals and across them; what fenders
+               hold and dissipated, which is counted apart
+    obstacles  by name: impulse that it took, in n [N s]. It has no momentum of its own, so the ships' is not kept
+               where one takes part: `closed` says whether momentum holds among the ships alone
 
 M = M_RB + M_A is that of the ship file. Momentum and kinetic energy are kept outside contact by ships that coast
 without added mass; water, rudder and propeller change them otherwise.
@@ -51,11 +54,20 @@ def summary(scenario: Scenario, ships: Mapping[str, Ship], record: Record, found
             name: {"issued": issued.tolist(), "applied": applied.tolist(), "pending": (issued - applied).tolist()}
             for name, issued, applied in zip(ships, record.issued_finally, record.applied, strict=True)
         },
-        "momentum": {"before": _momentum(ships, before), "after": _momentum(ships, after)},
+        "momentum": {
+            "before": _momentum(ships, before),
+            "after": _momentum(ships, after),
+            "closed": not any(name in scenario.obstacles for name in record.contacts["ship_b"].tolist()),
+        },
+        "obstacles": {
+            name: {"kind": table.kind, "impulse": _impulse_taken(record, name)}
+            for name, table in scenario.obstacles.items()
+        },
         "energy": {
             "before": _energy(ships, before),
             "after": _energy(ships, after),
             **dict(zip(("dissipated", "normal", "tangential"), record.energy, strict=True)),
+            **dict(zip(("fender_stored", "fender_dissipated"), record.fender, strict=True)),
         },
     }
     if scenario.reference is not None:
@@ -87,6 +99,11 @@ def _momentum(ships: Mapping[str, Ship], states: Mapping[str, Array]) -> dict[st
         linear += p_n
         angular += R_nb @ p_b[3:] + np.cross(state[:3], p_n)
     return {"linear": linear.tolist(), "angular": angular.tolist()}
+
+
+def _impulse_taken(record: Record, obstacle: str) -> list[float]:
+    rows = record.contacts[record.contacts["ship_b"] == obstacle]
+    return [float(rows[f"impulse.{axis}"].sum()) for axis in ("north", "east", "down")]
 
 
 def _energy(ships: Mapping[str, Ship], states: Mapping[str, Array]) -> dict[str, float]:

@@ -5,10 +5,16 @@
                   heading_deg and attitude_deg = [roll, pitch], or quaternion = [x, y, z, w] (n from b);
                   speed, or surge, sway, heave, or velocity_ned = [n, e, d] [m/s];
                   rates = [p, q, r] in b, or angular_velocity_ned [rad/s];
-                  hydrodynamics; degrees_of_freedom; orders = [{time, rudder_deg, rev_per_s}]
+                  hydrodynamics; degrees_of_freedom; orders = [{time, rudder_deg or heading_deg, rev_per_s}];
+                  route = {waypoints = [[north, east], ...], lookahead, acceptance};
+                  autopilot = {gain, rate_gain, integral_gain, rudder_limit_deg};
+                  evasion = {of, distance or time_to_closest, rudder_deg, rev_per_s};
+                  fender = {stiffness, damping, thickness} [N/m, N s/m, m], around the hull
+    [obstacles.NAME] kind, shape, position = [north, east], heading_deg, ...: see collision/obstacles.py
     [collision]   friction, restitution, response, substep, feedback, minimum_separation_time,
-                  clearance_range
-    [environment] current = [north, east] or {speed, towards_deg}: where the water goes to [m/s]
+                  clearance_range; damage = {t_eq, half_angle_deg, shells}: indicative, see collision/damage.py
+    [environment] current = [north, east] or {speed, towards_deg}: where the water goes to [m/s];
+                  wind = {speed, from_deg}: where the wind comes from [m/s]
     [reference]   source, time, note; [reference.ships.NAME] printed, corrected, tolerance
 
 Angles are in degrees only in keys ending `_deg`, everything else is SI. Positions and velocities are of CO (midship,
@@ -19,17 +25,18 @@ from __future__ import annotations
 
 import re
 from itertools import pairwise
-from math import ceil, cos, isclose, isfinite, radians, sin
-from typing import Any, Literal
+from math import ceil, cos, hypot, isclose, isfinite, radians, sin
+from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 
+from ..collision.obstacles import FenderTable
 from ..collision.responses import RESPONSES
 from ..ship.frames import Array, attitude_from_quaternion, rotation
 
 __all__ = [
-    "Algorithm", "Collision", "Environment", "Header", "Order", "Published", "Quantity", "Reference", "ShipStart",
-    "Start", "Table", "Tolerance",
+    "Algorithm", "AutopilotTable", "Collision", "DamageTable", "Environment", "EvasionTable", "Header", "Order",
+    "Published", "Quantity", "Reference", "RouteTable", "ShipStart", "Start", "Table", "Tolerance", "WindTable",
 ]  # fmt: skip
 
 Algorithm = Literal["gauss-seidel", "jacobi"]
@@ -43,6 +50,16 @@ MAXIMUM_RATE = 1.0
 """[rad/s] A turn in six seconds; a larger number is a rate in degrees."""
 MAXIMUM_CURRENT = 10.0
 """[m/s] The strongest tidal streams run 8 m/s; a larger number is a wrong unit."""
+MAXIMUM_WIND = 60.0
+"""[m/s] Hurricanes of the strongest category begin at 70; a larger number is a wind in knots."""
+MAXIMUM_REVOLUTIONS = 20.0
+"""[rev/s] Of a model in a tank; a larger number is one of revolutions per minute."""
+SHORTEST_LEG = 1.0
+"""[m] A shorter leg of a route has no reliable bearing."""
+_REV = "the ordered propeller speed [rev/s]"
+
+Waypoint = Annotated[list[float], Field(min_length=2, max_length=2)]
+Shell = Annotated[list[float], Field(min_length=2, max_length=2)]
 
 
 class Table(BaseModel):
@@ -90,16 +107,55 @@ class Header(Table):
 
 
 class Order(Table):
-    """What the bridge orders from a time on; what is left out stays as it was."""
+    """What the bridge orders from a time on; what is left out stays as it was.
+
+    heading_deg hands the rudder to the autopilot, rudder_deg takes it back; both end a route.
+    """
 
     time: float = Field(ge=0, description="given at the first communication point at or after it [s]")
     rudder_deg: float | None = Field(default=None, ge=-90, le=90, description="the ordered rudder angle [deg]")
-    rev_per_s: float | None = Field(default=None, ge=-10, le=10, description="the ordered propeller speed [rev/s]")
+    heading_deg: float | None = Field(default=None, ge=-360, le=720, description="the heading to steer [deg]")
+    rev_per_s: float | None = Field(default=None, ge=-MAXIMUM_REVOLUTIONS, le=MAXIMUM_REVOLUTIONS, description=_REV)
 
     @model_validator(mode="after")
     def _orders_something(self) -> Order:
-        if self.rudder_deg is None and self.rev_per_s is None:
+        if self.rudder_deg is None and self.heading_deg is None and self.rev_per_s is None:
             raise ValueError("orders nothing: give rudder_deg or rev_per_s")
+        if self.rudder_deg is not None and self.heading_deg is not None:
+            raise ValueError("gives both rudder_deg and heading_deg: keep one of them")
+        return self
+
+
+class AutopilotTable(Table):
+    """autopilot: gains of the heading autopilot; what is left out follows from the ship's length and speed."""
+
+    gain: float = Field(default=1.5, gt=0, le=20, description="rudder per error in heading [deg/deg]")
+    rate_gain: float | None = Field(default=None, ge=0, description="rudder per rate of turn [s], e.g. 60.0")
+    integral_gain: float = Field(default=0.0, ge=0, le=1, description="rudder per error and second [1/s], e.g. 0.005")
+    rudder_limit_deg: float = Field(default=35.0, gt=0, le=90, description="the largest order [deg]")
+
+
+class RouteTable(Table):
+    """route: waypoints to follow from the start; the last leg is sailed on beyond its end."""
+
+    waypoints: list[Waypoint] = Field(min_length=1, description="[[north, east], ...] [m], without the ship's start")
+    lookahead: float | None = Field(default=None, gt=0, description="how far ahead the track is aimed at [m]")
+    acceptance: float | None = Field(default=None, gt=0, description="how far before a waypoint the turn begins [m]")
+
+
+class EvasionTable(Table):
+    """evasion: what is ordered, over autopilot, route and orders, once another ship is near. For good."""
+
+    of: str = Field(min_length=1, description="the name of the ship to evade")
+    distance: float | None = Field(default=None, gt=0, description="between the midships [m], e.g. 900.0")
+    time_to_closest: float | None = Field(default=None, gt=0, description="to the closest approach [s], e.g. 60.0")
+    rudder_deg: float = Field(ge=-90, le=90, description="the ordered rudder angle [deg], e.g. 35.0")
+    rev_per_s: float | None = Field(default=None, ge=-MAXIMUM_REVOLUTIONS, le=MAXIMUM_REVOLUTIONS, description=_REV)
+
+    @model_validator(mode="after")
+    def _one_trigger(self) -> EvasionTable:
+        if (self.distance is None) == (self.time_to_closest is None):
+            raise ValueError("evasion must say how late: give distance or time_to_closest, one of them")
         return self
 
 
@@ -134,6 +190,12 @@ class ShipStart(Table):
     hydrodynamics: bool = Field(default=False, description="false for a ship that coasts")
     degrees_of_freedom: Literal[3, 4, 6] | None = Field(default=None, description="3, 4 or 6")
     orders: list[Order] = Field(default=[], description="[{time = 0.0, rudder_deg = 0.0, rev_per_s = 1.5}, ...]")
+    autopilot: AutopilotTable | None = Field(default=None, description="{gain = 1.5, rudder_limit_deg = 20.0}")
+    route: RouteTable | None = Field(default=None, description="{waypoints = [[1000.0, 0.0], [2000.0, 500.0]]}")
+    evasion: EvasionTable | None = Field(default=None, description='{of = "own", distance = 900.0, rudder_deg = 35.0}')
+    fender: FenderTable | None = Field(
+        default=None, description="{stiffness = 1e6, damping = 1e5, thickness = 1.0} [N/m, N s/m, m]"
+    )
 
     @property
     def free(self) -> int:
@@ -192,12 +254,39 @@ class ShipStart(Table):
 
     @model_validator(mode="after")
     def _orders_in_sequence(self) -> ShipStart:
-        if self.orders and not self.hydrodynamics:
-            raise ValueError("has orders, but coasts: set hydrodynamics = true, or remove orders")
+        for key in ("orders", "route", "autopilot", "evasion"):
+            if getattr(self, key) and not self.hydrodynamics:
+                raise ValueError(f"has {key}, but coasts: set hydrodynamics = true, or remove {key}")
         for earlier, later in pairwise(order.time for order in self.orders):
             if later <= earlier:
                 raise ValueError(f"orders: time {later:g} s comes after {earlier:g} s: put them in order of time")
         return self
+
+    @model_validator(mode="after")
+    def _steered_by_someone(self) -> ShipStart:
+        if self.autopilot is not None and self.route is None and all(o.heading_deg is None for o in self.orders):
+            raise ValueError("has an autopilot with nothing to steer: give orders a heading_deg, or give a route")
+        if self.route is not None:
+            for earlier, later in pairwise([[float(x) for x in self.position[:2]], *self.route.waypoints]):
+                if hypot(later[0] - earlier[0], later[1] - earlier[1]) < SHORTEST_LEG:
+                    raise ValueError(f"route: waypoint {later} must be {SHORTEST_LEG:g} m or more from the one before")
+        return self
+
+
+class DamageTable(Table):
+    """damage: report indicative damage with each collision, by the formulae of collision/damage.py."""
+
+    t_eq: float = Field(gt=0, le=2, description="plate thickness of decks and bottoms of both ships, summed [m]")
+    half_angle_deg: float = Field(gt=0, lt=90, description="of the striking bow in plan [deg], e.g. 30.0")
+    shells: list[Shell] = Field(default=[], description="[[height, thickness], ...] of side shells torn open [m]")
+
+    @field_validator("shells")
+    @classmethod
+    def _believable(cls, shells: list[Shell]) -> list[Shell]:
+        for height, thickness in shells:
+            if not (0.0 < height <= 50.0 and 0.0 < thickness <= 0.1):
+                raise ValueError(f"damage: shell {[height, thickness]} must be a height and a thickness in metres")
+        return shells
 
 
 class Collision(Table):
@@ -210,6 +299,7 @@ class Collision(Table):
     feedback: Literal["ledger", "force", "state", "none"] | None = Field(default=None, description="how ships answer")
     minimum_separation_time: float | None = Field(default=None, gt=0, description="ends a collision [s], e.g. 10.0")
     clearance_range: float | None = Field(default=None, gt=0, description="the cap of the clearance [m], e.g. 200.0")
+    damage: DamageTable | None = Field(default=None, description="{t_eq = 0.1, half_angle_deg = 30.0}; absent: none")
 
     @field_validator("response")
     @classmethod
@@ -229,13 +319,20 @@ class Collision(Table):
         return feedback
 
 
+class WindTable(Table):
+    """A uniform wind: its speed over ground, and where it comes from."""
+
+    speed: float = Field(ge=0.0, le=MAXIMUM_WIND, description="the wind's speed [m/s]")
+    from_deg: float = Field(ge=-360, le=720, description="where the wind comes from, clockwise from north [deg]")
+
+
 class Environment(Table):
     """[environment]: what acts on every ship that has hydrodynamics."""
 
     current: list[float] = Field(
         default=[0.0, 0.0], min_length=2, max_length=2, description="[north, east] or {speed, towards_deg} [m/s]"
     )
-    wind: Any = None
+    wind: WindTable | None = Field(default=None, description="{speed = 10.0, from_deg = 270.0} [m/s, deg]")
 
     @field_validator("current", mode="before")
     @classmethod
@@ -256,11 +353,6 @@ class Environment(Table):
         if max(map(abs, current)) > MAXIMUM_CURRENT:
             raise ValueError(f"{current} runs faster than the limit of {MAXIMUM_CURRENT:g} m/s: give metres per second")
         return current
-
-    @field_validator("wind")
-    @classmethod
-    def _no_wind_yet(cls, wind: Any) -> Any:
-        raise ValueError(f"[environment] wind = {wind!r} is refused, wind forces are not modelled yet: remove the key")
 
 
 class Tolerance(Table):

@@ -87,6 +87,18 @@ def _ship(i: int, s: str) -> Table:
             "parameter", f"{s}.degrees_of_freedom", f"parameters.ships.{i}.degrees_of_freedom",
             "As in the model that sails it; 3: surge, sway, yaw; 4: and roll; 6: all", minimum=3, maximum=6,
         ),
+        real(
+            "parameter", f"{s}.fender.stiffness", "N/m", f"parameters.ships.{i}.fender", 0,
+            "Of a fender around the hull; 0 for none", minimum=0.0,
+        ),
+        real(
+            "parameter", f"{s}.fender.damping", "N.s/m", f"parameters.ships.{i}.fender", 1,
+            "Of a fender around the hull", minimum=0.0,
+        ),
+        real(
+            "parameter", f"{s}.fender.thickness", "m", f"parameters.ships.{i}.fender", 2,
+            "How far before the hull the fender acts; 0 for none", minimum=0.0,
+        ),
     )  # fmt: skip
 
 
@@ -95,7 +107,7 @@ def _contacts() -> Table:
     lines: list[Table] = [(
         boolean("output", "contact.active", "outputs.contact_active", "Hulls touched in this step", depends_on=()),
         integer(
-            "output", "contact.count", "outputs.contact_count", "Contact points in this step",
+            "output", "contact.count", "outputs.contact_count", "Contact points in this step, fenders' included",
             minimum=0, maximum=SLOTS, depends_on=(),
         ),
     )]  # fmt: skip
@@ -132,9 +144,13 @@ def _contacts() -> Table:
             ),
             integer(
                 "output", f"{name}.ship_b", f"{path}.ship_b",
-                "Second ship, from 1; 0: slot unused", minimum=0, depends_on=(),
+                "Second ship, from 1; beyond the ships: obstacles, in their order; 0: slot unused",
+                minimum=0, depends_on=(),
             ),
-            integer("output", f"{name}.impact", f"{path}.impact", "Number of the collision", minimum=0, depends_on=()),
+            integer(
+                "output", f"{name}.impact", f"{path}.impact",
+                "Number of the collision; 0: a fender acts, the hulls do not touch", minimum=0, depends_on=(),
+            ),
             integer("output", f"{name}.scratch", f"{path}.scratch", "Number of the scratch", minimum=0, depends_on=()),
         ))  # fmt: skip
     return tuple(line for block in lines for line in block)
@@ -163,7 +179,7 @@ def _events() -> Table:
         ),
         integer(
             "output", "impact.ship_b", "outputs.impact_ship_b",
-            "Second ship of the latest collision, from 1", minimum=0, depends_on=(),
+            "Second ship of the latest collision, from 1; beyond the ships: an obstacle", minimum=0, depends_on=(),
         ),
         integer(
             "output", "scratch.id", "outputs.scratch_id",
@@ -179,8 +195,16 @@ def _events() -> Table:
         ),
         real("output", "energy.tangential", "J", "outputs.energy", 2, "Part of it lost to friction", depends_on=()),
         real(
+            "output", "fender.stored", "J", "outputs.fender", 0,
+            "Kinetic energy that fenders hold now; not part of energy.*", depends_on=(),
+        ),
+        real(
+            "output", "fender.dissipated", "J", "outputs.fender", 1,
+            "Kinetic energy lost in fenders since the start; not part of energy.*", depends_on=(),
+        ),
+        real(
             "output", "clearance", "m", "outputs.clearance", 0,
-            "Least distance between hulls, at most clearance_range",
+            "Least distance between hulls, and between hulls and obstacles, at most clearance_range",
         ),
     )  # fmt: skip
 
@@ -207,6 +231,10 @@ def _parameters() -> Table:
         enumeration(
             "parameter", "feedback", tuple(FEEDBACKS), "parameters.feedback",
             "How the ship models answer: by impulse_applied, by force, by adopting post.*, or not at all",
+        ),
+        string(
+            "parameter", "obstacles", "parameters.obstacles",
+            "Fixed obstacles: TOML text with one table each, or the path of a TOML file; empty for none",
         ),
     )  # fmt: skip
 

@@ -60,10 +60,16 @@ def table(ships: tuple[str, ...] = ()) -> Table:
         *wrench("output", "hull", "hull", FORCE, "outputs.hull", "Force of the water on the hull, b about CO"),
         *wrench("output", "propeller", "propeller", FORCE, "outputs.propeller", "Force of the propeller, b about CO"),
         *wrench("output", "rudder", "rudder", FORCE, "outputs.rudder", "Force of the rudder, b about CO"),
+        *wrench("output", "wind", "wind", FORCE, "outputs.wind", "Force of the wind, b about CO"),
         # Inputs: held over the step.
         real("input", "rudder_order", "rad", "inputs.orders", 0, "Ordered rudder angle"),
         real("input", "propeller_order", "rev/s", "inputs.orders", 1, "Ordered propeller speed"),
         *vector("input", "current", NED[:2], "m/s", "inputs.current", "Velocity of the water, towards, in n"),
+        real("input", "wind.speed", "m/s", "inputs.wind", 0, "Speed of the wind over ground; 0: no force of the air"),
+        real(
+            "input", "wind.direction", "rad", "inputs.wind", 1,
+            "Direction that the wind comes from, clockwise from north",
+        ),
         *wrench(
             "input", "impulse", "impulse", IMPULSE, "inputs.impulse",
             "Cumulative impulse on the ship, in b about CO; what is new since the last step is applied at its start",

@@ -45,6 +45,8 @@ UNITS: dict[str, Unit] = {
     "J": Unit(kg=1, m=2, s=-2),
     "N": Unit(kg=1, m=1, s=-2),
     "N.m": Unit(kg=1, m=2, s=-2),
+    "N/m": Unit(kg=1, s=-2),
+    "N.s/m": Unit(kg=1, s=-1),
     "N.m.s": Unit(kg=1, m=2, s=-1),
     "N.s": Unit(kg=1, m=1, s=-1),
     "kg": Unit(kg=1),

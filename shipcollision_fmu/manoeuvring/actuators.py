@@ -1,13 +1,23 @@
-"""Steering gear and engine: a quantity follows its order at a limited rate, within a range."""
+"""Steering gear and engine: a quantity follows its order at a limited rate, within a range.
+
+A direct-reversing engine cannot be run through: ordered the other way round, the propeller first comes to rest at its
+rate, rests for the reversal delay, and then runs up. The delay begins when the propeller has stopped while the order is
+for the other side; an order back to the old side, or to stop, ends it.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import radians
+from math import copysign, radians
 
 from ..ship.particulars import EngineTable, RudderTable
 
-__all__ = ["Actuator", "engine", "steering_gear"]
+__all__ = ["NEUTRAL", "Actuator", "Engine", "Gear", "engine", "steering_gear"]
+
+Gear = tuple[float, float]
+"""The side that the engine runs or last ran to, 1.0 ahead, -1.0 astern, 0.0 not yet; how long the reversal has
+lasted [s]."""
+NEUTRAL: Gear = (0.0, 0.0)
 
 
 @dataclass(frozen=True)
@@ -28,12 +38,49 @@ class Actuator:
         return value + min(reach, max(-reach, target - value))
 
 
-def steering_gear(table: RudderTable) -> Actuator:
-    """The rudder angle's [rad]."""
+@dataclass(frozen=True)
+class Engine:
+    """The propeller speed's actuator [1/s] and the reversal delay [s]."""
+
+    speed: Actuator
+    reversal_delay: float = 0.0
+
+    def limited(self, order: float) -> float:
+        """The order, within range."""
+        return self.speed.limited(order)
+
+    def started(self, n: float) -> Gear:
+        """The gear of an engine that runs at n [1/s]."""
+        return (copysign(1.0, n) if n else 0.0, 0.0)
+
+    def followed(self, n: float, gear: Gear, order: float, time: float) -> tuple[float, Gear]:
+        """Propeller speed and gear after `time` [s] under the order; exact, whatever the length of the step."""
+        speed, delay = self.speed, self.reversal_delay
+        if delay == 0.0:
+            return speed.followed(n, order, time), gear
+        side, waited = gear
+        target = speed.limited(order)
+        if target * side >= 0.0:  # the way it runs, or stop
+            return speed.followed(n, target, time), (side or copysign(1.0, target) if target else side, 0.0)
+        stopping = abs(n) / speed.rate
+        if time < stopping:
+            return speed.followed(n, 0.0, time), (side, 0.0)
+        waited += time - stopping
+        if waited < delay:
+            return 0.0, (side, waited)
+        return speed.followed(0.0, target, waited - delay), (-side, 0.0)
+
+
+def steering_gear(table: RudderTable | None) -> Actuator:
+    """The rudder angle's [rad]; none: it stays amidships."""
+    if table is None:
+        return Actuator(0.0, 0.0, 0.0)
     most = radians(table.max_angle_deg)
     return Actuator(-most, most, radians(table.rate_deg_per_s))
 
 
-def engine(table: EngineTable) -> Actuator:
-    """The propeller speed's [1/s]."""
-    return Actuator(-table.max_astern_rev_per_s, table.max_rev_per_s, table.rate)
+def engine(table: EngineTable | None) -> Engine:
+    """The propeller speed's [1/s]; none: it stays at rest."""
+    if table is None:
+        return Engine(Actuator(0.0, 0.0, 0.0))
+    return Engine(Actuator(-table.max_astern_rev_per_s, table.max_rev_per_s, table.rate), table.reversal_delay)

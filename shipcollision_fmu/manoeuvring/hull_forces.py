@@ -24,7 +24,7 @@ The second set and its limits are this project's, not the paper's; Hooft's cross
 
 from __future__ import annotations
 
-from math import atan2, hypot, radians
+from math import atan2, hypot, radians, tan
 
 from ..ship.particulars import ManoeuvringTable
 from ..ship.ship import Ship
@@ -41,6 +41,10 @@ GAMMA = (radians(35.0), radians(60.0))
 """The same for the angle of the flow at the ship's ends; a 35 deg rudder turn of a full ship reaches about 25 deg."""
 
 
+_WELL_BELOW = (tan(BETA[0]) * (1.0 - 1e-9), tan(GAMMA[0]) * (1.0 - 1e-9))
+"""|v|/u and |r| L/(2 u) below which the cross flow does not count: says the same as the angles, and quicker."""
+
+
 class HullForces:
     """(X, Y, N) of one hull."""
 
@@ -54,30 +58,28 @@ class HullForces:
 
     def __call__(self, u: float, v: float, r: float) -> tuple[float, float, float]:
         """X, Y [N] and N [N m] about midship, in b, at velocities relative to the water."""
-        share = _cross_flow_share(u, v, 0.5 * self._L * r)
-        if share == 0.0:
-            return self._moderate(u, v, r)
-        if share == 1.0:
-            return self._beyond(u, v, r)
-        X_m, Y_m, N_m = self._moderate(u, v, r)
-        X_b, Y_b, N_b = self._beyond(u, v, r)
-        return X_m + share * (X_b - X_m), Y_m + share * (Y_b - Y_m), N_m + share * (N_b - N_m)
-
-    def _moderate(self, u: float, v: float, r: float) -> tuple[float, float, float]:
-        """The MMG polynomials. Called with a share below 1 only: then U > 0 and |r'| < 3.5, or all is at rest."""
-        U = hypot(u, v)
+        share = 0.0
+        if not (abs(v) < _WELL_BELOW[0] * u and abs(0.5 * self._L * r) < _WELL_BELOW[1] * u):
+            share = _cross_flow_share(u, v, 0.5 * self._L * r)
+            if share == 1.0:
+                return self._beyond(u, v, r)
+        U = hypot(u, v)  # with a share below 1, U > 0 and |r'| < 3.5, or all is at rest
         if U == 0.0:
             return 0.0, 0.0, 0.0
-        v, r = v / U, r * self._L / U
-        vv, vr, rr = v * v, v * r, r * r
+        v_1, r_1 = v / U, r * self._L / U
+        vv, vr, rr = v_1 * v_1, v_1 * r_1, r_1 * r_1
         R_0, X_vv, X_vr, X_rr, X_vvvv = self._X
         Y_v, Y_r, Y_vvv, Y_vvr, Y_vrr, Y_rrr = self._Y
         N_v, N_r, N_vvv, N_vvr, N_vrr, N_rrr = self._N
         X = -R_0 + X_vv * vv + X_vr * vr + X_rr * rr + X_vvvv * vv * vv
-        Y = Y_v * v + Y_r * r + Y_vvv * vv * v + Y_vvr * vv * r + Y_vrr * v * rr + Y_rrr * rr * r
-        N = N_v * v + N_r * r + N_vvv * vv * v + N_vvr * vv * r + N_vrr * v * rr + N_rrr * rr * r
+        Y = Y_v * v_1 + Y_r * r_1 + Y_vvv * vv * v_1 + Y_vvr * vv * r_1 + Y_vrr * v_1 * rr + Y_rrr * rr * r_1
+        N = N_v * v_1 + N_r * r_1 + N_vvv * vv * v_1 + N_vvr * vv * r_1 + N_vrr * v_1 * rr + N_rrr * rr * r_1
         UU = U * U
-        return self._force * UU * X, self._force * UU * Y, self._moment * UU * N
+        X, Y, N = self._force * UU * X, self._force * UU * Y, self._moment * UU * N
+        if share == 0.0:
+            return X, Y, N
+        X_b, Y_b, N_b = self._beyond(u, v, r)
+        return X + share * (X_b - X), Y + share * (Y_b - Y), N + share * (N_b - N)
 
     def _beyond(self, u: float, v: float, r: float) -> tuple[float, float, float]:
         """Linear terms and cross-flow drag."""

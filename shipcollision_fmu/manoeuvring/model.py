@@ -4,7 +4,7 @@ A communication step [t, t + h]:
 
     check      what came in; a step that is refused changes nothing
     strike     impulses issued since the last step, at once: nu += M^-1 (impulse - impulse_applied)
-    advance    hydrodynamics: the MMG model in surge, sway and yaw, external force on its right-hand side
+    advance    hydrodynamics: the MMG model in 3, 4 or 6 degrees of freedom, external force on its right-hand side
                otherwise: coasting, with half of the force's momentum before and half after the motion
     publish    the new state
 
@@ -19,15 +19,18 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import fields
-from math import ceil, isfinite
+from math import ceil, cos, isfinite, sin
 from typing import Any, NamedTuple
 
 from ..errors import InputError, ScenarioError, StepError
 from ..ship.inertia import free_inverse
 from ..ship.library import Ship, load_ship
+from .actuators import NEUTRAL, Gear
 from .coasting import coasted
-from .mmg import Mmg, Planar, Surroundings
+from .mmg import Mmg
 from .ports import ShipInputs, ShipOutputs, ShipParameters
+from .sailing import Forces, Machines, Sailing, Six, Surroundings
+from .spatial import SpatialMmg
 
 __all__ = ["ShipManoeuvring"]
 
@@ -37,21 +40,25 @@ ABSURD_SPEED = 1e3
 MAXIMUM_SUBSTEPS = 100_000
 """Of one communication step: an hour and a half at 0.05 s. A longer step is a mistake in its unit."""
 
-Six = tuple[float, float, float, float, float, float]
+STEEPEST = 1.4
+"""Pitch angle [rad] from which Euler angles are no longer to be trusted, 80 degrees: no ship stands on end."""
+
 _NOUGHT: Six = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 class State(NamedTuple):
-    """The whole state: pose eta (n), twist nu (b, over ground), ledger, actuators, forces by origin. Never changed."""
+    """The whole state: pose eta (n), twist nu (b, over ground), ledger, machines, forces by origin. Never changed."""
 
     eta: Six
     nu: Six
     impulse_applied: Six
     rudder_angle: float
     propeller_speed: float
+    gear: Gear
     hull: Six
     propeller: Six
     rudder: Six
+    wind: Six
 
 
 class _SetUp(NamedTuple):
@@ -60,7 +67,7 @@ class _SetUp(NamedTuple):
     parameters: tuple[object, ...]
     ship: Ship
     M_inverse: list[list[float]]  # of the free degrees of freedom
-    mmg: Mmg | None
+    sailing: Sailing | None
     substep: float
 
 
@@ -90,13 +97,15 @@ class ShipManoeuvring:
         nu = _six(map(float, [*p.initial_velocity, *p.initial_rate]))
         if _is_absurd(nu, set_up.ship):
             raise ScenarioError(f"initial {_too_fast(nu)}")
-        propeller_speed = 0.0
-        if set_up.mmg is not None:
-            _refuse_out_of_plane(eta, nu)
-            propeller_speed = set_up.mmg.engine.limited(self.inputs.orders[1])
-        forces = self._forces(set_up.mmg, eta, nu, 0.0, propeller_speed)
+        machines = Machines(0.0, 0.0, NEUTRAL)
+        if set_up.sailing is not None:
+            _refuse_held_motion(eta, nu, p.degrees_of_freedom)
+            self._refuse_orders(set_up, ScenarioError, "at the start")
+            propeller_speed = set_up.sailing.engine.limited(self.inputs.orders[1])
+            machines = Machines(0.0, propeller_speed, set_up.sailing.engine.started(propeller_speed))
+        forces = self._forces(set_up.sailing, eta, nu, machines)
         self._set_up = set_up
-        self._publish(State(eta, nu, _NOUGHT, 0.0, propeller_speed, *forces))
+        self._publish(State(eta, nu, _NOUGHT, *machines, *forces))
 
     def _prepared(self) -> _SetUp:
         """What the parameters ask for; what is there already when they are unchanged."""
@@ -109,13 +118,15 @@ class ShipManoeuvring:
             raise ScenarioError(f"substep = {substep} s must be finite and greater than 0, e.g. 0.05")
         ship = load_ship(p.ship)
         M_inverse = free_inverse(ship.M, p.degrees_of_freedom).tolist()
-        mmg = Mmg(ship) if p.hydrodynamics else None
-        if p.hydrodynamics and p.degrees_of_freedom != 3:
-            raise ScenarioError(
-                f"degrees_of_freedom = {p.degrees_of_freedom} with hydrodynamics = true is not offered yet: set it to "
-                "3 (surge, sway, yaw), or hydrodynamics = false"
-            )
-        return _SetUp(wanted, ship, M_inverse, mmg, substep)
+        sailing: Sailing | None = None
+        if p.hydrodynamics:
+            sailing = Mmg(ship) if p.degrees_of_freedom == 3 else SpatialMmg(ship, p.degrees_of_freedom)
+            if substep > sailing.shortest_time:
+                raise ScenarioError(
+                    f"substep = {substep} s is too long for the heave, roll or pitch of ship {ship.name!r}: must be at "
+                    f"most {sailing.shortest_time:.3g} s, a sixth of its shortest period"
+                )
+        return _SetUp(wanted, ship, M_inverse, sailing, substep)
 
     # -- a step ---------------------------------------------------------------------------------------------------
 
@@ -124,29 +135,45 @@ class ShipManoeuvring:
         if self._state is None or self._set_up is None:
             raise StepError("step before initialise: call initialise() first")
         before, set_up = self._state, self._set_up
-        substeps = self._check(t, h, set_up.substep)
+        substeps = self._check(t, h, set_up)
         nu, applied = self._struck(before, set_up.M_inverse)
-        if set_up.mmg is None:
+        if set_up.sailing is None:
             after = self._coasted(before, nu, applied, set_up, t, h)
         else:
-            after = self._sailed(before, nu, applied, set_up, set_up.mmg, t, h, substeps)
+            after = self._sailed(before, nu, applied, set_up, set_up.sailing, t, h, substeps)
         self._publish(after)
 
-    def _check(self, t: float, h: float, substep: float) -> int:
+    def _check(self, t: float, h: float, set_up: _SetUp) -> int:
         """Number of substeps. Raises StepError on a step or an input that cannot be used."""
         if not (isfinite(t) and isfinite(h) and h > 0.0):
             raise StepError(f"step from t = {t} s over h = {h} s: t must be finite and h greater than 0")
         i = self.inputs
-        if not isfinite(sum(i.orders) + sum(i.current) + sum(i.impulse) + sum(i.force)):  # a sum passes NaN on
+        # A sum passes NaN on.
+        if not isfinite(sum(i.orders) + sum(i.current) + sum(i.wind) + sum(i.impulse) + sum(i.force)):
             _refuse_not_finite(_lists(i), StepError, f"at t = {t:g} s must be finite")
         if max(abs(i.current[0]), abs(i.current[1])) >= ABSURD_SPEED:
             raise StepError(f"current = {i.current} m/s at t = {t:g} s must be below {ABSURD_SPEED:g} m/s")
-        ratio = h / substep
+        if abs(i.wind[0]) >= ABSURD_SPEED:
+            raise StepError(f"wind speed = {i.wind[0]} m/s at t = {t:g} s must be below {ABSURD_SPEED:g} m/s")
+        self._refuse_orders(set_up, StepError, f"at t = {t:g} s")
+        ratio = h / set_up.substep
         if ratio > MAXIMUM_SUBSTEPS:
             raise StepError(
-                f"h = {h:g} s takes {ratio:.3g} substeps of {substep} s, at most {MAXIMUM_SUBSTEPS}: take shorter steps"
+                f"h = {h:g} s takes {ratio:.3g} substeps of {set_up.substep} s, at most {MAXIMUM_SUBSTEPS}: take "
+                "shorter steps"
             )
         return max(1, ceil(ratio - 1e-9))
+
+    def _refuse_orders(self, set_up: _SetUp, refusal: type[InputError | StepError], when: str) -> None:
+        """A ship that drifts has nobody to carry them out."""
+        if set_up.sailing is None or set_up.sailing.propelled or not any(self.inputs.orders):
+            return
+        for name, order in zip(("rudder", "propeller"), self.inputs.orders, strict=True):
+            if order != 0.0:
+                raise refusal(
+                    f"{name}_order = {order} {when}, but ship {set_up.ship.name!r} has no [{name}]: order 0, or add "
+                    "the tables [propeller], [rudder] and [engine] to its file"
+                )
 
     def _struck(self, before: State, M_inverse: list[list[float]]) -> tuple[Six, Six]:
         """Twist and ledger after the impulses that are not yet applied."""
@@ -169,41 +196,40 @@ class ShipManoeuvring:
         return before._replace(eta=_six(eta_after), nu=nu, impulse_applied=applied)
 
     def _sailed(
-        self, before: State, nu: Six, applied: Six, set_up: _SetUp, mmg: Mmg, t: float, h: float, substeps: int
+        self, before: State, nu: Six, applied: Six, set_up: _SetUp, sailing: Sailing, t: float, h: float, substeps: int
     ) -> State:
-        """The MMG model in the horizontal plane; heave, roll and pitch stay as they are."""
+        """The MMG model, in the degrees of freedom that are free."""
         i = self.inputs
         _refuse_absurd(_kicked(nu, set_up.M_inverse, [h * F for F in i.force]), set_up.ship, t)
-        x, y, z, phi, theta, psi = before.eta
-        u, v, w, p, q, r = nu
+        machines = Machines(before.rudder_angle, before.propeller_speed, before.gear)
         try:
-            (x, y, psi), (u, v, r), rudder_angle, propeller_speed = mmg.sailed(
-                (x, y, psi), (u, v, r), before.rudder_angle, before.propeller_speed, i.orders, self._surroundings(),
-                h, substeps,
+            eta, nu, machines = sailing.sailed(
+                before.eta, nu, machines, i.orders, self._surroundings(), h, substeps
             )  # fmt: skip
-        except (OverflowError, ValueError):  # the cosine of infinity
+        except (OverflowError, ValueError, ZeroDivisionError):  # the cosine of infinity
             raise StepError(
                 f"the motion diverges in the step at t = {t:g} s: shorten substep = {set_up.substep} s, or look at "
                 f"velocity {list(nu[:3])} m/s and force {i.force}"
             ) from None
-        eta, nu = (x, y, z, phi, theta, psi), (u, v, w, p, q, r)
         _refuse_absurd(nu, set_up.ship, t)
-        forces = self._forces(mmg, eta, nu, rudder_angle, propeller_speed)
-        return State(eta, nu, applied, rudder_angle, propeller_speed, *forces)
+        if abs(eta[4]) > STEEPEST:
+            raise StepError(
+                f"in the step at t = {t:g} s the pitch angle comes to {eta[4]:.3g} rad, must stay below {STEEPEST} "
+                "rad; look at impulse and force"
+            )
+        return State(eta, nu, applied, *machines, *self._forces(sailing, eta, nu, machines))
 
     def _surroundings(self) -> Surroundings:
-        current, force = self.inputs.current, self.inputs.force
-        return Surroundings(current[0], current[1], force[0], force[1], force[5])
+        i = self.inputs
+        speed, direction = i.wind
+        wind = (-speed * cos(direction), -speed * sin(direction)) if speed else (0.0, 0.0)  # where it blows to
+        return Surroundings(i.current[0], i.current[1], *wind, *i.force)
 
-    def _forces(
-        self, mmg: Mmg | None, eta: Six, nu: Six, rudder_angle: float, propeller_speed: float
-    ) -> tuple[Six, Six, Six]:
-        """Hull, propeller and rudder forces; nought when coasting."""
-        if mmg is None:
-            return _NOUGHT, _NOUGHT, _NOUGHT
-        planar = (nu[0], nu[1], nu[5])
-        hull, propeller, rudder = mmg.forces(eta[5], planar, rudder_angle, propeller_speed, self._surroundings())
-        return _wrench(hull), _wrench(propeller), _wrench(rudder)
+    def _forces(self, sailing: Sailing | None, eta: Six, nu: Six, machines: Machines) -> Forces:
+        """Forces by origin; nought when coasting."""
+        if sailing is None:
+            return Forces(_NOUGHT, _NOUGHT, _NOUGHT, _NOUGHT)
+        return sailing.forces(eta, nu, machines, self._surroundings())
 
     # -- outputs and state ----------------------------------------------------------------------------------------
 
@@ -213,7 +239,7 @@ class ShipManoeuvring:
         o.velocity[:], o.rate[:] = state.nu[:3], state.nu[3:]
         o.actuators[:] = state.rudder_angle, state.propeller_speed
         o.impulse_applied[:] = state.impulse_applied
-        o.hull[:], o.propeller[:], o.rudder[:] = state.hull, state.propeller, state.rudder
+        o.hull[:], o.propeller[:], o.rudder[:], o.wind[:] = state.hull, state.propeller, state.rudder, state.wind
 
     def get_state(self) -> dict[str, Any]:
         """The whole state as JSON-able data, a fresh copy; empty before initialise()."""
@@ -236,12 +262,6 @@ def _six(values: Iterable[float]) -> Six:
     return a, b, c, d, e, f
 
 
-def _wrench(planar: Planar) -> Six:
-    """X, Y, N as a wrench about CO: where the forces act in height is not modelled."""
-    X, Y, N = planar
-    return X, Y, 0.0, 0.0, 0.0, N
-
-
 def _kicked(nu: Six, M_inverse: list[list[float]], impulse: Sequence[float]) -> Six:
     """nu + M^-1 impulse, in the free degrees of freedom."""
     return _six(x + sum(m * P for m, P in zip(row, impulse, strict=True)) for x, row in zip(nu, M_inverse, strict=True))
@@ -257,14 +277,23 @@ def _refuse_not_finite(named: dict[str, list[float]], refusal: type[InputError |
             raise refusal(f"{name} = {values} {rule}: look at what feeds it")
 
 
-def _refuse_out_of_plane(eta: Six, nu: Six) -> None:
-    """The MMG model is one of the horizontal plane: it would silently keep these as they are."""
-    names = ("roll angle", "pitch angle", "heave velocity", "roll rate", "pitch rate")
-    for name, value in zip(names, (eta[3], eta[4], nu[2], nu[3], nu[4]), strict=True):
-        if value != 0.0:
+def _refuse_held_motion(eta: Six, nu: Six, degrees_of_freedom: int) -> None:
+    """What is held must be at rest: the equations would silently keep it as it is."""
+    held = {3: ("roll angle", "pitch angle", "heave velocity", "roll rate", "pitch rate"),
+            4: ("pitch angle", "heave velocity", "pitch rate"), 6: ()}[degrees_of_freedom]  # fmt: skip
+    values = {
+        "roll angle": eta[3], "pitch angle": eta[4], "heave velocity": nu[2], "roll rate": nu[3], "pitch rate": nu[4],
+    }  # fmt: skip
+    for name in held:
+        if values[name] != 0.0:
             raise ScenarioError(
-                f"initial {name} = {value} must be 0 with hydrodynamics = true, which moves in surge, sway and yaw only"
+                f"initial {name} = {values[name]} must be 0 with hydrodynamics = true in {degrees_of_freedom} degrees "
+                "of freedom, which hold it: set it to 0, or degrees_of_freedom = 6"
             )
+    if abs(eta[4]) > STEEPEST:
+        raise ScenarioError(
+            f"initial pitch angle = {eta[4]} rad must be below {STEEPEST} rad with hydrodynamics = true"
+        )
 
 
 def _is_absurd(nu: Six, ship: Ship) -> bool:

@@ -29,7 +29,7 @@ def six() -> list[float]:
 class ShipParameters:
     """Which ship, how it moves, and its state at the start: n [m], (phi, theta, psi) [rad], b [m/s], [rad/s], about CO.
 
-    degrees_of_freedom: 3 (surge, sway, yaw), 4 (and roll) or 6: what impulses and forces can set in motion.
+    degrees_of_freedom: 3 (surge, sway, yaw), 4 (and roll) or 6: what moves.
     substep (one entry): the longest internal step of the hydrodynamics [s].
     """
 
@@ -45,11 +45,13 @@ class ShipParameters:
 
 @dataclass
 class ShipInputs:
-    """orders: rudder [rad], propeller [1/s]. current: north, east, towards [m/s]. impulse: cumulative [N s, N m s].
-    force: held over the step [N, N m]. Both (6), in b about CO."""
+    """orders: rudder [rad], propeller [1/s]. current: north, east, towards [m/s]. wind: speed [m/s], direction that it
+    comes from [rad], clockwise from north. impulse: cumulative [N s, N m s]. force: held over the step [N, N m]. Both
+    (6), in b about CO."""
 
     orders: list[float] = field(default_factory=two)
     current: list[float] = field(default_factory=two)
+    wind: list[float] = field(default_factory=two)
     impulse: list[float] = field(default_factory=six)
     force: list[float] = field(default_factory=six)
 
@@ -58,7 +60,7 @@ class ShipInputs:
 class ShipOutputs:
     """position in n [m]; attitude (phi, theta, psi) [rad], psi without jumps; velocity over ground and rate in b about
     CO [m/s, rad/s]; actuators: rudder angle [rad], propeller speed [1/s]; impulse_applied: cumulative, as the input
-    impulse; hull, propeller, rudder: forces by origin, (6), in b about CO [N, N m]."""
+    impulse; hull, propeller, rudder, wind: forces by origin, (6), in b about CO [N, N m]."""
 
     position: list[float] = field(default_factory=three)
     attitude: list[float] = field(default_factory=three)
@@ -69,3 +71,4 @@ class ShipOutputs:
     hull: list[float] = field(default_factory=six)
     propeller: list[float] = field(default_factory=six)
     rudder: list[float] = field(default_factory=six)
+    wind: list[float] = field(default_factory=six)

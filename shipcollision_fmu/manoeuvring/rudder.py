@@ -17,7 +17,7 @@ delta positive to starboard turns the ship to starboard. v_R takes beta = atan2(
 
 from __future__ import annotations
 
-from math import atan2, copysign, cos, hypot, pi, sin, sqrt
+from math import copysign, cos, hypot, pi, sin, sqrt
 
 from ..ship.particulars import PropellerTable, RudderTable
 from ..ship.ship import Ship
@@ -33,6 +33,7 @@ class Rudder:
         self._normal = 0.5 * ship.rho * table.A_R * table.f_alpha
         self._x = 1.0 - table.t_R
         self._y = 1.0 + table.a_H
+        self.a_H = table.a_H
         self._n = (table.x_R + table.a_H * table.x_H) * L
         self._l_R = table.l_R * L
         self._gamma_plus, self._gamma_minus = table.gamma_R_plus, table.gamma_R_minus
@@ -41,20 +42,16 @@ class Rudder:
         self._race = 8.0 / (pi * ship.rho * propeller.D_p**2)
 
     def __call__(
-        self, u: float, v: float, r: float, u_P: float, thrust: float, delta: float
+        self, U: float, beta: float, r: float, u_P: float, thrust: float, delta: float
     ) -> tuple[float, float, float]:
         """X, Y [N] and N [N m] about midship, in b, at the angle delta [rad] in the race of `thrust` [N]."""
-        U_beta_R = hypot(u, v) * atan2(-v, abs(u)) - self._l_R * r
+        U_beta_R = U * beta - self._l_R * r
         v_R = U_beta_R * (self._gamma_minus if U_beta_R < 0.0 else self._gamma_plus)
-        u_R = self._axial_inflow(u_P, thrust)
-        sin_delta, cos_delta = sin(delta), cos(delta)
-        F_N = self._normal * hypot(u_R, v_R) * (u_R * sin_delta - v_R * cos_delta)
-        return -self._x * F_N * sin_delta, -self._y * F_N * cos_delta, -self._n * F_N * cos_delta
-
-    def _axial_inflow(self, u_P: float, thrust: float) -> float:
-        """u_R [m/s]."""
         speed = abs(u_P)
         raced = sqrt(max(0.0, u_P * u_P + self._race * thrust))  # far behind the propeller
         in_race = u_P + self._kappa * (raced - speed)
         squared = self._eta * in_race * abs(in_race) + (1.0 - self._eta) * u_P * speed
-        return copysign(self._epsilon * sqrt(abs(squared)), squared)
+        u_R = copysign(self._epsilon * sqrt(abs(squared)), squared)
+        sin_delta, cos_delta = sin(delta), cos(delta)
+        F_N = self._normal * hypot(u_R, v_R) * (u_R * sin_delta - v_R * cos_delta)
+        return -self._x * F_N * sin_delta, -self._y * F_N * cos_delta, -self._n * F_N * cos_delta

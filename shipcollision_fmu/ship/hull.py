@@ -15,7 +15,7 @@ stack is convex:
     flare   the bow edges move inwards by tan(flare) per metre from the deck down to the waterline
     bilge   all edges but the transom move inwards by `bilge` at the keel, over the height `bilge`
 
-Frame b about CO [m]. Every triangle's normal points outwards.
+A hull from a user's own mesh file is made in mesh.py. Frame b about CO [m]. Every triangle's normal points outwards.
 """
 
 from __future__ import annotations
@@ -29,14 +29,13 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import ShipError
+from .convex import Indices, half_spaces
 from .frames import Array
 
 if TYPE_CHECKING:
     from .particulars import HullTable
 
 __all__ = ["HullMesh", "build_hull"]
-
-Indices = npt.NDArray[np.int64]
 
 BOW_EDGES = 12
 """Edges of the waterline from shoulder to stem, per side: a chord error of B/2 / (4 x 12^2), about 4 cm on 50 m."""
@@ -48,12 +47,17 @@ class HullMesh:
     """A closed hull surface and its convex parts, in b about CO [m].
 
     vertices (n, 3); triangles (m, 3), counter-clockwise seen from outside; parts: vertex sets (k_i, 3) whose convex
-    hulls together are the solid.
+    hulls together are the solid; planes: of each part, half-spaces (m_i, 4) as convex.half_spaces gives them, which
+    contact needs to tell where parts are joined (without them every part stands for itself). What the parts add to the
+    solid: volume_error, relative, and bulge, how far they stand out where it is hollow [m].
     """
 
     vertices: Array
     triangles: Indices
     parts: tuple[Array, ...]
+    planes: tuple[Array, ...] = ()
+    volume_error: float = 0.0
+    bulge: float = 0.0
 
     @property
     def volume(self) -> float:
@@ -81,6 +85,10 @@ def build_hull(L_oa: float, B: float, T: float, table: HullTable) -> HullMesh:
 
     Raises ShipError when the shape's parameters exclude each other.
     """
+    if table.shape == "mesh":
+        from .mesh import mesh_hull
+
+        return mesh_hull(L_oa, B, T, table)
     if table.shape == "box":
         plan, levels = _box_plan(L_oa, B), [(T, 0.0, 0.0, 0.0), (T - table.depth, 0.0, 0.0, 0.0)]
     else:
@@ -93,7 +101,10 @@ def build_hull(L_oa: float, B: float, T: float, table: HullTable) -> HullMesh:
             "the bow or reduce them"
         )
     vertices = np.vstack(rings) + [table.trim_x, 0.0, 0.0]
-    return HullMesh(vertices, _triangles(len(rings), len(plan.corners)), _convex_parts(vertices, rings, levels))
+    n = len(plan.corners)
+    parts = _convex_parts(vertices, rings, levels)
+    planes = tuple(half_spaces(part, _triangles(len(part) // n, n)) for part in parts)
+    return HullMesh(vertices, _triangles(len(rings), n), parts, planes)
 
 
 def _box_plan(L: float, B: float) -> _Plan:
@@ -104,16 +115,19 @@ def _box_plan(L: float, B: float) -> _Plan:
 
 def _ship_plan(L_oa: float, B: float, table: HullTable) -> _Plan:
     """Deck polygon: from the stem along starboard to the transom and back along port."""
-    s = np.linspace(0.0, 1.0, BOW_EDGES + 1)
+    straight = table.transom_fraction == 1.0  # collinear edges would have no corner between them
+    bow_edges = 1 if table.bow_exponent == 1.0 else BOW_EDGES
+    stern_edges = 0 if straight else 1 if table.stern_exponent == 1.0 else STERN_EDGES
+    s = np.linspace(0.0, 1.0, bow_edges + 1)
     bow = np.column_stack([L_oa / 2 - table.bow_length * (1 - s), B / 2 * (1 - s**table.bow_exponent)])
-    s = np.linspace(0.0, 1.0, STERN_EDGES + 1)
+    s = np.linspace(0.0, 1.0, stern_edges + 1) if not straight else np.array([1.0])
     narrowing = (1 - table.transom_fraction) * s**table.stern_exponent
     stern = np.column_stack([-L_oa / 2 + table.stern_length * (1 - s), B / 2 * (1 - narrowing)])
     starboard = np.vstack([bow[::-1], stern])  # from the stem (y = 0) to the transom's corner
     port = starboard[:0:-1] * [1, -1]  # back again, without the stem
     n = len(starboard)
     i = np.arange(2 * n - 1)
-    return _Plan(np.vstack([starboard, port]), (i < BOW_EDGES) | (i >= 2 * n - 1 - BOW_EDGES), i == n - 1)
+    return _Plan(np.vstack([starboard, port]), (i < bow_edges) | (i >= 2 * n - 1 - bow_edges), i == n - 1)
 
 
 def _levels(T: float, table: HullTable) -> list[tuple[float, float, float, float]]:

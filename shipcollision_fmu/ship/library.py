@@ -61,12 +61,20 @@ def _located(name_or_path: str | Path, beside: Path | None = None) -> Path:
     )
 
 
+def _find_mesh(content: dict[str, Any], path: Path) -> None:
+    """Make the mesh file of [hull] findable from anywhere: it is named relative to the ship file at `path`."""
+    hull = content.get("hull")
+    if isinstance(hull, dict) and isinstance(hull.get("file"), str) and hull["file"]:
+        hull["file"] = str(path.parent / hull["file"])
+
+
 def _overlaid(path: Path, above: tuple[Path, ...]) -> dict[str, Any]:
     """Content of the file with its base's tables under its own. `above`: the files that led here."""
     if path.resolve() in above:
         chain = " extends ".join(p.stem for p in (*above, path))
         raise ShipError(f"{path.name}: extends goes round in a circle ({chain}): remove one extends")
     own = read_toml(path, ShipError)
+    _find_mesh(own, path)
     base_name = own.pop("extends", None)
     if base_name is None:
         return own

@@ -13,14 +13,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, ValidationError, model_validator
 
 from ..errors import ShipError
+from .estimate import Dimensions, completed
 from .refusal import one_line
 
 __all__ = [
     "RHO_SEA", "AddedMassTable", "EngineTable", "HullTable", "ManoeuvringTable", "ParticularsTable", "PropellerTable",
-    "RudderTable", "ShipFile", "ShipTable", "ship_file",
+    "RudderTable", "SeakeepingTable", "ShipFile", "ShipTable", "WindTable", "ship_file",
 ]  # fmt: skip
 
 RHO_SEA = 1025.0
@@ -36,6 +37,12 @@ Positive = Annotated[float, Field(gt=0.0)]
 NotNegative = Annotated[float, Field(ge=0.0)]
 Vector = Annotated[list[float], Field(min_length=3, max_length=3)]
 Row = Annotated[list[float], Field(min_length=6, max_length=6)]
+
+
+Axis = Literal["+x", "-x", "+y", "-y", "+z", "-z"]
+
+MESH_KEYS = frozenset({"file", "unit", "scale", "forward", "up", "origin", "max_parts"})
+"""Keys of [hull] that go with shape = "mesh" only."""
 
 
 class _Table(BaseModel):
@@ -98,7 +105,7 @@ class AddedMassTable(_Table):
 class HullTable(_Table):
     """[hull]: the shape that touches other ships. Its meaning is drawn in ship/hull.py."""
 
-    shape: Literal["parametric", "box"] = Field(description='"parametric" or "box"')
+    shape: Literal["parametric", "box", "mesh"] = Field(description='"parametric", "box" or "mesh"')
     depth: Positive = Field(description="the depth, keel to deck [m]")
     bow_length: NotNegative = Field(default=0.0, description="the length of the bow from its shoulder to the stem [m]")
     bow_exponent: Annotated[float, Field(ge=1.0, le=10.0)] = Field(
@@ -117,16 +124,40 @@ class HullTable(_Table):
     )
     bilge: NotNegative = Field(default=0.0, description="the height and breadth of the chamfer at the keel [m]")
     trim_x: float = Field(default=0.0, description="the shift of the whole hull forward of CO [m]")
+    file: Annotated[str, Field(min_length=1)] | None = Field(
+        default=None, description="the hull's .obj or .stl file, relative to the ship file"
+    )
+    unit: Literal["m", "cm", "mm", "ft", "in"] = Field(default="m", description="the unit of length of the mesh file")
+    scale: Positive | None = Field(default=None, description="metres per unit of the mesh file, instead of unit")
+    forward: Axis = Field(default="+x", description="the mesh file's axis that points to the bow")
+    up: Axis = Field(default="+z", description="the mesh file's axis that points up")
+    origin: Vector = Field(default=[0.0, 0.0, 0.0], description="CO in the mesh file's coordinates and unit")
+    max_parts: Annotated[int, Field(ge=1, le=64)] = Field(
+        default=16, description="the most convex parts that the mesh is cut into"
+    )
 
-    @model_validator(mode="before")
-    @classmethod
-    def _no_mesh_yet(cls, data: Any) -> Any:
-        if isinstance(data, Mapping) and data.get("shape") == "mesh":
-            raise ValueError('[hull] shape = "mesh" is not offered yet: use "parametric" or "box"')
-        return data
+    @model_validator(mode="after")
+    def _mesh_keys_go_with_a_mesh(self) -> HullTable:
+        if self.shape != "mesh":
+            if others := sorted(self.model_fields_set & MESH_KEYS):
+                raise ValueError(f'[hull] shape = "{self.shape}" has no {", ".join(others)}: only "mesh" has')
+            return self
+        if others := sorted(self.model_fields_set - MESH_KEYS - {"shape", "depth"}):
+            raise ValueError(f'[hull] shape = "mesh" has no {", ".join(others)}: the file says it all')
+        if self.file is None:
+            raise ValueError('[hull] file is missing: shape = "mesh" needs the name of an .obj or .stl file')
+        if self.scale is not None and "unit" in self.model_fields_set:
+            raise ValueError(f'[hull] unit = "{self.unit}" and scale = {self.scale} are two units: remove one')
+        if self.forward[1] == self.up[1]:
+            raise ValueError(
+                f'[hull] forward = "{self.forward}" and up = "{self.up}" lie along one axis: name two different ones'
+            )
+        return self
 
     @model_validator(mode="after")
     def _fits_its_shape(self) -> HullTable:
+        if self.shape == "mesh":
+            return self
         if self.shape == "box":
             others = sorted(self.model_fields_set - {"shape", "depth"})
             if others:
@@ -148,8 +179,10 @@ class ManoeuvringTable(_Table):
 
     Forces over 1/2 rho L d U^2, moments over 1/2 rho L^2 d U^2, velocities v' = v/U, r' = r L/U; m_x, m_y over
     1/2 rho L^2 d and J_z over 1/2 rho L^4 d. Yasukawa & Yoshimura (2015), J. Mar. Sci. Technol. 20:37-52.
+    With estimate = true, what is missing here and in [propeller], [rudder], [engine] is estimated (ship/estimate.py).
     """
 
+    estimate: bool = Field(default=False, description="true: estimate what is missing from L_pp, B, T and C_b")
     R_0: NotNegative = Field(description="the resistance coefficient in straight motion")
     X_vv: float
     X_vr: float
@@ -170,16 +203,6 @@ class ManoeuvringTable(_Table):
     m_x: NotNegative | None = Field(default=None, description="the non-dimensional added mass in surge")
     m_y: NotNegative | None = Field(default=None, description="the non-dimensional added mass in sway")
     J_z: NotNegative | None = Field(default=None, description="the non-dimensional added yaw inertia about midship")
-
-    @model_validator(mode="before")
-    @classmethod
-    def _no_estimate_yet(cls, data: Any) -> Any:
-        if isinstance(data, Mapping) and data.get("estimate"):
-            raise ValueError(
-                "[manoeuvring] estimate = true is not offered yet: give the MMG set, or leave the table out and the "
-                "ship coasts"
-            )
-        return data
 
     @model_validator(mode="after")
     def _all_added_masses_or_none(self) -> ManoeuvringTable:
@@ -202,6 +225,10 @@ class PropellerTable(_Table):
     k_0: Positive = Field(description="k_0 of K_T = k_0 + k_1 J + k_2 J^2")
     k_1: float = Field(description="k_1 of K_T = k_0 + k_1 J + k_2 J^2")
     k_2: float = Field(description="k_2 of K_T = k_0 + k_1 J + k_2 J^2")
+    astern_factor: Annotated[float, Field(gt=0.0, le=1.0)] = Field(
+        default=1.0, description="thrust at negative revolutions over that of the mirrored curve; from a crash stop"
+    )
+    z_P: float | None = Field(default=None, description="the depth of the shaft below CO [m]")
     service_speed: Positive | None = Field(default=None, description="the service speed [m/s]")
     service_rev_per_s: Positive | None = Field(default=None, description="the revolutions at service speed [1/s]")
 
@@ -225,6 +252,7 @@ class RudderTable(_Table):
         default=35.0, description="the largest rudder angle [deg]"
     )
     rate_deg_per_s: Positive = Field(default=2.34, description="the rudder's rate [deg/s]")
+    z_R: float | None = Field(default=None, description="the depth of the rudder's centroid below CO [m]")
 
 
 class EngineTable(_Table):
@@ -233,6 +261,46 @@ class EngineTable(_Table):
     rate: Positive = Field(description="the change of revolutions per second [1/s2]")
     max_rev_per_s: Positive = Field(description="the largest revolutions ahead [1/s]")
     max_astern_rev_per_s: NotNegative = Field(default=0.0, description="the largest revolutions astern [1/s]")
+    reversal_delay: NotNegative = Field(
+        default=0.0, description="the time that a stopped engine takes to be started the other way round [s]"
+    )
+
+
+class SeakeepingTable(_Table):
+    """[seakeeping]: heave, roll and pitch, in 4 and 6 degrees of freedom. What is missing is estimated."""
+
+    zeta_heave: NotNegative | None = Field(default=None, description="the damping ratio in heave")
+    zeta_roll: NotNegative | None = Field(default=None, description="the damping ratio in roll at small angles")
+    zeta_pitch: NotNegative | None = Field(default=None, description="the damping ratio in pitch")
+    zeta_roll_per_rad: NotNegative | None = Field(
+        default=None, description="what the damping ratio in roll gains per radian of amplitude [1/rad]"
+    )
+    x_F: float | None = Field(default=None, description="the centre of flotation, forward of midship [m]")
+    z_H: float | None = Field(default=None, description="the depth below CO at which the hull's sway force acts [m]")
+
+
+WindType = Literal[
+    "car carrier", "cargo vessel, loaded", "cargo vessel, container on deck", "container ship, loaded", "destroyer",
+    "diving support vessel", "drilling vessel", "ferry", "fishing vessel", "liquefied natural gas tanker",
+    "offshore supply vessel", "passenger liner", "research vessel", "speed boat", "tanker, loaded",
+    "tanker, in ballast", "tender",
+]  # fmt: skip
+"""The ships of Blendermann (1994)."""
+
+
+class WindTable(_Table):
+    """[wind]: what the wind finds above the water. What is missing is estimated (ship/windage.py)."""
+
+    type: WindType | None = Field(default=None, description='the type of ship in Blendermann (1994), e.g. "ferry"')
+    A_Fw: Positive | None = Field(default=None, description="the frontal projected area above the water [m2]")
+    A_Lw: Positive | None = Field(default=None, description="the lateral projected area above the water [m2]")
+    s_L: float | None = Field(default=None, description="the centroid of A_Lw, forward of midship [m]")
+    s_H: NotNegative | None = Field(default=None, description="the height of that centroid above the water [m]")
+    C_Dt: Positive | None = Field(default=None, description="the transverse drag coefficient")
+    C_Dl_bow: Positive | None = Field(default=None, description="the longitudinal drag coefficient, wind from ahead")
+    C_Dl_stern: Positive | None = Field(default=None, description="the same, wind from astern")
+    delta: Annotated[float, Field(ge=0.0, lt=1.0)] | None = Field(default=None, description="the cross-force parameter")
+    kappa: NotNegative | None = Field(default=None, description="the rolling moment factor")
 
 
 class ShipFile(_Table):
@@ -246,6 +314,15 @@ class ShipFile(_Table):
     propeller: PropellerTable | None = None
     rudder: RudderTable | None = None
     engine: EngineTable | None = None
+    seakeeping: SeakeepingTable = Field(default_factory=SeakeepingTable, description="the table [seakeeping]")
+    wind: WindTable = Field(default_factory=WindTable, description="the table [wind]")
+
+    _estimated: tuple[str, ...] = PrivateAttr(default=())
+
+    @property
+    def estimated(self) -> tuple[str, ...]:
+        """What `[manoeuvring] estimate = true` has put into the tables, and how."""
+        return self._estimated
 
     @model_validator(mode="after")
     def _mass_fits_the_dimensions(self) -> ShipFile:
@@ -315,10 +392,11 @@ class ShipFile(_Table):
     @model_validator(mode="after")
     def _mmg_set_is_whole(self) -> ShipFile:
         if self.manoeuvring is not None:
-            lacking = [f"[{t}]" for t in ("propeller", "rudder", "engine") if getattr(self, t) is None]
-            if lacking:
+            lacking = [t for t in ("propeller", "rudder", "engine") if getattr(self, t) is None]
+            if len(lacking) in (1, 2):
                 raise ValueError(
-                    f"[manoeuvring] needs {', '.join(lacking)} as well: add them, or remove it and the ship coasts"
+                    f"[manoeuvring] needs {', '.join(f'[{t}]' for t in lacking)} as well: propeller, rudder and engine "
+                    "work together; add them, or remove all three and the ship can only drift"
                 )
         return self
 
@@ -328,6 +406,44 @@ def ship_file(data: Mapping[str, Any], file: str) -> ShipFile:
 
     Raises ShipError with one line: file, key, what is wrong, its value, the limit, the remedy.
     """
+    table = data.get("manoeuvring")
+    if isinstance(table, Mapping) and table.get("estimate") is True:
+        return _estimated_file(data, file)
+    return _validated(data, file)
+
+
+_ESTIMATED = ("manoeuvring", "propeller", "rudder", "engine")
+"""Tables that `[manoeuvring] estimate = true` completes."""
+
+
+def _estimated_file(data: Mapping[str, Any], file: str) -> ShipFile:
+    """The content with its MMG set completed. First what is given is checked, then it takes part in the estimate."""
+    rest = {key: value for key, value in data.items() if key not in _ESTIMATED}
+    content = _validated(rest, file)
+    p, added = content.particulars, content.added_mass
+    d = Dimensions(p.L_pp, p.B, p.T, p.mass / (p.rho * p.L_pp * p.B * p.T), p.r_bg[0] if p.r_bg else 0.0, p.rho)
+    unit = 2.0 * d.C_b * d.B / d.L  # the mass over 1/2 rho L^2 T
+    own_masses: tuple[float, float] | None = None
+    if added.M_A is not None:
+        own_masses = (added.M_A[0][0] / p.mass * unit, added.M_A[1][1] / p.mass * unit)
+    elif added.m_x is not None and added.m_y is not None and added.j_z is not None:
+        own_masses = (added.m_x * unit, added.m_y * unit)
+    try:
+        tables, _ = completed(d, {}, own_masses)
+        for name in _ESTIMATED:
+            own = data.get(name, {})
+            tables[name] = {**tables[name], **own} if isinstance(own, Mapping) else own
+        checked = _validated({**rest, **tables}, file)
+        given = {name: getattr(checked, name).model_dump(include=set(data.get(name, {}))) for name in _ESTIMATED}
+        tables, notes = completed(d, given, own_masses)
+    except ShipError as error:
+        raise ShipError(f"{file}: {error}") from None
+    content = _validated({**rest, **tables}, file)
+    content._estimated = tuple(notes)
+    return content
+
+
+def _validated(data: Mapping[str, Any], file: str) -> ShipFile:
     try:
         return ShipFile.model_validate(data)
     except ValidationError as error:

@@ -5,19 +5,31 @@
 
 The fractions in surge, sway and yaw are those of Pedersen & Zhang for impacts; the others are rules of thumb. They
 belong to motions of about a second. Manoeuvring values differ (j_z is three times as large), and a ship has one added
-mass, so where an MMG set brings its own m_x, m_y, J_z, those are it.
+mass, so where an MMG set brings its own m_x, m_y, J_z, those are it. With them goes z_y = T/2, the depth at which the
+sway added mass acts; the fractions for impacts are used in the literature with z_y = 0.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ..errors import ShipError
 from .frames import Array
 from .inertia import added_mass_matrix, is_positive_definite, rigid_body_inertia
-from .particulars import EngineTable, HullTable, ManoeuvringTable, PropellerTable, RudderTable, ShipFile
+from .particulars import (
+    EngineTable,
+    HullTable,
+    ManoeuvringTable,
+    PropellerTable,
+    RudderTable,
+    SeakeepingTable,
+    ShipFile,
+    WindTable,
+)
+from .seakeeping import seakeeping
+from .windage import windage
 
 __all__ = ["Ship", "assembled"]
 
@@ -52,6 +64,8 @@ class Ship:
     propeller: PropellerTable | None
     rudder: RudderTable | None
     engine: EngineTable | None
+    seakeeping: SeakeepingTable
+    wind: WindTable
     estimated: tuple[str, ...]
 
     @property
@@ -66,7 +80,7 @@ def assembled(content: ShipFile, file: str) -> Ship:
     Raises ShipError when the inertia that comes out is not positive definite.
     """
     p = content.particulars
-    estimated: list[str] = []
+    estimated = list(content.estimated)
 
     def or_estimate(value: float | None, formula: str, otherwise: float) -> float:
         if value is None:
@@ -94,12 +108,23 @@ def assembled(content: ShipFile, file: str) -> Ship:
         )
     for array in (r_bg, M_RB, M_A, M):
         array.flags.writeable = False
-    return Ship(
+    ship = Ship(
         name=content.ship.name, kind=content.ship.kind, source=content.ship.source,
         L_pp=p.L_pp, L_oa=L_oa, B=p.B, T=p.T, mass=p.mass, rho=p.rho, r_bg=r_bg, M_RB=M_RB, M_A=M_A, M=M,
         GM_T=p.GM_T, GM_L=p.GM_L, hull=content.hull, manoeuvring=content.manoeuvring, propeller=content.propeller,
-        rudder=content.rudder, engine=content.engine, estimated=tuple(estimated),
+        rudder=content.rudder, engine=content.engine, seakeeping=content.seakeeping, wind=content.wind,
+        estimated=tuple(estimated),
     )  # fmt: skip
+    return ship if ship.manoeuvring is None else replace(ship, estimated=(*estimated, *_of_the_sailing_ship(ship)))
+
+
+def _of_the_sailing_ship(ship: Ship) -> tuple[str, ...]:
+    """What heave, roll, pitch and wind need and the file does not say; a coasting ship has no use for it."""
+    try:
+        floating = seakeeping(ship).estimated
+    except ShipError:  # said when 4 or 6 degrees of freedom are asked for
+        floating = ()
+    return (*floating, *windage(ship).estimated)
 
 
 def _added_mass(content: ShipFile, inertia_g: Array, estimated: list[str], file: str) -> Array:
@@ -122,9 +147,11 @@ def _added_mass(content: ShipFile, inertia_g: Array, estimated: list[str], file:
             fraction = default
             estimated.append(f"{key} = {default} {'mass' if key[0] == 'm' else 'I_' + 2 * key[-1]}")
         values[key] = fraction * whole[key]
-    if table.z_y is None:
-        estimated.append("z_y = 0")
-    return added_mass_matrix(**values, z_y=table.z_y or 0.0)
+    z_y = table.z_y
+    if z_y is None:
+        z_y = 0.5 * p.T if brought else 0.0
+        estimated.append("z_y = T/2" if brought else "z_y = 0")
+    return added_mass_matrix(**values, z_y=z_y)
 
 
 def _checked_M_A(M_A: Array, file: str) -> Array:

@@ -110,13 +110,18 @@ def floats(low: float, high: float) -> st.SearchStrategy[float]:
     return st.floats(low, high, allow_subnormal=False)
 
 
+SHARE = floats(0.0, 1.0)
+
+
 @st.composite
 def ships(draw: st.DrawFn, degrees_of_freedom: int) -> Ship:
     """10 t to 400 000 t, any heading; 6 degrees of freedom also heeled, trimmed and with heave, roll and pitch."""
     m = 10.0 ** draw(floats(4.0, 8.6))
     L = 2.0 * m ** (1 / 3)
     m_y = draw(floats(0.0, 1.3)) * m
-    M = rigid_body_inertia(m, [draw(floats(-0.05, 0.05)) * L, 0.0, draw(floats(-0.02, 0.02)) * L], np.array([0.06, 0.25, 0.25]) * L)
+    M = rigid_body_inertia(
+        m, [draw(floats(-0.05, 0.05)) * L, 0.0, draw(floats(-0.02, 0.02)) * L], np.array([0.06, 0.25, 0.25]) * L
+    )
     M = M + added_mass_matrix(
         draw(floats(0.0, 0.1)) * m, m_y, m, 0.2 * m * (0.06 * L) ** 2, m * (0.25 * L) ** 2,
         draw(floats(0.0, 0.9)) * m * (0.25 * L) ** 2, z_y=draw(floats(0.0, 0.02)) * L,
@@ -135,8 +140,8 @@ def ships(draw: st.DrawFn, degrees_of_freedom: int) -> Ship:
 @st.composite
 def impacts(
     draw: st.DrawFn,
-    mu: st.SearchStrategy[float] | None = None,
-    e: st.SearchStrategy[float] | None = None,
+    mu: st.SearchStrategy[float] = SHARE,
+    e: st.SearchStrategy[float] = SHARE,
     degrees_of_freedom: tuple[int, ...] = tuple(FREE),
 ) -> Impact:
     """Ships that approach each other at a contact point, both with the same degrees of freedom."""
@@ -146,7 +151,7 @@ def impacts(
     normal = np.array([np.cos(angle) * np.cos(steep), np.sin(angle) * np.cos(steep), np.sin(steep)])
     point = np.array([draw(floats(-1e3, 1e3)), draw(floats(-1e3, 1e3)), draw(floats(-10, 10))])
     one, other = replace(one, x=one.x + point), replace(other, x=other.x + point)
-    impact = Impact(one, other, point, normal, draw(mu or floats(0.0, 1.0)), draw(e or floats(0.0, 1.0)))
+    impact = Impact(one, other, point, normal, draw(mu), draw(e))
     closing = -float(impact.v[0])
     if closing < 0.0:  # parting: the other way round they approach
         one, other = (replace(s, nu=-s.nu) for s in (one, other))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from hypothesis import strategies as st
 
 from shipcollision_fmu.collision.closed_form import energy_of_stick, solve_closed_form
 from shipcollision_fmu.collision.pgs import solve_pgs
+from shipcollision_fmu.collision.restitution import solve_impact
 from shipcollision_fmu.collision.slip_path import SlipPath, solve_slip_path
 from shipcollision_fmu.errors import StepError
 from shipcollision_fmu.ship.frames import rotation
@@ -23,11 +25,11 @@ def solved(impact: Impact) -> SlipPath:
     return solve_slip_path(impact.W, impact.v, impact.mu, impact.e)
 
 
-# -- cases with an analytic answer --------------------------------------------------------------------------------------
+# -- cases with an analytic answer ------------------------------------------------------------------------------------
 
 
 def river(kappa: float, psi_0: float, psi_f: float) -> tuple[Array, Array, Array]:
-    """W, v and P of a plastic impact whose slip turns from psi_0 to psi_f while the hulls come to rest along the normal.
+    """W, v, and P with mu, of a plastic impact whose slip turns from psi_0 to psi_f.
 
     With W_tt = a I the slip is a swimmer's course across a river: with psi from W_tn and kappa = mu a/|W_tn|,
         sigma = C tan(psi/2)^kappa / sin(psi),    sigma (cos psi + kappa) = its start + |W_tn| (1 - kappa^2) p
@@ -80,7 +82,7 @@ def test_stick_slides_on_and_turns_back_in_the_plane() -> None:
 
 
 def test_a_jam_is_passed_by_the_stop_of_the_slip() -> None:
-    """mu |W_nt| > W_nn: friction presses the hulls together faster than the normal impulse parts them, until slip stops."""
+    """mu |W_nt| > W_nn: until slip stops, friction presses the hulls together more than the normal parts them."""
     W = np.array([[1.0, 1.5], [1.5, 3.0]])
     mu, e, v = 0.9, 0.5, np.array([-1.0, 2.0])
     assert W[0, 0] - mu * W[0, 1] < 0.0
@@ -96,7 +98,7 @@ def test_a_jam_is_passed_by_the_stop_of_the_slip() -> None:
 
 
 def runge_kutta(W: Array, v: Array, mu: float, e: float, steps: int) -> tuple[Array, float]:
-    """P, and the least slip on the way: dv/dp = W (n - mu slip direction) taken literally, in `steps` up to v_n/W_nn."""
+    """P, and the least slip on the way: dv/dp = W (n - mu slip direction) literally, in steps of v_n/W_nn/steps."""
     h, least = -v[0] / W[0, 0] / steps, [np.inf]
 
     def rate(x: Array) -> Array:  # of v, P, work
@@ -147,16 +149,16 @@ def test_turning_slip_equals_the_literal_integration(e: float) -> None:
         compared += 1
 
 
-# -- what holds for all -------------------------------------------------------------------------------------------------
+# -- what holds for all -----------------------------------------------------------------------------------------------
 
 
 @given(impacts())
-@settings(max_examples=300)
+@settings(max_examples=150)
 def test_energy_is_never_created_and_its_parts_add_up(impact: Impact) -> None:
     path = solved(impact)
     after = impact.after(path.P)
     lost = impact.scale - after.scale
-    assert path.energy_normal >= 0.0
+    assert path.energy_normal >= -1e-12 * energy_of_stick(impact.W, impact.v)
     assert path.energy_tangential >= -1e-12 * energy_of_stick(impact.W, impact.v)
     assert path.energy_normal + path.energy_tangential == pytest.approx(lost, rel=1e-9, abs=1e-12 * impact.scale)
 
@@ -246,17 +248,16 @@ def test_speed_and_mass_only_set_the_scale(impact: Impact, speed: float, mass: f
     np.testing.assert_allclose(other.P / (mass * speed), one.P, rtol=0.0, atol=1e-9 * np.linalg.norm(one.P))
 
 
-# -- against the other laws ---------------------------------------------------------------------------------------------
+# -- against the other laws -------------------------------------------------------------------------------------------
 
 
-@given(impacts(e=PLASTIC))
-@settings(max_examples=200)
+@given(impacts(mu=floats(1.0, 10.0), e=PLASTIC))
 def test_plastic_impact_that_ends_in_stick_is_the_closed_form_and_pgs(impact: Impact) -> None:
     path = solved(impact)
     assume(path.ending == "stick")
     form = solve_closed_form(impact.W, impact.v, impact.mu, 0.0)
     assert form.mode == "stick"
-    pgs = solve_pgs(impact.W, impact.v, impact.mu, 0.0).P[0]
+    pgs = solve_pgs(impact.W, impact.v, impact.mu).P[0]
     for P in (form.P, pgs):
         # Velocities, not impulses: W of ships that move in the plane leaves some of the impulse free.
         np.testing.assert_allclose(impact.W @ P, impact.W @ path.P, rtol=0.0, atol=1e-8 * np.linalg.norm(impact.v))
@@ -264,12 +265,81 @@ def test_plastic_impact_that_ends_in_stick_is_the_closed_form_and_pgs(impact: Im
     assert lost == pytest.approx(energy_of_stick(impact.W, impact.v), rel=1e-8)
 
 
-@given(impacts(e=PLASTIC, degrees_of_freedom=(3,)))
-@settings(max_examples=200)
-def test_plastic_impact_in_the_plane_that_slides_one_way_is_the_closed_form_and_pgs(impact: Impact) -> None:
+@given(impacts(degrees_of_freedom=(3,)))
+def test_impact_in_the_plane_that_slides_one_way_is_the_closed_form_and_pgs(impact: Impact) -> None:
+    """With restitution too: over a constant slope the rules of Newton, Poisson and Stronge are one."""
     path = solved(impact)
     assume(path.ending == "slip")
-    form = solve_closed_form(impact.W, impact.v, impact.mu, 0.0)
-    pgs = solve_pgs(impact.W, impact.v, impact.mu, 0.0).P[0]
+    form = solve_closed_form(impact.W, impact.v, impact.mu, impact.e)
+    pgs = solve_impact(impact.W, impact.v, impact.mu, impact.e).P[0]
     for P in (form.P, pgs):
         np.testing.assert_allclose(P, path.P, rtol=0.0, atol=1e-8 * np.linalg.norm(path.P))
+
+
+@given(impacts(mu=st.just(0.0)))
+def test_frictionless_impact_is_pgs(impact: Impact) -> None:
+    path, pgs = solved(impact), solve_impact(impact.W, impact.v, impact.mu, impact.e)
+    np.testing.assert_allclose(pgs.P[0], path.P, rtol=0.0, atol=1e-8 * np.linalg.norm(path.P))
+
+
+def test_where_the_laws_differ_a_slip_that_turns() -> None:
+    """Friction of pgs and of the closed form has one direction per impact (that of the last and of the first slip); the
+    path's turns with the slip. The answers then differ by per cents, and all three are plastic and inside the cone."""
+    W, v, (*P, mu) = river(0.7, 2.0, 0.3)
+    ours, last, first = np.array(P), solve_pgs(W, v, mu).P[0], solve_closed_form(W, v, mu, 0.0).P
+    for other in (last, first):
+        assert 0.01 < np.linalg.norm(other - ours) / np.linalg.norm(ours) < 0.2
+        assert (v + W @ other)[0] == pytest.approx(0.0, abs=1e-12)
+        assert np.hypot(*other[1:]) == pytest.approx(mu * other[0], rel=1e-12)
+    assert np.hypot(*ours[1:]) < mu * ours[0]
+
+
+@given(impacts())
+def test_a_fixed_obstacle_stops_the_ship_and_stays(impact: Impact) -> None:
+    """M^-1 = 0, the limit of mass to infinity: all the energy lost is the ship's."""
+    against = replace(impact, b=replace(impact.b, M_inverse=np.zeros((6, 6)), nu=np.zeros(6)))
+    assume(against.v[0] < -1e-3)
+    path = solved(against)
+    after = against.after(path.P)
+    assert not after.b.nu.any()
+    assert after.v[0] >= -1e-11 * np.linalg.norm(against.v)
+    lost = against.a.energy - after.a.energy
+    assert path.energy_normal + path.energy_tangential == pytest.approx(lost, rel=1e-9, abs=1e-12 * against.a.energy)
+
+
+@pytest.mark.parametrize("e", [0.0, 0.4])
+def test_mass_to_infinity_is_the_fixed_obstacle(e: float) -> None:
+    W_a = np.array([[1.0, 0.3, -0.2], [0.3, 0.8, 0.1], [-0.2, 0.1, 2.0]])
+    W_b = np.array([[2.0, -0.4, 0.1], [-0.4, 1.5, 0.0], [0.1, 0.0, 0.7]])
+    v = np.array([-3.0, 2.0, -1.0])
+    fixed = solve_slip_path(W_a, v, 0.3, e).P
+    for lightness in (1e-4, 1e-6, 1e-8):
+        P = solve_slip_path(W_a + lightness * W_b, v, 0.3, e).P
+        assert np.linalg.norm(P - fixed) <= 10.0 * lightness * np.linalg.norm(fixed)
+
+
+# -- refusals ---------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("v_n", [0.0, 2.0, -1e-200])
+def test_no_approach_no_impulse(v_n: float) -> None:
+    path = solve_slip_path(np.eye(3), np.array([v_n, 1.0, 0.0]), 0.3, 0.5)
+    assert not path.P.any()
+    assert (path.ending, path.energy_normal, path.energy_tangential) == ("apart", 0.0, 0.0)
+
+
+def test_two_fixed_bodies_are_refused() -> None:
+    with pytest.raises(
+        StepError, match="W_nn = 0 1/kg at a contact must be > 0: neither ship can move along the normal"
+    ):
+        solve_slip_path(np.zeros((3, 3)), np.array([-1.0, 0.0, 0.0]), 0.3, 0.0)
+
+
+@pytest.mark.parametrize("slip", [1e-300, 1e-16, 1e-9, 1e9, 1e17])
+@pytest.mark.parametrize("mu", [1e-300, 1e-9, 0.5])
+def test_slips_and_frictions_of_any_size_end(slip: float, mu: float) -> None:
+    W = np.array([[1.0, 0.3, -0.2], [0.3, 0.8, 0.1], [-0.2, 0.1, 2.0]])
+    path = solve_slip_path(W, np.array([-1.0, slip, 0.5 * slip]), mu, 0.5)
+    assert np.isfinite(path.P).all()
+    assert np.hypot(*path.P[1:]) <= mu * path.P[0] * (1 + 1e-12)
+    assert path.energy_normal > 0.0

@@ -42,14 +42,16 @@ CONTRACT = {
     ("propeller_order", "Real", "input", "rev/s"),
     ("propeller_speed", "Real", "output", "rev/s"),
     *group("current", ("north", "east"), "input", "m/s"),
+    ("wind.speed", "Real", "input", "m/s"),
+    ("wind.direction", "Real", "input", "rad"),
     *group("impulse", LINEAR, "input", "N.s"),
     *group("impulse", ANGLES, "input", "N.m.s"),
     *group("impulse_applied", LINEAR, "output", "N.s"),
     *group("impulse_applied", ANGLES, "output", "N.m.s"),
     *group("force", LINEAR, "input", "N"),
     *group("moment", ANGLES, "input", "N.m"),
-    *(line for origin in ("hull", "propeller", "rudder") for line in group(origin, LINEAR, "output", "N")),
-    *(line for origin in ("hull", "propeller", "rudder") for line in group(origin, ANGLES, "output", "N.m")),
+    *(line for origin in ("hull", "propeller", "rudder", "wind") for line in group(origin, LINEAR, "output", "N")),
+    *(line for origin in ("hull", "propeller", "rudder", "wind") for line in group(origin, ANGLES, "output", "N.m")),
     ("ship", "String", "parameter", None),
     ("degrees_of_freedom", "Integer", "parameter", None),
     ("hydrodynamics", "Boolean", "parameter", None),
@@ -211,7 +213,7 @@ def test_an_unknown_ship_fails_initialisation(ship: Make) -> None:
     sailing(a)
 
 
-@pytest.mark.parametrize("name", ["rudder_order", "current.east", "impulse.yaw", "moment.pitch"])
+@pytest.mark.parametrize("name", ["rudder_order", "current.east", "wind.speed", "impulse.yaw", "moment.pitch"])
 @pytest.mark.parametrize("bad", [math.nan, math.inf])
 def test_input_that_is_not_finite(ship: Make, name: str, bad: float) -> None:
     a, b = sailing(ship("a")), sailing(ship("b"))

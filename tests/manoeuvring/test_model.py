@@ -14,7 +14,9 @@ from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
 
 Start = Callable[..., ShipManoeuvring]
 MMG = {"degrees_of_freedom": 3, "hydrodynamics": True}
-MODES: list[dict[str, Any]] = [{}, MMG]
+SPATIAL = {"degrees_of_freedom": 6, "hydrodynamics": True}
+MODES: list[dict[str, Any]] = [{}, MMG, {**MMG, "degrees_of_freedom": 4}, SPATIAL]
+NAMES = ["coasting", "sailing", "sailing with roll", "sailing in six"]
 
 
 def outputs(model: ShipManoeuvring) -> dict[str, list[float]]:
@@ -27,6 +29,9 @@ BAD_INPUTS = [
     ("force", 3, -inf, r"force = .*-inf.* at t = 2 s must be finite"),
     ("orders", 0, nan, r"orders = \[nan, 0\.0\] at t = 2 s must be finite"),
     ("current", 1, inf, r"current = \[0\.0, inf\] at t = 2 s must be finite"),
+    ("wind", 0, nan, r"wind = \[nan, 0\.0\] at t = 2 s must be finite"),
+    ("wind", 1, inf, r"wind = \[0\.0, inf\] at t = 2 s must be finite"),
+    ("wind", 0, 1e3, r"wind speed = 1000\.0 m/s at t = 2 s must be below 1000 m/s"),
     ("current", 0, 1e3, r"current = \[1000\.0, 0\.0\] m/s at t = 2 s must be below 1000 m/s"),
     ("impulse", 0, 1e15, r"at t = 2 s velocity \[.* rate .* must be below 1000 m/s; look at impulse and force"),
     ("impulse", 5, 1e17, r"at t = 2 s velocity \[.* rate .* the ship's ends must be below 1000 m/s"),
@@ -35,7 +40,7 @@ BAD_INPUTS = [
 ]
 
 
-@pytest.mark.parametrize("mode", MODES, ids=["coasting", "sailing"])
+@pytest.mark.parametrize("mode", MODES, ids=NAMES)
 @pytest.mark.parametrize(("name", "index", "value", "message"), BAD_INPUTS)
 def test_bad_input_is_refused_and_the_state_kept(
     start: Start, mode: dict[str, Any], name: str, index: int, value: float, message: str
@@ -88,8 +93,6 @@ def test_step_before_initialise() -> None:
 BAD_STARTS: list[tuple[dict[str, Any], type[ShipCollisionError], str]] = [
     ({"ship": "kvlc2"}, ShipError, r"unknown ship 'kvlc2': did you mean kvlcc2\?"),
     ({"degrees_of_freedom": 5}, ShipError, r"degrees_of_freedom = 5 must be 3"),
-    ({"hydrodynamics": True}, ScenarioError, r"degrees_of_freedom = 6 with hydrodynamics = true is not offered"),
-    ({"hydrodynamics": True, "degrees_of_freedom": 4}, ScenarioError, r"degrees_of_freedom = 4 with hydrodynamics"),
     ({"velocity": [nan, 0.0, 0.0]}, ScenarioError, r"initial_velocity = \[nan, 0\.0, 0\.0\] must be finite"),
     ({"rate": [0.0, 0.0, inf]}, ScenarioError, r"initial_rate = \[0\.0, 0\.0, inf\] must be finite"),
     ({"position": [0.0, nan, 0.0]}, ScenarioError, r"initial_position = .* must be finite"),
@@ -100,6 +103,14 @@ BAD_STARTS: list[tuple[dict[str, Any], type[ShipCollisionError], str]] = [
     ({"substep": nan}, ScenarioError, r"substep = nan s must be finite and greater than 0"),
     ({**MMG, "attitude": [0.1, 0.0, 0.0]}, ScenarioError, r"initial roll angle = 0\.1 must be 0 with hydrodynamics"),
     ({**MMG, "rate": [0.0, 0.1, 0.0]}, ScenarioError, r"initial pitch rate = 0\.1 must be 0 with hydrodynamics"),
+    (
+        {**MMG, "degrees_of_freedom": 4, "velocity": [0.0, 0.0, 0.1]},
+        ScenarioError,
+        r"initial heave velocity = 0\.1 must be 0 .* in 4 degrees of freedom, which hold it: .* degrees_of_freedom = 6",
+    ),
+    ({**SPATIAL, "attitude": [0.0, 1.5, 0.0]}, ScenarioError, r"initial pitch angle = 1\.5 rad must be below 1\.4 rad"),
+    ({**SPATIAL, "substep": 3.0}, ScenarioError, r"substep = 3\.0 s is too long for the heave, .* at most 1\.9\d* s"),
+    ({"wind": [nan, 0.0]}, ScenarioError, r"wind = \[nan, 0\.0\] at the start must be finite"),
 ]
 
 
@@ -119,7 +130,7 @@ def test_ship_without_an_mmg_set_can_only_coast(start: Start, tmp_path: Any) -> 
         'mass = 8.2e6\n[hull]\nshape = "box"\ndepth = 8.0\n'
     )
     start(str(barge))
-    with pytest.raises(ShipError, match=r"'Barge' has no \[manoeuvring\], \[propeller\].*only coast: set hydrodyn"):
+    with pytest.raises(ShipError, match=r"'Barge' has no \[manoeuvring\], so it can only coast: set hydrodyn"):
         start(str(barge), **MMG)
 
 
@@ -143,7 +154,7 @@ def test_failed_initialise_leaves_the_model_as_it_was(start: Start) -> None:
     assert ship.outputs.position == [5.0, 0.0, 0.0]
 
 
-@pytest.mark.parametrize("mode", MODES, ids=["coasting", "sailing"])
+@pytest.mark.parametrize("mode", MODES, ids=NAMES)
 def test_initialise_again_starts_again(start: Start, mode: dict[str, Any]) -> None:
     ship = start(**mode, velocity=[5.0, 0.1, 0.0], rate=[0.0, 0.0, 0.01], orders=[0.0, 1.0], impulse=[1e8] * 6)
     before = outputs(ship)
@@ -156,7 +167,7 @@ def test_initialise_again_starts_again(start: Start, mode: dict[str, Any]) -> No
     assert outputs(ship) == after
 
 
-@pytest.mark.parametrize("mode", MODES, ids=["coasting", "sailing"])
+@pytest.mark.parametrize("mode", MODES, ids=NAMES)
 def test_state_is_exact_to_the_bit(start: Start, mode: dict[str, Any]) -> None:
     """Through JSON, into the same model and into a fresh one."""
     ship = start(**mode, velocity=[5.0, 0.1, 0.0], rate=[0.0, 0.0, 0.01], orders=[0.0, 1.0], impulse=[1e8] * 6)
@@ -196,7 +207,7 @@ def test_two_ships_do_not_share_anything(start: Start) -> None:
     assert not {id(v) for v in vars(one.outputs).values()} & {id(v) for v in vars(other.outputs).values()}
 
 
-@pytest.mark.parametrize("mode", MODES, ids=["coasting", "sailing"])
+@pytest.mark.parametrize("mode", MODES, ids=NAMES)
 def test_lists_keep_their_identity(start: Start, mode: dict[str, Any]) -> None:
     ship = start(**mode, velocity=[5.0, 0.0, 0.0])
     held = {f"{part}.{name}": value for part in ("parameters", "inputs", "outputs")

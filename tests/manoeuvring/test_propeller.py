@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from shipcollision_fmu.manoeuvring.propeller import Propeller
+from shipcollision_fmu.manoeuvring.propeller import Propeller, drift
 from shipcollision_fmu.ship.library import load_ship
 
 SHIP = load_ship("kvlcc2")
@@ -44,22 +44,36 @@ def test_wake_of_the_paper(u: float, v: float, r: float) -> None:
     beta_P = np.arctan2(-v, u) + 0.48 * r * 320.0 / U
     C_2 = 1.6 if beta_P > 0 else 1.1
     through = 0.65 * (1 + (1 - exp(-2.0 * abs(beta_P))) * (C_2 - 1))
-    assert PROPELLER.inflow(u, v, r) == pytest.approx(u * through, rel=1e-13)
+    assert PROPELLER.inflow(u, *drift(u, v), r) == pytest.approx(u * through, rel=1e-13)
 
 
 @given(st.floats(-12.0, 12.0), st.floats(-12.0, 12.0), st.floats(-0.1, 0.1))
 def test_inflow_goes_with_the_ship(u: float, v: float, r: float) -> None:
     """Between the undisturbed wake and its widest, in any motion."""
     low, high = sorted((0.65 * u, 0.65 * 1.6 * u))
-    assert low - 1e-12 <= PROPELLER.inflow(u, v, r) <= high + 1e-12
+    assert low - 1e-12 <= PROPELLER.inflow(u, *drift(u, v), r) <= high + 1e-12
 
 
 def test_at_rest() -> None:
-    assert PROPELLER.inflow(0.0, 0.0, 0.0) == 0.0
-    assert PROPELLER.inflow(0.0, 0.0, 0.1) == 0.0
-    assert PROPELLER.inflow(0.0, 3.0, 0.1) == 0.0
+    assert PROPELLER.inflow(0.0, *drift(0.0, 0.0), 0.0) == 0.0
+    assert PROPELLER.inflow(0.0, *drift(0.0, 0.0), 0.1) == 0.0
+    assert PROPELLER.inflow(0.0, *drift(0.0, 3.0), 0.1) == 0.0
 
 
 def test_no_jump_when_the_ship_passes_through_standstill() -> None:
     v = 5.0 * tan(radians(80.0))
-    assert PROPELLER.inflow(1e-9, v, 0.01) == pytest.approx(PROPELLER.inflow(-1e-9, v, 0.01), abs=1e-8)
+    assert PROPELLER.inflow(1e-9, *drift(1e-9, v), 0.01) == pytest.approx(
+        PROPELLER.inflow(-1e-9, *drift(-1e-9, v), 0.01), abs=1e-8
+    )
+
+
+def test_astern_factor_scales_what_turns_astern() -> None:
+    """Ahead nothing changes; a stopped propeller drags as before; at n < 0 the terms with n are scaled."""
+    assert SHIP.propeller is not None
+    weaker = Propeller(SHIP, SHIP.propeller.model_copy(update={"astern_factor": 0.5}))
+    for u_P, n in ((5.0, 1.2), (-2.0, 0.8), (5.0, 0.0), (0.0, 0.0)):
+        assert weaker.thrust(u_P, n) == PROPELLER.thrust(u_P, n)
+    assert weaker.thrust(0.0, -1.0) == 0.5 * PROPELLER.thrust(0.0, -1.0)
+    drag = PROPELLER.thrust(4.0, 0.0)
+    assert weaker.thrust(4.0, -1.0) - drag == pytest.approx(0.5 * (PROPELLER.thrust(4.0, -1.0) - drag))
+    assert weaker.thrust(4.0, -1e-12) == pytest.approx(drag, rel=1e-9)

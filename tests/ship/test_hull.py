@@ -17,6 +17,9 @@ FORMS = {
     "plumb": {"shape": "parametric", "depth": 24.0, "bow_length": 40.0, "stern_length": 60.0},
     "raked": {"shape": "parametric", "depth": 24.0, "bow_length": 40.0, "stern_length": 60.0, "stem_rake_deg": 12.0},
     "bilge": {"shape": "parametric", "depth": 24.0, "bow_length": 40.0, "stern_length": 60.0, "bilge": 2.0},
+    "wedge": {"shape": "parametric", "depth": 24.0, "bow_length": 40.0, "bow_exponent": 1.0, "stern_length": 60.0,
+              "stern_exponent": 1.0},
+    "barge": {"shape": "parametric", "depth": 24.0, "bow_length": 40.0, "stern_length": 60.0, "transom_fraction": 1.0},
     "full": {
         "shape": "parametric", "depth": 24.0, "bow_length": 50.0, "bow_exponent": 2.5, "stem_rake_deg": 8.0,
         "stern_length": 70.0, "stern_exponent": 3.0, "transom_fraction": 0.4,
@@ -84,7 +87,7 @@ def test_parts_are_convex_and_together_the_solid(mesh: HullMesh) -> None:
     assert all(upper[1] == lower[0] for upper, lower in pairwise(ends))
 
 
-@pytest.mark.parametrize("name", ["plumb", "raked", "bilge", "full"])
+@pytest.mark.parametrize("name", ["plumb", "raked", "bilge", "wedge", "barge", "full"])
 def test_main_dimensions(name: str) -> None:
     x, y, z = hull(name).vertices.T
     trim = FORMS[name].get("trim_x", 0.0)
@@ -100,7 +103,7 @@ def test_hull_is_symmetric_about_the_centreplane(mesh: HullMesh) -> None:
 
 
 def test_flare_alone_splits_the_hull_and_at_the_waterline() -> None:
-    assert [len(hull(name).parts) for name in FORMS] == [1, 1, 1, 1, 2]
+    assert [len(hull(name).parts) for name in FORMS] == [1, 1, 1, 1, 1, 1, 2]
     below, above = hull("full").parts
     assert below[:, 2].min() == 0.0
     assert above[:, 2].max() == 0.0

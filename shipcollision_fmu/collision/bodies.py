@@ -1,0 +1,97 @@
+"""What the collision model knows of each body: the ships in the order of the build, then the obstacles."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import hypot
+
+import numpy as np
+
+from ..errors import InputError
+from ..ship.frames import Array, skew
+from ..ship.hull import HullMesh, build_hull
+from ..ship.inertia import free_inverse
+from ..ship.library import Ship, load_ship
+from .broad_phase import Rectangle
+from .engine import BulletBody
+from .fenders import Fender, fender_of
+from .obstacles import Obstacle, obstacles_from
+from .ports import CollisionParameters, ShipParameters
+from .shadow import Shadow
+
+__all__ = ["Body", "apart", "prepared"]
+
+
+@dataclass(frozen=True, eq=False)
+class Body:
+    """A ship or an obstacle.
+
+    reach: no point of the hull is farther from CO [m]; M (6, 6) and its inverse in the free degrees of freedom; wall:
+    the shadow of an obstacle; rectangle: where an obstacle stands.
+    """
+
+    name: str
+    hull: HullMesh
+    reach: float
+    M: Array
+    M_inverse: Array
+    bullet: BulletBody
+    fender: Fender | None
+    wall: Shadow | None = None
+    rectangle: Rectangle = (0.0, 0.0, 0.0, 0.0)
+
+
+def prepared(names: Sequence[str], parameters: CollisionParameters) -> list[Body]:
+    """The bodies that the parameters ask for. Raises InputError."""
+    ships = [load_ship(p.ship) for p in parameters.ships]
+    if parameters.response == "bullet":
+        _refuse_what_bullet_lacks(names, ships, parameters.ships)
+    bodies = [_ship(name, ship, p) for name, ship, p in zip(names, ships, parameters.ships, strict=True)]
+    for obstacle in obstacles_from(parameters.obstacles):
+        if obstacle.name in names:
+            raise InputError(f"obstacles: {obstacle.name!r} is the name of a ship: give the obstacle another name")
+        bodies.append(_wall(obstacle))
+    return bodies
+
+
+def _ship(name: str, ship: Ship, parameters: ShipParameters) -> Body:
+    hull = build_hull(ship.L_oa, ship.B, ship.T, ship.hull)
+    S = skew(ship.r_bg)
+    inertia_g = np.diag(ship.M_RB[3:, 3:] + ship.mass * S @ S).copy()
+    return Body(
+        name, hull, float(np.linalg.norm(hull.vertices, axis=1).max()), ship.M,
+        free_inverse(ship.M, parameters.degrees_of_freedom),
+        BulletBody(ship.mass, inertia_g, np.array(ship.r_bg)),
+        fender_of(f"{name}.fender", parameters.fender),
+    )  # fmt: skip
+
+
+def _wall(obstacle: Obstacle) -> Body:
+    wall = Shadow.wall(obstacle.position, obstacle.heading)
+    corners = wall.x + obstacle.solid.vertices @ wall.R.T
+    (n_0, e_0, _), (n_1, e_1, _) = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()
+    return Body(
+        obstacle.name, obstacle.solid, float(np.linalg.norm(obstacle.solid.vertices, axis=1).max()), np.zeros((6, 6)),
+        wall.M_inverse, BulletBody(0.0, np.zeros(3), np.zeros(3)), obstacle.fender, wall, (n_0, n_1, e_0, e_1),
+    )  # fmt: skip
+
+
+def apart(center: tuple[float, float], reach: float, rectangle: Rectangle) -> float:
+    """Distance [m] of a circle from a rectangle in the plane, negative in overlap of their bounds."""
+    (n, e), (n_0, n_1, e_0, e_1) = center, rectangle
+    return hypot(max(n_0 - n, 0.0, n - n_1), max(e_0 - e, 0.0, e - e_1)) - reach
+
+
+def _refuse_what_bullet_lacks(names: Sequence[str], ships: Sequence[Ship], given: Sequence[ShipParameters]) -> None:
+    for name, ship, parameters in zip(names, ships, given, strict=True):
+        if parameters.degrees_of_freedom != 6:
+            raise InputError(
+                f"response 'bullet' moves bodies freely, and {name}.degrees_of_freedom = "
+                f"{parameters.degrees_of_freedom}: take response 'pgs', or 6 degrees of freedom"
+            )
+        if ship.M_A.any():
+            raise InputError(
+                f"response 'bullet' knows a scalar mass only, and {name} = {ship.name!r} has added mass: take response "
+                "'pgs', or a ship whose [added_mass] is zero"
+            )

@@ -1,0 +1,85 @@
+"""How a ship's other forces move it within a step: seen in the last one, expected of the next.
+
+A ship applies an impulse at the start of its step; thrust, rudder and current then push it on. Held against a quay, a
+ship that is merely stopped at every start creeps through it, by 1/2 a H in every step of H. So what is stopped is the
+*mean* velocity over the step:
+
+    nu_start = nu received + M^-1 (impulse applied in the step)            after the step has begun
+    drift    = mean velocity over the step - nu_start                      from the two poses received
+    gain     = velocity at its end - nu_start                              all in b at the step's start
+
+and contact is looked for, and solved, with nu + drift. Under a parallel master an impulse is applied one step after it
+was issued, to a ship that has gained speed by then: nu + gain is the velocity that it will meet. The drift is measured where it acts, from poses, so it does not
+matter how the ship's model integrates. It is looked at only where an impulse was issued in the step before: a first
+impact is solved with the velocities as they are. An answer with drift may turn an approach round (from -a H/2 to
++a H/2, which the other forces turn back); that it never adds energy is seen to where it is booked (passive.py).
+
+What it costs: two poses per ship in contact, and one step of lag. A force that grows in a step lets the ship in by
+1/2 H^2 of its growth; when it falls the ship comes out by as much.
+"""
+
+from __future__ import annotations
+
+from math import asin, hypot, isclose
+from typing import NamedTuple
+
+import numpy as np
+
+from ..ship.frames import Array, rotation
+
+__all__ = ["Drift", "Seen", "drift"]
+
+MOST = 2.0
+"""Acceleration [m/s2] above which the motion between two steps is not a ship's (it was put elsewhere): no drift."""
+
+LEAST = 1e-9
+"""Drift [m/s] below which there is none: rounding of the poses."""
+
+
+class Seen(NamedTuple):
+    """A ship as received at the start t [s] of a step of H [s]: pose, twist (6), impulse_applied (6); plain lists."""
+
+    t: float
+    H: float
+    position: list[float]
+    attitude: list[float]
+    nu: list[float]
+    applied: list[float]
+
+
+class Drift(NamedTuple):
+    """What other forces did to a ship in a step, in the mean and by its end; (6,) each, in b at the step's start."""
+
+    mean: Array
+    gain: Array
+
+
+def drift(before: Seen, now: Seen, M_inverse: Array, reach: float) -> Drift | None:
+    """Of the step that `before` began and `now` ended; None where there is nothing to be seen."""
+    H = before.H
+    if not isclose(before.t + H, now.t, rel_tol=1e-9, abs_tol=1e-6 * H):
+        return None  # the host went elsewhere in time
+    start = np.array(before.nu) + M_inverse @ (np.array(now.applied) - np.array(before.applied))
+    R = rotation(before.attitude)
+    turn = R.T @ rotation(now.attitude)
+    mean_v = R.T @ (np.array(now.position) - np.array(before.position)) / H
+    mean = np.concatenate([mean_v, _turned(turn) / H]) - start
+    speed = _speed(mean, reach)
+    if not LEAST < speed <= 0.5 * MOST * H:
+        return None
+    nu = np.array(now.nu)
+    gain = np.concatenate([turn @ nu[:3], turn @ nu[3:]]) - start
+    return Drift(mean, gain) if _speed(gain, reach) <= MOST * H else None
+
+
+def _speed(nu: Array, reach: float) -> float:
+    """No point of the hull moves faster [m/s]."""
+    return hypot(*nu[:3].tolist()) + reach * hypot(*nu[3:].tolist())
+
+
+def _turned(R: Array) -> Array:
+    """Rotation vector [rad] of a rotation by less than a quarter turn."""
+    x, y, z = R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]
+    s = 0.5 * hypot(x, y, z)
+    factor = 0.5 if s < 1e-9 else 0.5 * asin(min(1.0, s)) / s
+    return factor * np.array([x, y, z])

@@ -1,0 +1,67 @@
+"""A scenario whose bodies start inside each other is refused: no impulse can be right there.
+
+Seen from above first, which is cheap; only where that overlaps are the solids themselves compared.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from contextlib import closing
+from math import hypot
+
+import numpy as np
+
+from ..collision.detection import SHALLOW, Detector
+from ..collision.level import least_overlap
+from ..collision.obstacles import ObstacleTable, obstacle
+from ..collision.shadow import Shadow
+from ..errors import ScenarioError
+from ..ship.hull import HullMesh, build_hull
+from ..ship.ship import Ship
+from .tables import ShipStart
+
+__all__ = ["refuse_overlap"]
+
+
+def refuse_overlap(
+    source: str, starts: Mapping[str, ShipStart], ships: Mapping[str, Ship], obstacles: Mapping[str, ObstacleTable]
+) -> None:
+    """Raises ScenarioError when two ships, or a ship and an obstacle, overlap by more than SHALLOW at the start.
+
+    Less is taken for contact: ships that start alongside. `source` names the scenario in the message.
+    """
+    hulls: list[HullMesh] = []
+    shadows: list[Shadow] = []
+    for name, ship in ships.items():
+        start = starts[name].start
+        hulls.append(build_hull(ship.L_oa, ship.B, ship.T, ship.hull))
+        shadows.append(Shadow.at(np.array(start.position), np.array(start.attitude), np.zeros(6), np.zeros((6, 6))))
+    for name, table in obstacles.items():
+        solid = obstacle(name, table)
+        hulls.append(solid.solid)
+        shadows.append(Shadow.wall(solid.position, solid.heading))
+    labels = [f"[ships.{name}]" for name in ships] + [f"[obstacles.{name}]" for name in obstacles]
+    for a in range(len(ships)):
+        for b in range(a + 1, len(hulls)):
+            depth = _overlap((hulls[a], hulls[b]), (shadows[a], shadows[b]))
+            if depth > SHALLOW:
+                raise ScenarioError(
+                    f"{source}: {labels[a]} and {labels[b]} overlap by {depth:.3g} m at the start, more than "
+                    f"{SHALLOW:g} m: move one of them"
+                )
+
+
+def _overlap(hulls: tuple[HullMesh, HullMesh], shadows: tuple[Shadow, Shadow]) -> float:
+    """Least way [m] that parts two solids; 0 where they are apart."""
+    reach = sum(float(np.linalg.norm(hull.vertices, axis=1).max()) for hull in hulls)
+    (n_a, e_a, _), (n_b, e_b, _) = shadows[0].x.tolist(), shadows[1].x.tolist()
+    if hypot(n_b - n_a, e_b - e_a) > reach:
+        return 0.0
+    placed = [shadow.x + hull.vertices @ shadow.R.T for hull, shadow in zip(hulls, shadows, strict=True)]
+    if least_overlap(*placed)[0] <= SHALLOW:
+        return 0.0
+    detector = Detector(hulls)
+    with closing(detector.engine):
+        for i, shadow in enumerate(shadows):
+            detector.place(i, shadow)
+        return max(0.0, -detector.clearance(0, 1, 0.0))

@@ -1,0 +1,151 @@
+"""What the MMG model needs in any number of degrees of freedom: its force groups, its machines, its integration.
+
+Integrated by the classical Runge-Kutta method of order 4, rudder and propeller following their orders in between. All
+in plain floats: small numpy arrays are ten times slower.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from math import cos, sin
+from typing import NamedTuple
+
+from ..errors import ShipError
+from ..ship.ship import Ship
+from ..ship.windage import windage
+from .actuators import Actuator, Engine, Gear, engine, steering_gear
+from .hull_forces import HullForces
+from .propeller import Propeller
+from .rudder import Rudder
+from .wind import WindForces
+
+__all__ = ["CALM", "Forces", "Machines", "Sailing", "Six", "Surroundings"]
+
+Six = tuple[float, float, float, float, float, float]
+
+
+class Surroundings(NamedTuple):
+    """What is held over a step: velocities of water and air, towards north and east [m/s]; external force (X, Y, Z)
+    [N] and moment (K, M, N) [N m] about CO in b."""
+
+    current_north: float
+    current_east: float
+    wind_north: float
+    wind_east: float
+    X: float
+    Y: float
+    Z: float
+    K: float
+    M: float
+    N: float
+
+
+CALM = Surroundings(*[0.0] * 10)
+
+
+class Machines(NamedTuple):
+    """Rudder angle [rad], propeller speed [1/s], and the gear of the engine."""
+
+    rudder_angle: float
+    propeller_speed: float
+    gear: Gear
+
+
+class Forces(NamedTuple):
+    """Wrenches about CO in b by origin [N, N m]."""
+
+    hull: Six
+    propeller: Six
+    rudder: Six
+    wind: Six
+
+
+class Sailing(ABC):
+    """One ship's equations of motion: what is common to 3, 4 and 6 degrees of freedom.
+
+    Raises ShipError when the ship has no MMG set or is not symmetric to its centreline. A ship without propeller,
+    rudder and engine drifts.
+    """
+
+    shortest_time: float = float("inf")
+    """1/w of the fastest free oscillation [s]: substeps must be shorter."""
+
+    def __init__(self, ship: Ship) -> None:
+        if ship.manoeuvring is None:
+            raise ShipError(
+                f"ship {ship.name!r} has no [manoeuvring], so it can only coast: set hydrodynamics = false or add it"
+            )
+        M = ship.M
+        odd = max(
+            ((abs(M[i, j]) / (M[i, i] * M[j, j]) ** 0.5, i, j) for i in (0, 2, 4) for j in (1, 3, 5)), default=None
+        )
+        if odd is not None and odd[0] > 0.0:
+            _, i, j = odd
+            raise ShipError(
+                f"ship {ship.name!r} is not symmetric to its centreline (M[{i}][{j}] = {M[i, j]:g}, must be 0 with "
+                "hydrodynamics = true): put CG on the centreline, r_bg = [x, 0, z]"
+            )
+        self.steering: Actuator = steering_gear(ship.rudder)
+        self.engine: Engine = engine(ship.engine)
+        self.propelled = ship.propeller is not None
+        self._hull = HullForces(ship, ship.manoeuvring)
+        self._wind = WindForces(windage(ship), ship.L_oa)
+        self._propeller = Propeller(ship, ship.propeller) if ship.propeller is not None else None
+        self._rudder = (
+            Rudder(ship, ship.rudder, ship.propeller)
+            if ship.rudder is not None and ship.propeller is not None
+            else None
+        )
+
+    @abstractmethod
+    def forces(self, eta: Six, nu: Six, machines: Machines, around: Surroundings) -> Forces:
+        """The forces at a pose and a velocity over ground."""
+
+    @abstractmethod
+    def _packed(self, eta: Six, nu: Six) -> tuple[float, ...]:
+        """What is integrated, of eta and nu."""
+
+    @abstractmethod
+    def _unpacked(self, x: tuple[float, ...], eta: Six, nu: Six) -> tuple[Six, Six]:
+        """eta and nu with what was integrated put in."""
+
+    @abstractmethod
+    def _derivative(self, x: tuple[float, ...], delta: float, n: float, around: Surroundings) -> tuple[float, ...]:
+        """d/dt of what is integrated, at the rudder angle delta [rad] and the propeller speed n [1/s]."""
+
+    @staticmethod
+    @abstractmethod
+    def _moved(x: tuple[float, ...], k: Sequence[float], dt: float) -> tuple[float, ...]:
+        """x + dt k."""
+
+    def sailed(
+        self, eta: Six, nu: Six, machines: Machines, orders: Sequence[float], around: Surroundings, h: float,
+        substeps: int,
+    ) -> tuple[Six, Six, Machines]:  # fmt: skip
+        """(eta, nu, machines) after h [s] in equal substeps; nu over ground in b about CO."""
+        dt = h / substeps
+        delta, n, gear = machines
+        x, moved, derivative = self._packed(eta, nu), self._moved, self._derivative
+        for _ in range(substeps):
+            delta_mid = self.steering.followed(delta, orders[0], 0.5 * dt)
+            delta_end = self.steering.followed(delta, orders[0], dt)
+            n_mid, _half = self.engine.followed(n, gear, orders[1], 0.5 * dt)
+            n_end, gear = self.engine.followed(n, gear, orders[1], dt)
+            a = derivative(x, delta, n, around)
+            b = derivative(moved(x, a, 0.5 * dt), delta_mid, n_mid, around)
+            c = derivative(moved(x, b, 0.5 * dt), delta_mid, n_mid, around)
+            d = derivative(moved(x, c, dt), delta_end, n_end, around)
+            mean = [(ka + 2.0 * (kb + kc) + kd) / 6.0 for ka, kb, kc, kd in zip(a, b, c, d, strict=True)]
+            x = moved(x, mean, dt)
+            delta, n = delta_end, n_end
+        eta, nu = self._unpacked(x, eta, nu)
+        return eta, nu, Machines(delta, n, gear)
+
+    def _felt_wind(self, u: float, v: float, psi: float, around: Surroundings) -> tuple[float, float, float, float]:
+        """X, Y, K, N of the wind at the velocity u, v over ground; nothing in a calm."""
+        north, east = around.wind_north, around.wind_east
+        if north == 0.0 == east:
+            return 0.0, 0.0, 0.0, 0.0
+        c, s = cos(psi), sin(psi)
+        return self._wind(u - (north * c + east * s), v - (east * c - north * s))

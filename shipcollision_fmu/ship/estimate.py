@@ -1,0 +1,228 @@
+"""An MMG set for any ship from L, B, T and C_b: `[manoeuvring] estimate = true`.
+
+Hull derivatives by the regressions of Yoshimura & Masumoto (2012), MARSIM, with k = 2 T/L and c = C_b B/L:
+
+    X_vv   = 1.15 c - 0.18                        X_vr = -(-1.91 c + 0.08 + m_y')
+    X_rr   = -0.085 c + 0.008 - x_G' m_y'         X_vvvv = -6.68 c + 1.1
+    Y_v    = -(pi k/2 + 1.4 c)                    Y_r   = m_x' + 0.5 c
+    Y_vvv  = -(0.185 L/B + 0.48)                  Y_vvr = -0.75
+    Y_vrr  = -(0.26 (1 - C_b) L/B + 0.11)         Y_rrr = -0.051
+    N_v    = -k                                   N_r   = -0.54 k + k^2
+    N_vvv  = -(-0.69 C_b + 0.66)                  N_vvr = 1.55 c - 0.76
+    N_vrr  = -(0.075 (1 - C_b) L/B - 0.098)       N_rrr = 0.25 c - 0.056
+    t_R = 0.39   a_H = 3.6 c   x_H = -0.40   l_R = -0.9   gamma_R = 2.06 c + 0.14
+    epsilon = 2.26 - 1.82 (1 - w_P0)   kappa = 0.55/epsilon   f_alpha = 6.13 Lam/(Lam + 2.25) (Fujii)
+
+The original is written in the drift angle beta = -v', so every term odd in v has the opposite sign there. Taken over
+without that change, a container ship turns within an implausibly small circle.
+
+Added masses by Zhou's regressions of the Motora charts, propeller and rudder by the usual rules, resistance by ITTC-57:
+
+    w_P0 = 0.5 C_b - 0.05 (Taylor)   t_P = 0.6 w_P0   D_p = min(0.7 T, 9.9 m)   K_T = 0.35 - 0.30 J - 0.16 J^2
+    A_R = L T/100 (1 + 25 (B/L)^2) (DNV minimum)   Lam = 1.8, span at most 0.85 T
+    R_0 = (C_F (1 + k_f) + 0.0004) S/(L T)   C_F = 0.075/(log10(Re) - 2)^2   S = 1.025 L (C_b B + 1.7 T) (Mumford)
+
+The regressions rest on hulls with L/B 2.6 to 7.1, T/B 0.25 to 0.46 and C_b 0.51 to 0.65 (grade B). Outside (grade C)
+the linear part still holds, the rest is extrapolated. C_b below 0.40 is refused. Wave resistance is left out, so a fast
+ship gets too few revolutions at its service speed, and turns a little too wide.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import log10, pi, sqrt
+from typing import Any, NamedTuple
+
+from ..errors import ShipError
+from .hydrostatics import GRAVITY
+
+__all__ = ["Dimensions", "added_mass_fractions", "completed", "hull_derivatives"]
+
+REACH = (0.40, 0.90)
+"""C_b of displacement ships: finer and fuller hulls are none of the regressions' ships."""
+
+BAND = {"L/B": (2.6, 7.1), "T/B": (0.25, 0.46), "C_b": (0.51, 0.65)}
+"""The hulls behind the regressions, as their authors state it."""
+
+NU_WATER = 1.19e-6
+"""Kinematic viscosity of sea water at 15 degrees Celsius [m2/s]."""
+
+FORM_FACTOR = 1.1
+"""1 + k_f of the frictional resistance, between 1.0 and 1.3 for merchant ships."""
+
+ROUGHNESS = 0.0004
+"""Allowance for the roughness of a ship's hull, added to the friction coefficient."""
+
+K_T = (0.35, -0.30, -0.16)
+"""k_0, k_1, k_2 of a propeller of which nothing is known."""
+
+FASTEST_FROUDE = 0.26
+"""Cap of the estimated service speed: beyond it wave resistance, left out here, is most of the resistance."""
+
+
+class Dimensions(NamedTuple):
+    """L_pp, B, T [m], C_b, CG forward of midship [m], water density [kg/m3]."""
+
+    L: float
+    B: float
+    T: float
+    C_b: float
+    x_G: float
+    rho: float
+
+
+def added_mass_fractions(d: Dimensions) -> tuple[float, float, float]:
+    """m_x/m, m_y/m, and J_z/(m L^2). Zhou's regressions of the Motora charts."""
+    LB, TB, C_b, s = d.L / d.B, d.T / d.B, d.C_b, d.T * d.L / d.B**2
+    m_x = 0.01 * (
+        0.398
+        + 11.97 * C_b * (1.0 + 3.73 * TB)
+        - 2.89 * C_b * LB * (1.0 + 1.13 * TB)
+        + 0.175 * C_b * LB**2 * (1.0 + 0.541 * TB)
+        - 1.107 * LB * TB
+    )
+    m_y = (
+        0.882
+        - 0.54 * C_b * (1.0 - 1.6 * TB)
+        - 0.156 * LB * (1.0 - 0.673 * C_b)
+        + 0.826 * s * (1.0 - 0.678 * TB)
+        - 0.638 * C_b * s * (1.0 - 0.669 * TB)
+    )
+    k_J = 0.01 * (33.0 - 76.85 * C_b * (1.0 - 0.784 * C_b) + 3.43 * LB * (1.0 - 0.63 * C_b))
+    return m_x, m_y, k_J**2
+
+
+def hull_derivatives(d: Dimensions, m_x: float, m_y: float) -> dict[str, float]:
+    """The table [manoeuvring] but for R_0 and the added masses; m_x, m_y over 1/2 rho L^2 T."""
+    k, c, LB, fine = 2.0 * d.T / d.L, d.C_b * d.B / d.L, d.L / d.B, 1.0 - d.C_b
+    return {
+        "X_vv": 1.15 * c - 0.18,
+        "X_vr": -(-1.91 * c + 0.08 + m_y),
+        "X_rr": -0.085 * c + 0.008 - d.x_G / d.L * m_y,
+        "X_vvvv": -6.68 * c + 1.1,
+        "Y_v": -(0.5 * pi * k + 1.4 * c),
+        "Y_r": m_x + 0.5 * c,
+        "Y_vvv": -(0.185 * LB + 0.48),
+        "Y_vvr": -0.75,
+        "Y_vrr": -(0.26 * fine * LB + 0.11),
+        "Y_rrr": -0.051,
+        "N_v": -k,
+        "N_r": -0.54 * k + k * k,
+        "N_vvv": -(-0.69 * d.C_b + 0.66),
+        "N_vvr": 1.55 * c - 0.76,
+        "N_vrr": -(0.075 * fine * LB - 0.098),
+        "N_rrr": 0.25 * c - 0.056,
+    }
+
+
+def completed(
+    d: Dimensions, given: Mapping[str, Mapping[str, Any]], own_masses: tuple[float, float] | None
+) -> tuple[dict[str, dict[str, Any]], list[str]]:
+    """The tables manoeuvring, propeller, rudder and engine, with what is not `given` estimated; and what was.
+
+    own_masses: m_x, m_y over 1/2 rho L^2 T of a ship whose [added_mass] says them; else None, and they are estimated.
+    Raises ShipError when C_b is out of the regressions' reach.
+    """
+    if not REACH[0] <= d.C_b <= REACH[1]:
+        raise ShipError(
+            f"[manoeuvring] estimate = true with C_b = mass / (rho L_pp B T) = {d.C_b:.3f}: must be {REACH[0]:.2f} to "
+            f"{REACH[1]:.2f}; give a mass that fits the draught, or the MMG set, or remove the table: the ship coasts"
+        )
+    notes = [f"[manoeuvring] Yoshimura & Masumoto (2012), {_grade(d)}"]
+    tables: dict[str, dict[str, Any]] = {}
+
+    def laid_under(name: str, values: dict[str, float], how: str = "") -> dict[str, Any]:
+        own = dict(given.get(name, {}))
+        new = [key for key in values if key not in own]
+        tables[name] = {**values, **own}
+        if new and how:
+            notes.append(f"[{name}] {', '.join(f'{key} = {values[key]:.4g}' for key in new)} ({how})")
+        return tables[name]
+
+    manoeuvring: dict[str, float] = {}
+    own = given.get("manoeuvring", {})
+    if own_masses is not None:
+        m_x, m_y = own_masses
+    elif own.get("m_x") is not None:
+        m_x, m_y = own["m_x"], own["m_y"]
+    else:
+        mass = 2.0 * d.C_b * d.B / d.L  # over 1/2 rho L^2 T
+        m_x, m_y, J_z = (fraction * mass for fraction in added_mass_fractions(d))
+        manoeuvring = {"m_x": m_x, "m_y": m_y, "J_z": J_z}
+        notes.append(f"[manoeuvring] m_x = {m_x:.4g}, m_y = {m_y:.4g}, J_z = {J_z:.4g} (Zhou, Motora charts)")
+    manoeuvring |= hull_derivatives(d, m_x, m_y)
+
+    w_P0 = 0.5 * d.C_b - 0.05
+    propeller = laid_under(
+        "propeller",
+        {
+            "D_p": min(0.7 * d.T, 9.9), "t_P": 0.6 * w_P0, "w_P0": w_P0, "x_P": -0.48,
+            "C_1": 2.0, "C_2_plus": 1.0 / (1.0 - w_P0), "C_2_minus": 1.0 / (1.0 - w_P0),
+            "k_0": K_T[0], "k_1": K_T[1], "k_2": K_T[2], "service_speed": _service_speed(d),
+        },
+        "Taylor's wake, which vanishes in large drift; generic K_T; Alexander's speed, Froude number at most 0.26",
+    )  # fmt: skip
+    manoeuvring["R_0"] = _resistance(d, propeller["service_speed"])
+    if "R_0" not in own:
+        notes.append(f"[manoeuvring] R_0 = {manoeuvring['R_0']:.4g} (ITTC-57, Mumford, no wave resistance)")
+    laid_under("manoeuvring", manoeuvring)
+    tables["manoeuvring"].pop("estimate", None)
+    if "service_rev_per_s" not in propeller:
+        n = _self_propulsion(d, tables["manoeuvring"]["R_0"], propeller)
+        propeller["service_rev_per_s"] = n
+        notes.append(f"[propeller] service_rev_per_s = {n:.4g} (self-propulsion)")
+
+    A_R = d.L * d.T / 100.0 * (1.0 + 25.0 * (d.B / d.L) ** 2)
+    H_R = min(sqrt(1.8 * A_R), 0.85 * d.T)
+    own = given.get("rudder", {})
+    A, H = own.get("A_R", A_R), own.get("H_R", H_R)
+    aspect = H * H / A
+    c, epsilon = d.C_b * d.B / d.L, 2.26 - 1.82 * (1.0 - w_P0)
+    laid_under(
+        "rudder",
+        {
+            "A_R": A_R, "H_R": H_R, "f_alpha": 6.13 * aspect / (aspect + 2.25), "t_R": 0.39, "a_H": 3.6 * c,
+            "x_H": -0.40, "x_R": -0.5, "l_R": -0.9, "gamma_R_minus": 2.06 * c + 0.14, "gamma_R_plus": 2.06 * c + 0.14,
+            "epsilon": epsilon, "kappa": 0.55 / epsilon,
+        },
+        "DNV's least area, aspect ratio 1.8; Yoshimura & Masumoto (2012)",
+    )  # fmt: skip
+    n = propeller["service_rev_per_s"]
+    laid_under(
+        "engine",
+        {"rate": n / 60.0, "max_rev_per_s": 1.15 * n, "max_astern_rev_per_s": 0.7 * n, "reversal_delay": 90.0},
+        "a minute to full speed; direct reversing",
+    )
+    return tables, notes
+
+
+def _grade(d: Dimensions) -> str:
+    """'grade B', or 'grade C: ...' with what lies outside the regressions' band."""
+    outside = []
+    for name, value in (("L/B", d.L / d.B), ("T/B", d.T / d.B), ("C_b", d.C_b)):
+        low, high = BAND[name]
+        if not low <= value <= high:
+            outside.append(f"{name} = {value:.2f} outside {low} to {high}")
+    return f"grade C: {', '.join(outside)}" if outside else "grade B"
+
+
+def _service_speed(d: Dimensions) -> float:
+    """Alexander's formula V/sqrt(L) = 2 (1.08 - C_b) [kn, ft] in SI, at most the Froude number 0.26 [m/s]."""
+    knots = 2.0 * (1.08 - d.C_b) * sqrt(d.L / 0.3048)
+    return min(knots * 1852.0 / 3600.0, FASTEST_FROUDE * sqrt(GRAVITY * d.L))
+
+
+def _resistance(d: Dimensions, speed: float) -> float:
+    C_F = 0.075 / (log10(speed * d.L / NU_WATER) - 2.0) ** 2
+    S = 1.025 * d.L * (d.C_b * d.B + 1.7 * d.T)
+    return (FORM_FACTOR * C_F + ROUGHNESS) * S / (d.L * d.T)
+
+
+def _self_propulsion(d: Dimensions, R_0: float, propeller: Mapping[str, float]) -> float:
+    """Revolutions [1/s] at which (1 - t_P) thrust is the resistance at service speed: a quadratic equation in n D_p."""
+    U, D = propeller["service_speed"], propeller["D_p"]
+    k_0, k_1, k_2 = propeller["k_0"], propeller["k_1"], propeller["k_2"]
+    u_P = U * (1.0 - propeller["w_P0"])
+    wanted = 0.5 * d.L * d.T * R_0 * U * U / ((1.0 - propeller["t_P"]) * D * D)  # thrust over rho D_p^2
+    b, c = k_1 * u_P, k_2 * u_P * u_P - wanted
+    return (-b + sqrt(max(0.0, b * b - 4.0 * k_0 * c))) / (2.0 * k_0) / D

@@ -1,0 +1,192 @@
+"""Every generated encounter collides at the time, place and angle that were wanted; what cannot is refused.
+
+The place is where the first contact is recorded, on the struck ship. Half a metre is the tolerance; where an edge of
+one hull's section lies within a degree of one of the other's, they meet along a line, and it must be on that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import product
+from math import degrees, hypot
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from shipcollision_fmu import load_scenario, load_ship, simulate
+from shipcollision_fmu.cosim.encounters import KINDS, Encounter, Wanted, encounter
+from shipcollision_fmu.cosim.touching import common_deck, section
+from shipcollision_fmu.errors import ScenarioError, ShipError
+from shipcollision_fmu.ship.hull import build_hull
+
+TOLERANCE = 0.5
+PARALLEL = 1.0
+STEP = 0.05
+
+
+def check(made: Encounter, tolerance: float = TOLERANCE) -> float:
+    """Run it and compare; returns how far from the place the first contact is [m]."""
+    run = simulate(made.scenario, in_process=True)
+    (first, *_) = run.events["collisions"]
+    assert first["start"] == pytest.approx(made.time, abs=1.5 * STEP)
+    assert abs(degrees(first["angle"] - made.angle)) < 1e-4
+    role = "b_b" if first["ship_b"] == "target" else "b_a"
+    x, y, _ = first["first_point"][role]
+    distance = hypot(x - made.point[0], y - made.point[1])
+    assert distance < tolerance
+    return distance
+
+
+def contact_line(made: Encounter, own: str, target: str) -> float:
+    """Length [m] of the longest edges at the contact that lie within a degree of each other; 0 for none."""
+    ships = [load_ship(own), load_ship(target)]
+    hulls = [build_hull(ship.L_oa, ship.B, ship.T, ship.hull) for ship in ships]
+    deck = common_deck(*hulls)
+    found = []
+    relative = -made.angle if made.scenario.ships["own"].start.position[1] > 0 else made.angle
+    R = np.array([[np.cos(relative), -np.sin(relative)], [np.sin(relative), np.cos(relative)]])
+    normal = np.array(made.normal)
+    for hull, turn in zip(hulls, (R, np.eye(2)), strict=True):
+        corners = section(hull, deck) @ turn.T
+        edges = np.roll(corners, -1, axis=0) - corners
+        along = np.abs(edges @ normal) / np.linalg.norm(edges, axis=1)
+        flat = along < np.sin(np.radians(PARALLEL + 1.0))
+        outwards = (np.column_stack([edges[:, 1], -edges[:, 0]]) @ normal) * (1 if turn is not R else -1) > 0
+        found.append(np.linalg.norm(edges[flat & outwards], axis=1).max(initial=0.0))
+    return float(min(found))
+
+
+@pytest.mark.parametrize("hydrodynamics", [None, True])
+@pytest.mark.parametrize("kind", list(KINDS))
+def test_every_kind_collides_as_wanted(kind: str, hydrodynamics: bool | None) -> None:
+    check(
+        encounter(
+            Wanted(kind, time=45.0, after=0.5, hydrodynamics=hydrodynamics, before=30.0 if KINDS[kind].helm else None)
+        )
+    )
+
+
+def grid(angles: range, places: tuple[float, ...], speeds: tuple[tuple[float, float], ...]) -> Iterator[Wanted]:
+    for angle, s, side, (own, target) in product(angles, places, ("starboard", "port"), speeds):
+        yield Wanted("crossing", angle_deg=float(angle), at=s, side=side, own_speed=own, target_speed=target,
+                     time=3.0, after=0.2)  # type: ignore[arg-type]  # fmt: skip
+
+
+def sweep(own: str, target: str, wanted: Iterator[Wanted]) -> tuple[int, int]:
+    """How many were made and refused; every one that was made collides as wanted."""
+    made, refused = 0, 0
+    for one in wanted:
+        try:
+            found = encounter(Wanted(**{**vars(one), "own": own, "target": target}))
+        except ScenarioError as error:
+            if "there they close at" not in str(error):
+                raise
+            refused += 1
+            continue
+        check(found, max(TOLERANCE, contact_line(found, own, target)))
+        made += 1
+    return made, refused
+
+
+def test_a_coarse_grid_collides_as_wanted() -> None:
+    made, refused = sweep("kvlcc2", "kvlcc2", grid(range(0, 181, 45), (-0.5, 0.2, 0.5), ((6.0, 3.0),)))
+    assert made + refused == 30
+    assert made >= 16
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("own", "target"), [("kvlcc2", "kvlcc2"), ("guan2014_target", "kvlcc2"), ("kvlcc2", "guan2014_target")]
+)
+def test_the_whole_grid_collides_as_wanted(own: str, target: str) -> None:
+    speeds = ((5.0, 5.0), (6.0, 0.0), (4.0, 7.0))
+    made, refused = sweep(own, target, grid(range(0, 181, 15), (-0.5, -0.4, -0.2, 0.0, 0.1, 0.3, 0.4, 0.5), speeds))
+    assert made + refused == 624
+    assert made > 400
+
+
+@pytest.mark.slow
+def test_the_grid_under_way_collides_as_wanted() -> None:
+    """With the manoeuvring model: rudder over before the impact, either way, and a drifting target."""
+    for angle, s, rudder, before in product((45.0, 75.0, 100.0), (-0.2, 0.3), (-35.0, 20.0), (20.0, 60.0)):
+        check(encounter(Wanted("late-evasive", angle_deg=angle, at=s, rudder_deg=rudder, before=before, after=0.5)))
+    for angle, s, side in product((60.0, 90.0, 120.0), (-0.3, 0.2), ("port", "starboard")):
+        check(encounter(Wanted("drifting-target", angle_deg=angle, at=s, side=side, hydrodynamics=True, after=0.5)))  # type: ignore[arg-type]
+
+
+def test_port_is_the_mirror_of_starboard() -> None:
+    starboard, port = (encounter(Wanted("glancing", side=side)) for side in ("starboard", "port"))  # type: ignore[arg-type]
+    a, b = (made.scenario.ships["own"].start for made in (starboard, port))
+    assert a.position == pytest.approx([b.position[0], -b.position[1], 0.0])
+    assert a.attitude[2] + b.attitude[2] == pytest.approx(2 * np.pi)
+    assert port.point == pytest.approx((starboard.point[0], -starboard.point[1]))
+
+
+def test_the_heading_turns_the_whole_encounter() -> None:
+    north, turned = (encounter(Wanted("t-bone", heading_deg=h)).scenario.ships["own"].start for h in (0.0, 30.0))
+    assert hypot(*north.position) == pytest.approx(hypot(*turned.position), abs=1e-4)
+    assert turned.attitude[2] - north.attitude[2] == pytest.approx(np.radians(30))
+
+
+def test_the_file_is_an_ordinary_scenario(tmp_path: Path) -> None:
+    made = encounter(Wanted("late-evasive", name="mine"), tmp_path)
+    path = tmp_path / "mine.toml"
+    path.write_text(made.text, encoding="utf-8")
+    loaded = load_scenario(path)
+    assert loaded.model_dump() == made.scenario.model_dump()
+    assert loaded.name == "mine"
+    assert made.text.startswith("# Made by `shipcollision encounter late-evasive`, backwards from the impact.\n")
+    assert max(map(len, made.text.splitlines())) <= 120
+    assert "rudder_deg = 35.0" in made.text
+
+
+def test_a_ship_given_by_path_is_found_from_the_file(tmp_path: Path) -> None:
+    ship = tmp_path / "ships" / "mine.toml"
+    ship.parent.mkdir()
+    ship.write_text('extends = "kvlcc2"\n', encoding="utf-8")
+    made = encounter(Wanted("t-bone", own=str(ship)), tmp_path / "scenarios")
+    assert 'ship = "../ships/mine.toml"' in made.text
+
+
+@pytest.mark.parametrize(
+    ("wanted", "line"),
+    [
+        (Wanted("tbone"), r"unknown encounter 'tbone': did you mean t-bone\? known: head-on, crossing"),
+        (Wanted("glancing", angle_deg=0.0), r"glancing: at 0 deg KVLCC2 does not meet KVLCC2 at s = 0.1 of her "
+         r"starboard side: there they close at -?0.00 m/s, at least 0.05 is needed; change the angle"),
+        (Wanted("overtaking", own_speed=3.0, target_speed=7.0), r"s = -0.5 of her end: there they close at -4.00 m/s"),
+        (Wanted("crossing", angle_deg=15.0, own_speed=2.0, target_speed=10.0, at=-0.5), r"they close at -8.\d\d m/s"),
+        (Wanted("t-bone", own_speed=0.0), r"there they close at -?0.00 m/s"),
+        (Wanted("crossing", angle_deg=190.0), r"angle_deg = 190 must be 0 to 180: 0 is overtaking, 180 head-on"),
+        (Wanted("crossing", at=20.0), r"at = 20 must be -0.5 to 0.5: -0.5 is the target's stern, 0.5 her stem"),
+        (Wanted("crossing", own_speed=float("nan")), r"own_speed = nan must be 0 to 50: give metres per second"),
+        (Wanted("crossing", own_speed=-5.0), r"own_speed = -5 must be 0 to 50: give metres per second"),
+        (Wanted("crossing", time=0.0), r"time = 0 must be 0.05 to 7200: give seconds from the start to the impact"),
+        (Wanted("crossing", side="left"), r"side = 'left' must be port or starboard"),  # type: ignore[arg-type]
+        (Wanted("crossing", before=20.0), r"encounter crossing has no before: leave it out, or take another type"),
+        (Wanted("t-bone", drift_speed=2.0), r"encounter t-bone has no drift_speed: leave it out"),
+        (Wanted("drifting-target", target_speed=2.0), r"the target drifts: give drift_speed, not target_speed"),
+        (Wanted("late-evasive", hydrodynamics=False), r"late-evasive needs ships that steer: leave out --coasting"),
+        (Wanted("late-evasive", time=30.0, before=60.0), r"before = 60 must be 0 to 30: it is within the time to the"),
+        (Wanted("late-evasive", own="guan2014_own"), r"ship 'guan2014_own' can only coast, she has no \[manoeuvring\]"),
+        (Wanted("crossing", own_speed=12.0, hydrodynamics=True), r"'kvlcc2' needs 1.846 rev/s for 12 m/s; must"),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_is_refused_in_one_line(wanted: Wanted, line: str) -> None:
+    with pytest.raises(ScenarioError, match=line) as refused:
+        encounter(wanted)
+    assert "\n" not in str(refused.value)
+
+
+def test_an_unknown_ship_is_refused() -> None:
+    with pytest.raises(ShipError, match=r"unknown ship 'kvlc2': did you mean kvlcc2\?"):
+        encounter(Wanted("t-bone", own="kvlc2"))
+
+
+def test_ships_that_touch_before_are_refused() -> None:
+    """Hard over for forty minutes: own has gone round through the target's place."""
+    with pytest.raises(
+        ScenarioError, match=r"the ships touch elsewhere \d+.\d s before the impact that is wanted: change"
+    ):
+        encounter(Wanted("loss-of-steering", target_speed=0.0, before=2400.0, time=2400.0, rudder_deg=35.0, step=0.5))

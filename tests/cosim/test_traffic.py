@@ -1,0 +1,181 @@
+"""Traffic situations: both versions of the schema, the plane they are put on, and what is refused."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from math import cos, degrees, hypot, radians, sin
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from shipcollision_fmu import load_scenario, simulate
+from shipcollision_fmu.cosim.imazu import KNOT
+from shipcollision_fmu.cosim.scenario import Scenario
+from shipcollision_fmu.cosim.tangent_plane import TangentPlane
+from shipcollision_fmu.cosim.traffic import Imported, imported
+from shipcollision_fmu.errors import ScenarioError
+
+HERE = Path(__file__).parent / "situations"
+OLD, NEW = HERE / "version_0_1.json", HERE / "version_0_2.json"
+
+
+def stored(made: Imported, out: Path) -> Scenario:
+    for name, text in {**made.ship_files, out.name: made.text}.items():
+        (out.parent / name).write_text(text, encoding="utf-8")
+    return load_scenario(out)
+
+
+@pytest.mark.parametrize(
+    ("latitude", "of_latitude", "of_longitude"),
+    # Length of a degree on WGS 84 [m], as tabulated (e.g. Wikipedia, Latitude)
+    [(0.0, 110574.0, 111320.0), (45.0, 111132.0, 78847.0), (60.0, 111412.0, 55800.0)],
+)
+def test_a_degree_has_its_tabulated_length(latitude: float, of_latitude: float, of_longitude: float) -> None:
+    plane = TangentPlane(latitude, 10.0)
+    north, east = plane.position(latitude + 0.01, 10.0)
+    assert (100 * north, east) == (pytest.approx(of_latitude, abs=12.0), pytest.approx(0.0, abs=1e-9))
+    assert 100 * plane.position(latitude, 10.01)[1] == pytest.approx(of_longitude, abs=1.0)
+
+
+def test_positions_agree_with_trafficgens_own() -> None:
+    """ship-traffic-generator, baseline situation 4 (2023): the file gave lat, lon and north, east; 1 m is their sphere."""
+    north, east = TangentPlane(58.763449, 10.490654).position(58.783612, 10.501054)
+    assert (north, east) == (pytest.approx(2245.991, abs=1.0), pytest.approx(601.811, abs=1.0))
+
+
+def test_courses_turn_with_the_meridians() -> None:
+    """Two ships that steer true north at different longitudes converge: to the west, by the difference times sin(latitude)."""
+    plane = TangentPlane(58.0, 10.0)
+    turned = plane.direction(58.0, 10.2, 0.0)
+    assert degrees(turned) == pytest.approx(-0.2 * sin(radians(58.0)), rel=1e-4)
+    here, there = (np.array(plane.position(latitude, 10.2)) for latitude in (58.0, 58.001))
+    assert np.arctan2(*(there - here)[::-1]) == pytest.approx(turned, abs=1e-5)
+
+
+def test_version_0_1(tmp_path: Path) -> None:
+    scenario = stored(imported(OLD, out=tmp_path / "old.toml"), tmp_path / "old.toml")
+    own, first, second = scenario.ships.values()
+    assert list(scenario.ships) == ["own", "target_1", "target_2"]
+    assert own.start.position == [0.0, 0.0, 0.0]
+    assert own.start.velocity[0] == pytest.approx(10 * KNOT, rel=1e-6)
+    assert first.start.position[0] == pytest.approx(0.04 * 111385, abs=5.0)
+    assert degrees(first.start.attitude[2]) == pytest.approx(182.0, abs=0.02)
+    heading, course = radians(182.0), radians(185.0)
+    assert first.start.velocity[:2] == pytest.approx(
+        [12.5 * KNOT * cos(course - heading), 12.5 * KNOT * sin(course - heading)], rel=1e-5
+    )
+    assert degrees(second.start.attitude[2]) == pytest.approx(109.5, abs=0.05)  # no heading: the course
+    ships = scenario.load_ships()
+    assert (ships["target_1"].L_oa, ships["target_1"].B) == (50.0, 10.0)
+    assert ships["target_2"].kind == "Tanker"
+    assert scenario.scenario.duration == pytest.approx(3007 / (10 * KNOT), rel=0.01)  # own's route
+
+
+def test_version_0_2(tmp_path: Path) -> None:
+    """No initial: the first waypoint, course and speed of the first leg; leg.data.sog before leg.sog."""
+    scenario = stored(imported(NEW, out=tmp_path / "new.toml"), tmp_path / "new.toml")
+    own, target = scenario.ships.values()
+    assert list(scenario.ships) == ["own", "target"]
+    assert own.start.velocity[0] == pytest.approx(14.0 * KNOT, rel=1e-6)
+    assert sin(own.start.attitude[2]) == pytest.approx(0.0, abs=1e-4)
+    assert own.start.position[:2] == pytest.approx([50.0, 4.0], abs=0.01)  # midship is 50 m ahead of a = 140, b = 40
+    assert hypot(*target.start.velocity) == pytest.approx(6.0 * KNOT, rel=1e-6)
+    assert degrees(target.start.attitude[2]) == pytest.approx(340.0, abs=0.02)
+    assert target.start.velocity[1] > 0.0  # the first leg leads 346 deg, to starboard of her heading
+    text = (tmp_path / "new.toml").read_text(encoding="utf-8")
+    assert "bends of their routes are left out" in text
+    assert "wind is not carried over" in text
+
+
+def test_ships_by_name_sail_their_waypoints(tmp_path: Path) -> None:
+    made = imported(NEW, out=tmp_path / "new.toml", ship="kvlcc2", duration=60.0, step=0.5, hydrodynamics=True)
+    assert made.ship_files == {}
+    scenario = stored(made, tmp_path / "new.toml")
+    own = scenario.ships["own"]
+    assert own.route is not None
+    assert len(own.route.waypoints) == 2
+    assert own.orders[0].rev_per_s == pytest.approx(1.2268 * 14 * KNOT / 7.974, rel=1e-6)
+    assert scenario.environment.current == pytest.approx([0.0, 1.0], abs=1e-9)
+    run = simulate(scenario, in_process=True)
+    assert run.states["own.position.north"][-1] > 400.0
+
+
+def test_a_situation_inside_a_larger_document_is_found(tmp_path: Path) -> None:
+    path = tmp_path / "output.json"
+    path.write_text(json.dumps({"trafficSituation": json.loads(OLD.read_text())}), encoding="utf-8")
+    assert "target_2" in imported(path, out=tmp_path / "x.toml", ship="kvlcc2").text
+
+
+Spoil = Callable[[dict[str, Any]], Any]
+
+
+@pytest.mark.parametrize(
+    ("spoil", "line"),
+    [
+        (lambda d: d.pop("ownShip"), r"s.json: is no traffic situation, it has no ownShip: give a file of trafficgen"),
+        (lambda d: d.update(targetShips=[]), r"s.json: targetShips is empty: a collision needs a target"),
+        (lambda d: d["ownShip"]["initial"].update(sog=6000), r"\[ownShip.*\] sog = 6000 must be less than or equal to 60: "
+         "it is the speed over ground in knots"),
+        (lambda d: d["ownShip"]["initial"].update(sog="ten"), r"sog = 'ten' must be a valid number"),
+        (lambda d: d["ownShip"]["initial"].update(sog=None), r"s.json: own has no speed: give initial.sog, or sog in"),
+        (lambda d: d["ownShip"]["initial"].update(cog=1234), r"cog = 1234 must be less than or equal to 360: it is clock"),
+        (lambda d: d["ownShip"]["initial"]["position"].update(latitude=5876), r"5876 must be less than or equal to 85"),
+        (lambda d: d["ownShip"]["initial"].pop("position"), None),  # the first waypoint will do
+        (lambda d: d["targetShips"][1]["initial"].pop("position"), r"target_2 is nowhere: give initial.position or way"),
+        (lambda d: d["targetShips"][1]["initial"].pop("cog"), r"target_2 has no course: give initial.cog, or two wayp"),
+        (lambda d: d["targetShips"][1]["static"].pop("width"), r"target_2 has no length and width in static: name a ship"),
+        (lambda d: d["targetShips"][1]["static"].update(initDelay=15.0), r"target_2 initDelay = 15 s is not offered"),
+        (lambda d: d["targetShips"][0]["initial"]["position"].update(lon=20.5), r"target_1 is \d+ km from own ship, at"),
+        (lambda d: d["targetShips"][0]["initial"].update(position=d["ownShip"]["initial"]["position"]),
+         r"s.json: does not make a scenario: .*position = .* is also that of own"),
+        (lambda d: d["targetShips"][0]["static"].update(width=80.0), r"s.json: target_1 is wider than long, width = 80 m and length = 50 m: check"),
+    ],
+)  # fmt: skip
+def test_what_is_wrong_is_refused_in_one_line(tmp_path: Path, spoil: Spoil, line: str | None) -> None:
+    data = json.loads(OLD.read_text(encoding="utf-8"))
+    spoil(data)
+    path = tmp_path / "s.json"
+    path.write_text(json.dumps(data), encoding="utf-8")
+    if line is None:
+        imported(path, out=tmp_path / "x.toml")
+        return
+    with pytest.raises(ScenarioError, match=line) as refused:
+        imported(path, out=tmp_path / "x.toml")
+    assert "\n" not in str(refused.value)
+    assert [p.name for p in tmp_path.iterdir()] == ["s.json"]
+
+
+@pytest.mark.parametrize(
+    ("content", "line"),
+    [
+        (b"{", r"s.json: is not valid JSON: .* line 1 column 2"), (b"[1, 2]", r"is no traffic situation"),
+        (b"\xff\xfe{}", r"s.json: is not UTF-8 text \(byte 0\): save it as UTF-8"), (b"", r"is not valid JSON"),
+        (b'{"ownShip": {"initial": {"sog": NaN}}}', r"sog = nan must be a finite number"),
+        (b'{"ownShip": 3}', r"\[ownShip\] = 3 must be"),
+    ],
+)  # fmt: skip
+def test_malformed_files_are_refused_in_one_line(tmp_path: Path, content: bytes, line: str) -> None:
+    path = tmp_path / "s.json"
+    path.write_bytes(content)
+    with pytest.raises(ScenarioError, match=line) as refused:
+        imported(path)
+    assert "\n" not in str(refused.value)
+
+
+def test_a_file_that_is_not_there_is_refused() -> None:
+    with pytest.raises(
+        ScenarioError, match=r"nowhere.json cannot be read: No such file or directory: give the path of"
+    ):
+        imported("nowhere.json")
+
+
+def test_dimensions_alone_do_not_sail(tmp_path: Path) -> None:
+    with pytest.raises(ScenarioError, match=r"own has dimensions only and can but coast: name a ship with --ship"):
+        imported(OLD, out=tmp_path / "x.toml", hydrodynamics=True)
+    with pytest.raises(
+        ScenarioError, match=r"ship 'guan2014_own' can only coast, she has no \[manoeuvring\]: leave out"
+    ):
+        imported(OLD, out=tmp_path / "x.toml", ship="guan2014_own", hydrodynamics=True)
