@@ -32,6 +32,18 @@ PLAIN_PAUSE = 2.0
 """Time [s] between lines of progress when stderr is not a terminal: a short run prints none."""
 
 
+class _Path(click.Path):
+    """A path; an empty one (an unset variable of the shell) is a mistake, not the current folder."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        if value == "":
+            self.fail("is empty: name a folder or a file", param, ctx)
+        return super().convert(value, param, ctx)
+
+
+_PATH = _Path(path_type=Path)
+
+
 class _Commands(click.Group):
     """A group of commands that ends on every mistake with one line, and knows near misses."""
 
@@ -78,7 +90,7 @@ def main(ctx: click.Context) -> None:
 
 @main.command()
 @click.argument("scenario", default="guan2014")
-@click.option("--out", type=click.Path(path_type=Path), help="Folder of the results.  [default: runs/NAME]")
+@click.option("--out", type=_PATH, help="Folder of the results.  [default: runs/NAME]")
 @click.option("--algorithm", type=click.Choice(["gauss-seidel", "jacobi"]), help="Instead of the scenario's.")
 @click.option("--step", type=float, metavar="S", help="Communication step in seconds, instead of the scenario's.")
 @click.option("--in-process", is_flag=True, help="Drive the models without FMI; gives the same bits.")
@@ -109,7 +121,7 @@ def run(scenario: str, out: Path | None, algorithm: str | None, step: float | No
 
 
 @main.command()
-@click.option("--out", type=click.Path(path_type=Path), default=Path("build"), show_default=True, help="Folder.")
+@click.option("--out", type=_PATH, default=Path("build"), show_default=True, help="Folder.")
 def build(out: Path) -> None:
     """Build ShipCollision.fmu and ShipManoeuvring.fmu."""
     from .cosim.fmu_files import require_pybullet
@@ -151,7 +163,7 @@ def scenarios() -> None:
 
 
 @main.command()
-@click.argument("fmu", type=click.Path(path_type=Path))
+@click.argument("fmu", type=_PATH)
 def validate(fmu: Path) -> None:
     """Check that FMU complies with FMI; exit status 1 when it does not."""
     from .cosim.compliance import problems
@@ -175,7 +187,7 @@ def validate(fmu: Path) -> None:
     "--rev-per-s", type=float, metavar="REV/S", help="Propeller on the approach.  [default: as the speed asks]"
 )
 @click.option("--degrees-of-freedom", type=click.Choice(["3", "4", "6"]), default="3", show_default=True)
-@click.option("--out", type=click.Path(path_type=Path), metavar="FILE.csv", help="Store the track.")
+@click.option("--out", type=_PATH, metavar="FILE.csv", help="Store the track.")
 def trial(
     ship: str,
     manoeuvre: str,
@@ -231,7 +243,7 @@ def trial(
 @click.option("--hydrodynamics/--coasting", default=None, help="Sail the ships, or let them coast.  [default: by TYPE]")
 @click.option("--step", type=float, default=0.05, show_default=True, metavar="S", help="Communication step.")
 @click.option("--name", help="Of the scenario.")
-@click.option("--out", type=click.Path(path_type=Path), metavar="FILE.toml", help="Store it; else it is printed.")
+@click.option("--out", type=_PATH, metavar="FILE.toml", help="Store it; else it is printed.")
 def encounter(kind: str, out: Path | None, case: int | None, **options: Any) -> None:
     """Make a scenario in which two ships collide as wanted.
 
@@ -259,13 +271,13 @@ def encounter(kind: str, out: Path | None, case: int | None, **options: Any) -> 
 
 
 @main.command("import")
-@click.argument("file", type=click.Path(path_type=Path))
+@click.argument("file", type=_PATH)
 @click.option("--ship", metavar="SHIP", help="Plays every ship.  [default: ships made from the file's dimensions]")
 @click.option("--own", metavar="SHIP", help="Plays own ship.")
 @click.option("--duration", type=float, metavar="S", help="[default: what own ship's route takes]")
 @click.option("--step", type=float, default=0.05, show_default=True, metavar="S", help="Communication step.")
 @click.option("--hydrodynamics", is_flag=True, help="Sail the ships along their waypoints; else they coast.")
-@click.option("--out", type=click.Path(path_type=Path), required=True, metavar="FILE.toml", help="Scenario to write.")
+@click.option("--out", type=_PATH, required=True, metavar="FILE.toml", help="Scenario to write.")
 def import_(
     file: Path, ship: str | None, own: str | None, duration: float | None, step: float, hydrodynamics: bool, out: Path
 ) -> None:

@@ -72,7 +72,7 @@ def fresh(*arguments: str, cwd: Path, prelude: str = "") -> subprocess.Completed
 
 def test_help_is_everywhere() -> None:
     assert called().output == called("--help").output
-    for command in ("run", "build", "ships", "scenarios", "validate"):
+    for command in ("run", "build", "ships", "scenarios", "validate", "trial", "encounter", "import"):
         assert command in called("--help").output
         result = called(command, "--help")
         assert result.exit_code == 0
@@ -196,7 +196,7 @@ def test_a_mistake_is_one_line_and_writes_nothing(
 @pytest.mark.parametrize(
     ("arguments", "status", "line"),
     [
-        (["rnu"], 2, "unknown command 'rnu': did you mean run? known: build, run, scenarios, ships, validate"),
+        (["rnu"], 2, "unknown command 'rnu': did you mean run? known: build, encounter, import, run, "),
         (["run", "kvlcc2_crosing"], 2, "unknown scenario 'kvlcc2_crosing': did you mean kvlcc2_crossing? known: "),
         (["run", "absent.toml"], 2, "scenario file absent.toml does not exist: give the path of a TOML file or one of"),
         (["run", "one", "two"], 2, "Got unexpected extra argument"),
@@ -274,3 +274,91 @@ def test_the_package_is_the_command_too(folder: Path) -> None:
     done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True)
     assert (done.returncode, done.stderr) == (0, "")
     assert __version__ in done.stdout
+
+
+def test_a_trial_prints_its_figures_beside_the_limits(folder: Path) -> None:
+    result = called("trial", "kvlcc2", "turning-circle", "--rudder-deg", "35", "--port", "--out", "turn.csv")
+    assert result.exit_code == 0, result.stderr
+    rows = {line.split("  ")[0].strip(): line.split() for line in result.stdout.splitlines() if line.strip()}
+    assert rows["advance"][-3:] == ["L", "4.5", "kept"]
+    assert rows["tactical diameter"][-3:] == ["L", "5", "kept"]
+    assert "35 deg to port" in result.stdout
+    assert "stored in turn.csv" in result.stdout
+    assert Path("turn.csv").read_text(encoding="utf-8").startswith("time,x,y,heading,surge,sway,yaw_rate,rudder_angle,")
+    assert max(map(len, result.stdout.splitlines())) <= 110
+    for manoeuvre, figure in (("zigzag", "first overshoot"), ("crash-stop", "track reach")):
+        assert figure in called("trial", "kvlcc2_l7", manoeuvre).stdout
+
+
+def test_an_encounter_is_a_file_that_runs_and_collides(folder: Path) -> None:
+    made = called(
+        "encounter", "t-bone", "--at", "0.2", "--side", "port", "--time", "5", "--after", "1", "--out", "t.toml"
+    )
+    assert (made.exit_code, made.stdout) == (0, "stored in t.toml: run it with `shipcollision run t.toml`\n"), (
+        made.stderr
+    )
+    result = called("run", "t.toml", "--in-process")
+    assert result.exit_code == 0, result.stderr
+    assert "own - target" in result.stdout
+    printed = called("encounter", "t-bone", "--at", "0.2", "--side", "port", "--time", "5", "--after", "1")
+    assert printed.stdout == Path("t.toml").read_text(encoding="utf-8")
+
+
+def test_an_imazu_case_is_a_file(folder: Path) -> None:
+    assert called("encounter", "imazu", "--case", "13", "--hydrodynamics", "--out", "i.toml").exit_code == 0
+    assert Path("i.toml").read_text(encoding="utf-8").count("[ships.target_") == 3
+
+
+SITUATION = """{"version": "0.2.0", "ownShip": {"static": {"id": 1, "dimensions": {"length": 100, "width": 16}},
+"initial": {"position": {"lat": 58.0, "lon": 10.0}, "sog": 10, "cog": 0}, "waypoints": []},
+"targetShips": [{"static": {"id": 2, "dimensions": {"length": 80, "width": 14}},
+"waypoints": [{"position": {"lat": 58.01, "lon": 10.0}}, {"position": {"lat": 58.0, "lon": 10.0}, "leg": {"sog": 8}}]}]}"""
+
+
+def test_a_traffic_situation_becomes_a_scenario_with_its_ships(folder: Path) -> None:
+    Path("s.json").write_text(SITUATION, encoding="utf-8")
+    made = called("import", "s.json", "--out", "in/s.toml", "--duration", "150", "--step", "0.5")
+    assert made.exit_code == 0, made.stderr
+    assert made.stdout.split() == ["in/s-own.toml", "in/s-target.toml", "in/s.toml"]
+    result = called("run", "in/s.toml", "--in-process")
+    assert result.exit_code == 0, result.stderr
+    assert "own - target" in result.stdout  # head-on, 1.1 km apart, 18 kn: 110 s
+
+
+@pytest.mark.parametrize(
+    ("arguments", "status", "line"),
+    [
+        (["trial", "kvlc2", "zigzag"], 2, "unknown ship 'kvlc2': did you mean kvlcc2?"),
+        (["trial", "kvlcc2", "zigzagg"], 2, "Invalid value for '{turning-circle|zigzag|crash-stop}': 'zigzagg' is not"),
+        (["trial", "kvlcc2", "turning-circle", "--rudder-deg", "-35"], 2, "rudder_deg = -35 must be greater than 0 and"),
+        (["trial", "kvlcc2", "turning-circle", "--speed", "155"], 2, "speed = 155 m/s must be above 0 and at most 50"),
+        (["trial", "guan2014_own", "crash-stop"], 2, "so she can only coast: take one that is listed as manoeuvring"),
+        (["trial", "kvlcc2", "zigzag", "--out", "barge.toml/x.csv"], 1, "cannot write to barge.toml: barge.toml is not"),
+        (["trial", "kvlcc2", "zigzag", "--out", "sub"], 1, "cannot write to sub: it is a folder; give the name of a file"),
+        (["encounter", "tbone", "--out", "x.toml"], 2, "unknown encounter 'tbone': did you mean t-bone?"),
+        (["encounter", "glancing", "--angle-deg", "0", "--out", "x.toml"], 2, "KVLCC2 does not meet KVLCC2 at s = 0.1"),
+        (["encounter", "t-bone", "--own", "kvlc2", "--out", "x.toml"], 2, "unknown ship 'kvlc2': did you mean kvlcc2?"),
+        (["encounter", "t-bone", "--own-speed", "nan", "--out", "x.toml"], 2, "own_speed = nan must be 0 to 50: give"),
+        (["encounter", "t-bone", "--case", "3"], 2, "--case goes with TYPE imazu only"),
+        (["encounter", "imazu", "--out", "x.toml"], 2, "which of Imazu's cases? give --case 1 to 22"),
+        (["encounter", "imazu", "--case", "0", "--out", "x.toml"], 2, "Imazu case 0 does not exist: take 1 to 22"),
+        (["encounter", "imazu", "--case", "1", "--at", "0.1"], 2, "Imazu's cases have no at: take own, target, own_speed"),
+        (["import", "absent.json", "--out", "x.toml"], 2, "absent.json cannot be read: No such file or directory: give"),
+        (["import", "barge.toml", "--out", "x.toml"], 2, "barge.toml: is not valid JSON: "),
+        (["import", "bad.json", "--out", "x.toml"], 2, "[ownShip.initial] sog = 1000 must be less than or equal to 60"),
+        (["import", "bad.json"], 2, "Missing option '--out'"),
+    ],
+)  # fmt: skip
+def test_a_mistake_with_trial_encounter_and_import_is_one_line_and_writes_nothing(
+    folder: Path, arguments: list[str], status: int, line: str
+) -> None:
+    Path("sub").mkdir()
+    Path("bad.json").write_text(SITUATION.replace('"sog": 10', '"sog": 1000'), encoding="utf-8")
+    before = sorted(folder.rglob("*"))
+    result = called(*arguments)
+    assert result.exit_code == status, result.stdout
+    assert result.stdout == ""
+    assert result.stderr.startswith("error: ")
+    assert result.stderr.count("\n") == 1
+    assert line in result.stderr
+    assert sorted(folder.rglob("*")) == before

@@ -9,10 +9,10 @@ It is integrated within the substeps of the collision model and booked as impuls
     P  = h (k delta + c rate+)                      rate+ = rate - W_nn P: damper implicit, at any c
     k <= 1/(W_nn h^2)                               stiffer than a substep can resolve acts as the stiffest that it can
 
-Drift with the old speed and kick at the new place is the leapfrog scheme: it conserves 1/2 v^2 + 1/2 W_nn k delta_j
+Kick at the old place and drift with the new speed, as the ships do, is the leapfrog scheme: it conserves 1/2 v^2 + 1/2 W_nn k delta_j
 delta_{j+1} to rounding, so the half-sine of a mass on a spring comes back with its speed but for (omega h)^2. A
 communication step H longer than the substep h adds damping: the ship applies the impulse of a whole step at its start,
-and returns with exp(-pi omega H/4) of its speed.
+and comes back with exp(-pi omega (H - h)/4) of its speed.
 
 No energy is gained, whatever the step, the delay or the ships' other forces: what the ships have put into the spring
 is kept in a book per pair, and the fender never gives back more than stands there; never does more stand there than
@@ -92,7 +92,8 @@ def squeezed(fender: Fender, compression: float, rate: float, W_nn: float, store
     taken = P * (rate - 0.5 * W_nn * P)
     damped = max(0.0, min(P, h * c * after) * 0.5 * (rate + after))
     if stored + taken - damped < 0.0:  # the spring is asked for more than was put in: it gives what it has
-        P = 2.0 * stored / (sqrt(rate * rate + 2.0 * W_nn * stored) - rate)  # rate < 0: the fender lets go
+        root = sqrt(rate * rate + 2.0 * W_nn * stored)
+        P = 2.0 * stored / (root - rate) if rate < 0.0 else (root + rate) / W_nn
         after = rate - W_nn * P
         taken, damped = P * (rate - 0.5 * W_nn * P), 0.0
     kept = max(0.0, min(stored + taken - damped, 0.5 * k * compression * max(0.0, compression + h * after)))

@@ -5,8 +5,8 @@ A communication step [t, t + H]:
     receive       check what came in; shadows of the ships at the received poses, pending impulses taken in
     find near     pairs whose hulls could touch within the step (broad_phase.py); far pairs are never looked at
     for each substep of fixed length h:
+        press     fenders that are compressed (fenders.py), booked one by one
         advance   the predicted poses of the shadows that are near another
-        press     fenders that are compressed there (fenders.py), booked one by one
         respond   contacts there, answered by one of the rival responses
         book      impulses into twists and ledger, energy lost, contact points, episodes
     publish       poses, twists, impulses, mean forces, contacts, events
@@ -142,11 +142,11 @@ class ShipCollision:
         slots = list[Slot]()
         n, h = _substeps(H, self.parameters.substep)
         for j in range(n):
+            for pair, fender in fenders.items():
+                slots = self._press(pair, fender, h, shadows, slots)
             for i in moving:
                 shadows[i].advance(h)
                 self._ready().place(i, shadows[i])
-            for pair, fender in fenders.items():
-                slots = self._press(pair, fender, h, shadows, slots)
             impulses = self._respond(t + (j + 1) * h, h, near, shadows)
             slots = self._book(impulses, shadows, slots)
         return slots

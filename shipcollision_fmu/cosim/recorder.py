@@ -100,7 +100,7 @@ class Recorder:
     def record(self, k: int) -> None:
         """Take down communication point k; its values are in the wires."""
         row = self._states[k]
-        row[0] = k * self._step
+        row[0] = round(k * self._step, 9)  # 27.15, not 27.150000000000002
         width = len(STATE)
         for i, buffer in enumerate(self._buffers):
             row[1 + i * width : 1 + (i + 1) * width] = buffer[:width]
@@ -138,7 +138,7 @@ class Recorder:
         )
 
     def _record_contacts(self, k: int, count: int) -> None:
-        time, width, ids = k * self._step, len(CONTACT_COLUMNS), len(_CONTACT_NUMBERS)
+        time, width, ids = round(k * self._step, 9), len(CONTACT_COLUMNS), len(_CONTACT_NUMBERS)
         self._reals.read(count * width)
         self._numbers.read(count * ids)
         for i in range(count):

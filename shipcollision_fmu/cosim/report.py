@@ -27,7 +27,8 @@ def table(*columns: str, title: str | None = None) -> Table:
     empty = Table(title=heading, title_justify="left", box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
     for column in columns:
         name = Text(column.removeprefix(">").replace(" [", "\n["))
-        empty.add_column(name, justify="right" if column.startswith(">") else "left")
+        # Folded where the terminal is narrow: half a ship's name is of no use to anybody.
+        empty.add_column(name, justify="right" if column.startswith(">") else "left", overflow="fold")
     return empty
 
 
@@ -50,10 +51,9 @@ def lines(run: Run) -> Iterator[str]:
     if not run.events["collisions"]:
         yield f"no collision; least clearance {summary['least_clearance']:.1f} m"
     energy = summary["energy"]
-    yield (
-        f"kinetic energy {energy['before']['total'] / 1e6:.1f} MJ before, "
-        f"{energy['after']['total'] / 1e6:.1f} MJ after, {energy['dissipated'] / 1e6:.1f} MJ dissipated in contact"
-    )
+    before, after, lost = (x / 1e6 for x in (energy["before"]["total"], energy["after"]["total"], energy["dissipated"]))
+    yield f"kinetic energy {before:.1f} MJ before, {after:.1f} MJ after:"
+    yield f"  {lost:.1f} MJ dissipated in contact, {after + lost - before:+.1f} MJ from sailing between contacts"
     yield (
         f"{summary['steps']} steps of {summary['step']:.6g} s, {summary['algorithm']}, {run.timing['mode']}: "
         f"{run.timing['wall_time']:.2f} s, {run.timing['real_time_factor']:.0f} times real time"

@@ -79,7 +79,15 @@ class Scenario(Table):
 
     def check(self) -> None:
         """Raises ScenarioError for ships that cannot be had, and for bodies that start inside each other."""
-        refuse_overlap(self._source, self.ships, self.load_ships(), self.obstacles)
+        ships = self.load_ships()
+        if self.collision.response == "bullet":
+            for name, ship in ships.items():
+                if ship.M_A.any():
+                    raise ScenarioError(
+                        f"{self._source}: [collision] response = 'bullet' knows a scalar mass only, and [ships.{name}] "
+                        f"ship = {self.ships[name].ship!r} has added mass: take 'pgs', or a ship without it"
+                    )
+        refuse_overlap(self._source, self.ships, ships, self.obstacles)
 
     def changed(self, *, algorithm: str | None = None, step: float | None = None) -> Scenario:
         """The same scenario with another algorithm or communication step [s]; ScenarioError if that does not fit."""

@@ -27,9 +27,10 @@ from .events import events
 from .fmu_component import FmuComponent, UnpackedFmu
 from .fmu_files import ready_fmus, require_pybullet
 from .folder import check_writable, write_files
+from .interrupt import held_back
 from .master import ALGORITHMS
 from .recorder import Record, Recorder
-from .scenario import Scenario
+from .scenario import Scenario, load_scenario
 from .summary import summary
 from .wiring import MakeCollision, MakeShip, connected
 
@@ -71,7 +72,7 @@ class Run:
 
 
 def simulate(
-    scenario: Scenario,
+    scenario: Scenario | str,
     *,
     algorithm: str | None = None,
     step: float | None = None,
@@ -79,12 +80,14 @@ def simulate(
     out: str | Path | None = None,
     progress: Progress | None = None,
 ) -> Run:
-    """Run a scenario, through the FMUs or in process, and write it to the folder `out` if one is given.
+    """Run a scenario (or the one of that name or path), through the FMUs or in process; write it to `out` if given.
 
     `algorithm` ("gauss-seidel" or "jacobi") and `step` [s] replace those of the scenario. FMUs are built when they are
     missing or older than the sources. Raises ScenarioError for options that do not fit, StepError when a model refuses
     a step, HostError when the machine does not do what is needed; then nothing is written.
     """
+    if isinstance(scenario, str):
+        scenario = load_scenario(scenario)
     scenario = scenario.changed(algorithm=algorithm, step=step)
     require_pybullet()
     if out is not None:
@@ -122,13 +125,15 @@ def stepped(scenario: Scenario, factories: Factories, progress: Progress | None 
     advance, step, steps = ALGORITHMS[scenario.algorithm], scenario.step, scenario.steps
     recorder.record(0)
     begin = perf_counter()
-    for k in range(steps):
-        for helm in helms:
-            helm.give(k)
-        advance(system, k * step, step)
-        recorder.record(k + 1)
-        if progress is not None:
-            progress(k + 1, steps)
+    with held_back() as interrupted:
+        for k in range(steps):
+            for helm in helms:
+                helm.give(k)
+            advance(system, k * step, step)
+            recorder.record(k + 1)
+            if progress is not None:
+                progress(k + 1, steps)
+            interrupted()
     return recorder.finished(), perf_counter() - begin
 
 

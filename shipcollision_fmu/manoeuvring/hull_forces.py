@@ -41,15 +41,15 @@ GAMMA = (radians(35.0), radians(60.0))
 """The same for the angle of the flow at the ship's ends; a 35 deg rudder turn of a full ship reaches about 25 deg."""
 
 
-_WELL_BELOW = (tan(BETA[0]) * (1.0 - 1e-9), tan(GAMMA[0]) * (1.0 - 1e-9))
-"""|v|/u and |r| L/(2 u) below which the cross flow does not count: says the same as the angles, and quicker."""
+_STEEPEST, _QUICKEST = tan(BETA[0]) * (1.0 - 1e-9), tan(GAMMA[0]) * (1.0 - 1e-9)
+"""|v|/u and |r| L/(2 u) below which the cross flow does not count: says the same as the angles, and sooner."""
 
 
 class HullForces:
     """(X, Y, N) of one hull."""
 
     def __init__(self, ship: Ship, table: ManoeuvringTable) -> None:
-        self._L = ship.L_pp
+        self._L, self._half_L = ship.L_pp, 0.5 * ship.L_pp
         self._force = 0.5 * ship.rho * ship.L_pp * ship.T  # times velocity^2 is a force [N]
         self._moment = self._force * ship.L_pp
         self._X = (table.R_0, table.X_vv, table.X_vr, table.X_rr, table.X_vvvv)
@@ -59,8 +59,9 @@ class HullForces:
     def __call__(self, u: float, v: float, r: float) -> tuple[float, float, float]:
         """X, Y [N] and N [N m] about midship, in b, at velocities relative to the water."""
         share = 0.0
-        if not (abs(v) < _WELL_BELOW[0] * u and abs(0.5 * self._L * r) < _WELL_BELOW[1] * u):
-            share = _cross_flow_share(u, v, 0.5 * self._L * r)
+        s = self._half_L * r
+        if not (abs(v) < _STEEPEST * u and abs(s) < _QUICKEST * u):
+            share = _cross_flow_share(u, v, s)
             if share == 1.0:
                 return self._beyond(u, v, r)
         U = hypot(u, v)  # with a share below 1, U > 0 and |r'| < 3.5, or all is at rest

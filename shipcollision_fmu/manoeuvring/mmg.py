@@ -18,6 +18,7 @@ from collections.abc import Sequence
 from math import atan2, cos, hypot, sin
 
 from ..ship.ship import Ship
+from .propeller import drift
 from .sailing import Forces, Machines, Sailing, Six, Surroundings
 
 __all__ = ["Mmg"]
@@ -42,11 +43,17 @@ class Mmg(Sailing):
     def forces(self, eta: Six, nu: Six, machines: Machines, around: Surroundings) -> Forces:
         """X, Y, N by origin, the other components 0."""
         psi, (u, v, _w, _p, _q, r) = eta[5], nu
+        X, Y, _K, N = self._felt_wind(u, v, psi, around)
         c, s = cos(psi), sin(psi)
         north, east = around.current_north, around.current_east
-        u_c, v_c = north * c + east * s, east * c - north * s
-        hull, X_P, rudder = self._forces(u - u_c, v - v_c, r, machines.rudder_angle, machines.propeller_speed)
-        X, Y, _K, N = self._felt_wind(u, v, psi, around)
+        u_r, v_r = u - (north * c + east * s), v - (east * c - north * s)
+        hull, X_P, rudder = self._hull(u_r, v_r, r), 0.0, NOTHING
+        if self._propeller is not None and self._rudder is not None:
+            U, beta = drift(u_r, v_r)
+            u_P = self._propeller.inflow(u_r, U, beta, r)
+            thrust = self._propeller.thrust(u_P, machines.propeller_speed)
+            X_P = self._propeller.remaining * thrust
+            rudder = self._rudder(U, beta, r, u_P, thrust, machines.rudder_angle)
         return Forces(_wrench(hull), _wrench((X_P, 0.0, 0.0)), _wrench(rudder), _wrench((X, Y, N)))
 
     def _packed(self, eta: Six, nu: Six) -> tuple[float, ...]:
@@ -67,13 +74,20 @@ class Mmg(Sailing):
         _x, _y, psi, u, v, r = x
         c, s = cos(psi), sin(psi)
         north, east, wind_north, wind_east, X_E, Y_E, _Z, _K, _M, N_E = around
-        u_c, v_c = (north * c + east * s, east * c - north * s) if north or east else (0.0, 0.0)
-        u_r, v_r = u - u_c, v - v_c
+        u_r, v_r, u_c, v_c = u, v, 0.0, 0.0
+        if north or east:
+            u_c, v_c = north * c + east * s, east * c - north * s
+            u_r, v_r = u - u_c, v - v_c
 
-        (X_H, Y_H, N_H), X_P, (X_R, Y_R, N_R) = self._forces(u_r, v_r, r, delta, n)
-        X = X_H + X_P + X_R + X_E
-        Y = Y_H + Y_R + Y_E
-        N = N_H + N_R + N_E
+        X, Y, N = self._hull(u_r, v_r, r)  # written out, not called: this is where the time goes
+        propeller, rudder = self._propeller, self._rudder
+        if propeller is not None and rudder is not None:
+            U, beta = hypot(u_r, v_r), atan2(-v_r, abs(u_r))
+            u_P = propeller.inflow(u_r, U, beta, r)
+            thrust = propeller.thrust(u_P, n)
+            X_R, Y_R, N_R = rudder(U, beta, r, u_P, thrust, delta)
+            X, Y, N = X + propeller.remaining * thrust + X_R, Y + Y_R, N + N_R
+        X, Y, N = X + X_E, Y + Y_E, N + N_E
         if wind_north or wind_east:
             X_W, Y_W, _K, N_W = self._felt_wind(u, v, psi, around)
             X, Y, N = X + X_W, Y + Y_W, N + N_W
@@ -85,16 +99,6 @@ class Mmg(Sailing):
         v_dot = (self._m_r * Y - self._m_vr * N) / self._determinant
         r_dot = (self._m_v * N - self._m_vr * Y) / self._determinant
         return u * c - v * s, u * s + v * c, r, u_dot + r * v_c, v_dot - r * u_c, r_dot
-
-    def _forces(self, u: float, v: float, r: float, delta: float, n: float) -> tuple[Planar, float, Planar]:
-        """(X, Y, N) of the hull, X of the propeller, (X, Y, N) of the rudder, at velocities relative to the water."""
-        hull = self._hull(u, v, r)
-        if self._propeller is None or self._rudder is None:
-            return hull, 0.0, NOTHING
-        U, beta = hypot(u, v), atan2(-v, abs(u))
-        u_P = self._propeller.inflow(u, U, beta, r)
-        thrust = self._propeller.thrust(u_P, n)
-        return hull, self._propeller.remaining * thrust, self._rudder(U, beta, r, u_P, thrust, delta)
 
 
 def _wrench(planar: Planar) -> Six:

@@ -39,7 +39,7 @@ class Propeller:
         self.remaining = 1.0 - table.t_P  # of the thrust, after the suction on the stern
         self._x_P = table.x_P * ship.L_pp
         self._through = 1.0 - table.w_P0
-        self._C_1, self._C_2_plus, self._C_2_minus = table.C_1, table.C_2_plus, table.C_2_minus
+        self._C_1, self._plus, self._minus = table.C_1, table.C_2_plus - 1.0, table.C_2_minus - 1.0
         self._k_0, self._k_1, self._k_2 = table.k_0, table.k_1, table.k_2
         self._astern = table.astern_factor
         self.unit = ship.rho * table.D_p**2  # times velocity^2 is a thrust [N]
@@ -49,8 +49,9 @@ class Propeller:
         if U == 0.0:
             return 0.0
         beta_P = beta - self._x_P * r / U
-        C_2 = self._C_2_plus if beta_P > 0.0 else self._C_2_minus
-        return u * self._through * (1.0 + (1.0 - exp(-self._C_1 * abs(beta_P))) * (C_2 - 1.0))
+        if beta_P > 0.0:
+            return u * self._through * (1.0 + (1.0 - exp(-self._C_1 * beta_P)) * self._plus)
+        return u * self._through * (1.0 + (1.0 - exp(self._C_1 * beta_P)) * self._minus)
 
     def thrust(self, u_P: float, n: float) -> float:
         """Open-water thrust [N] at n [1/s] in the inflow u_P."""

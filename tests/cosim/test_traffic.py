@@ -41,13 +41,13 @@ def test_a_degree_has_its_tabulated_length(latitude: float, of_latitude: float, 
 
 
 def test_positions_agree_with_trafficgens_own() -> None:
-    """ship-traffic-generator, baseline situation 4 (2023): the file gave lat, lon and north, east; 1 m is their sphere."""
+    """ship-traffic-generator, baseline situation 4 (2023), gave lat, lon and north, east; 1 m: theirs is a sphere."""
     north, east = TangentPlane(58.763449, 10.490654).position(58.783612, 10.501054)
     assert (north, east) == (pytest.approx(2245.991, abs=1.0), pytest.approx(601.811, abs=1.0))
 
 
 def test_courses_turn_with_the_meridians() -> None:
-    """Two ships that steer true north at different longitudes converge: to the west, by the difference times sin(latitude)."""
+    """East of the origin true north leans to the west, by the difference of longitude times sin(latitude)."""
     plane = TangentPlane(58.0, 10.0)
     turned = plane.direction(58.0, 10.2, 0.0)
     assert degrees(turned) == pytest.approx(-0.2 * sin(radians(58.0)), rel=1e-4)
@@ -117,18 +117,17 @@ Spoil = Callable[[dict[str, Any]], Any]
     [
         (lambda d: d.pop("ownShip"), r"s.json: is no traffic situation, it has no ownShip: give a file of trafficgen"),
         (lambda d: d.update(targetShips=[]), r"s.json: targetShips is empty: a collision needs a target"),
-        (lambda d: d["ownShip"]["initial"].update(sog=6000), r"\[ownShip.*\] sog = 6000 must be less than or equal to 60: "
-         "it is the speed over ground in knots"),
+        (lambda d: d["ownShip"]["initial"].update(sog=6000), r"\[ownShip.*\] sog = 6000 must be .* 60: it is the speed .* knots"),
         (lambda d: d["ownShip"]["initial"].update(sog="ten"), r"sog = 'ten' must be a valid number"),
         (lambda d: d["ownShip"]["initial"].update(sog=None), r"s.json: own has no speed: give initial.sog, or sog in"),
-        (lambda d: d["ownShip"]["initial"].update(cog=1234), r"cog = 1234 must be less than or equal to 360: it is clock"),
+        (lambda d: d["ownShip"]["initial"].update(cog=1234), r"cog = 1234 must be .* 360: it is clockwise"),
         (lambda d: d["ownShip"]["initial"]["position"].update(latitude=5876), r"5876 must be less than or equal to 85"),
         (lambda d: d["ownShip"]["initial"].pop("position"), None),  # the first waypoint will do
-        (lambda d: d["targetShips"][1]["initial"].pop("position"), r"target_2 is nowhere: give initial.position or way"),
+        (lambda d: d["targetShips"][1]["initial"].pop("position"), r"target_2 is nowhere: give initial.position or"),
         (lambda d: d["targetShips"][1]["initial"].pop("cog"), r"target_2 has no course: give initial.cog, or two wayp"),
-        (lambda d: d["targetShips"][1]["static"].pop("width"), r"target_2 has no length and width in static: name a ship"),
+        (lambda d: d["targetShips"][1]["static"].pop("width"), r"target_2 has no length and width in static: name"),
         (lambda d: d["targetShips"][1]["static"].update(initDelay=15.0), r"target_2 initDelay = 15 s is not offered"),
-        (lambda d: d["targetShips"][0]["initial"]["position"].update(lon=20.5), r"target_1 is \d+ km from own ship, at"),
+        (lambda d: d["targetShips"][0]["initial"]["position"].update(lon=20.5), r"target_1 is \d+ km from own ship"),
         (lambda d: d["targetShips"][0]["initial"].update(position=d["ownShip"]["initial"]["position"]),
          r"s.json: does not make a scenario: .*position = .* is also that of own"),
         (lambda d: d["targetShips"][0]["static"].update(width=80.0), r"s.json: target_1 is wider than long, width = 80 m and length = 50 m: check"),

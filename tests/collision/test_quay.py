@@ -1,0 +1,158 @@
+"""A ship held against a quay by a steady side force: bounded, no creep, no energy gained, one collision.
+
+The ship is pushed as a ship model is: exactly, for a constant force in the plane, an impulse at the start of a step.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from math import cos, sin
+
+import numpy as np
+import pytest
+
+from shipcollision_fmu.collision.model import ShipCollision
+from shipcollision_fmu.ship.inertia import free_inverse
+from shipcollision_fmu.ship.library import load_ship
+from tests.collision.conftest import BOX
+
+Make = Callable[..., str]
+
+FORCE = 3.2e6  # N to the quay: some 5 mm/s2, a gale on a large ship's side
+QUAY = '[quay]\nkind = "quay"\nshape = "box"\nlength = 800.0\nbreadth = 20.0\nposition = [0.0, 25.5]'  # face at 15.5
+
+
+class Berthed:
+    """A box of 200 x 30 m at a quay to starboard, in surge, sway and yaw, pushed by force(t) [N] abeam in n."""
+
+    def __init__(
+        self, ship: str, algorithm: str, *, speed: float = 0.0, twist: float = 0.0, quay: str = QUAY,
+        response: str = "pgs", force: Callable[[float], float] = lambda t: FORCE,
+    ) -> None:  # fmt: skip
+        self.model = ShipCollision(("own",))
+        p = self.model.parameters
+        p.ships[0].ship, p.ships[0].degrees_of_freedom, p.obstacles, p.response = ship, 3, quay, response
+        self.M = load_ship(ship).M
+        self.M_inverse = free_inverse(self.M, 3)
+        self.algorithm, self.force, self.twist = algorithm, force, twist
+        self.x, self.psi = np.array([0.0, 0.0]), 0.0
+        self.nu = np.array([speed, 0.1, 0, 0, 0, 0])
+        self.applied, self.waiting = np.zeros(6), np.zeros(6)
+        self.t, self.contact_work = 0.0, [0.0]
+        self._send()
+        self.model.initialise()
+
+    def _send(self) -> None:
+        i = self.model.inputs.ships[0]
+        i.position[:2], i.attitude[2] = self.x.tolist(), self.psi
+        i.velocity[:], i.rate[:] = self.nu[:3].tolist(), self.nu[3:].tolist()
+        i.impulse_applied[:] = self.applied.tolist()
+
+    def step(self, H: float) -> None:
+        self._send()
+        self.model.step(self.t, H)
+        issued = np.array(self.model.outputs.ships[0].impulse)
+        if self.algorithm == "jacobi":
+            issued, self.waiting = self.waiting, issued
+        nu = self.nu + self.M_inverse @ (issued - self.applied)
+        self.contact_work.append(0.5 * (nu @ self.M @ nu - self.nu @ self.M @ self.nu))
+        self.applied = issued
+        kick = self.M_inverse @ np.array([0, self.force(self.t), 0, 0, 0, self.twist]) * (0.5 * H)
+        nu = nu + kick
+        c, s = cos(self.psi), sin(self.psi)
+        self.x = self.x + H * np.array([c * nu[0] - s * nu[1], s * nu[0] + c * nu[1]])
+        self.psi += H * nu[5]
+        self.nu = nu + kick
+        self.t += H
+
+    def run(self, duration: float, H: float) -> np.ndarray:
+        """East of CO [m] at every step."""
+        places = []
+        for _ in range(round(duration / H)):
+            self.step(H)
+            places.append(self.x[1])
+        return np.array(places)
+
+
+@pytest.fixture
+def berthed(make_ship: Make) -> Iterator[Callable[..., Berthed]]:
+    made: list[Berthed] = []
+
+    def make(*args: object, **kwargs: object) -> Berthed:
+        made.append(Berthed(make_ship("box", BOX), *args, **kwargs))  # type: ignore[arg-type]
+        return made[-1]
+
+    yield make
+    for b in made:
+        b.model.close()
+
+
+MakeBerthed = Callable[..., Berthed]
+
+
+def is_held(b: Berthed, places: np.ndarray, H: float) -> None:
+    """Within the overlap that the delay of a parallel master lets in once; not a millimetre more with time."""
+    late = 0.5 + (H * 0.13 if b.algorithm == "jacobi" else 0.0)  # closes at 0.12 m/s after 0.5 m under the force
+    assert places.max() < late + 2e-3
+    second_half = places[len(places) // 2 :]
+    assert second_half.max() - second_half.min() < 1e-3
+    assert abs(b.psi) < 1e-3
+    out = b.model.outputs
+    assert out.impact_count == 1
+    work = np.cumsum(b.contact_work)
+    gained = float(np.max(work - np.minimum.accumulate(work)))
+    assert gained < 1e-6 * -work[-1]
+    assert out.energy[0] > 0.0
+
+
+@pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
+@pytest.mark.parametrize("response", ["pgs", "closed_form"])
+def test_a_minute_at_the_quay(berthed: MakeBerthed, algorithm: str, response: str) -> None:
+    b = berthed(algorithm, response=response)
+    is_held(b, b.run(60.0, 0.1), 0.1)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
+@pytest.mark.parametrize("H", [0.05, 0.5])
+def test_ten_minutes_at_the_quay(berthed: MakeBerthed, algorithm: str, H: float) -> None:
+    b = berthed(algorithm)
+    is_held(b, b.run(600.0, H), H)
+
+
+def test_along_the_quay_friction_slows_her_down(berthed: MakeBerthed) -> None:
+    """mu N per time: the deceleration is Coulomb's, she does not creep in, and it stays one collision."""
+    b = berthed("gauss-seidel", speed=1.0)
+    places = b.run(30.0, 0.1)
+    before = b.nu[0]
+    b.run(10.0, 0.1)
+    assert before - b.nu[0] == pytest.approx(0.3 * FORCE * 10.0 / b.M[0, 0], rel=0.02)
+    assert places.max() < 0.502
+    assert b.model.outputs.impact_count == 1
+
+
+def test_gusts_do_not_pump_her_through(berthed: MakeBerthed) -> None:
+    """A force that swings between nothing and twice as much lets her in and out, and no farther with time."""
+    b = berthed("gauss-seidel", force=lambda t: FORCE * (1.0 + sin(2.0 * t)))
+    places = b.run(60.0, 0.1)
+    assert places.max() < 0.51
+    assert places[-300:].max() - places[:300].max() < 2e-3
+    assert b.model.outputs.impact_count == 1
+
+
+def test_let_go_she_stays_where_she_is(berthed: MakeBerthed) -> None:
+    """When the force ends, what was expected of it must not become speed: no more than a H / 2, once."""
+    b = berthed("gauss-seidel", force=lambda t: FORCE if t < 20.0 else 0.0)
+    b.run(40.0, 0.1)
+    assert abs(b.nu[1]) <= 0.5 * FORCE / b.M[1, 1] * 0.1 * (1 + 1e-6)
+    assert max(b.contact_work[-190:]) <= 0.0
+
+
+def test_a_fender_takes_the_side_force(berthed: MakeBerthed) -> None:
+    """At rest F = k delta: the compression is that of the force, and nothing is dissipated any more."""
+    quay = QUAY.replace("25.5", "26.5") + "\nfender = {stiffness = 8e6, damping = 3e7, thickness = 1.0}"
+    b = berthed("gauss-seidel", quay=quay)
+    places = b.run(90.0, 0.1)
+    assert places[-1] == pytest.approx(0.5 + FORCE / 8e6, abs=2e-3)
+    assert b.model.outputs.impact_count == 0
+    assert b.model.outputs.fender[0] == pytest.approx(0.5 * FORCE**2 / 8e6, rel=0.02)

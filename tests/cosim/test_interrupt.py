@@ -1,0 +1,54 @@
+"""Ctrl-C during a run: raised between two steps, whatever Python code it hit."""
+
+from __future__ import annotations
+
+import signal
+from pathlib import Path
+
+import pytest
+
+from shipcollision_fmu import load_scenario, simulate
+from shipcollision_fmu.collision.model import ShipCollision
+from shipcollision_fmu.cosim.interrupt import held_back
+
+from .conftest import Write
+
+
+@pytest.mark.parametrize("in_process", [True, False])
+def test_an_interrupt_inside_a_model_ends_the_run_as_an_interrupt(
+    scenario_file: Write, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, in_process: bool
+) -> None:
+    original = ShipCollision.step
+
+    def hit(model: ShipCollision, t: float, h: float) -> None:
+        if t > 0.2:
+            signal.raise_signal(signal.SIGINT)
+        original(model, t, h)
+
+    monkeypatch.setattr(ShipCollision, "step", hit)
+    seen: list[int] = []
+    with pytest.raises(KeyboardInterrupt):
+        simulate(
+            load_scenario(scenario_file()), in_process=in_process, out=tmp_path / "run",
+            progress=lambda done, _: seen.append(done),
+        )  # fmt: skip
+    assert seen[-1] == 6  # the step from 0.25 s, finished
+    assert not (tmp_path / "run").exists()
+
+
+def test_the_handler_from_before_is_put_back() -> None:
+    before = signal.getsignal(signal.SIGINT)
+    with held_back() as check:
+        check()
+        assert signal.getsignal(signal.SIGINT) is not before
+    assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_where_interrupts_are_ignored_they_stay_ignored() -> None:
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        with held_back() as check:
+            signal.raise_signal(signal.SIGINT)
+            check()
+    finally:
+        signal.signal(signal.SIGINT, before)
