@@ -77,7 +77,7 @@ def _ship(i: int, s: str) -> Table:
         ),
         *wrench(
             "output", f"{s}.force", f"{s}.moment", FORCE, f"{given}.force",
-            f"Mean contact force on {s} over the last step, in b about CO", depends_on=(),
+            f"Mean contact force and moment on {s} over the last step, in b about CO", depends_on=(),
         ),
         string(
             "parameter", f"{s}.ship", f"parameters.ships.{i}.ship",
