@@ -41,6 +41,11 @@ class Body:
     wall: Shadow | None = None
     rectangle: Rectangle = (0.0, 0.0, 0.0, 0.0)
 
+    @property
+    def around(self) -> float:
+        """How far before the hull its fender acts [m]."""
+        return self.fender.thickness if self.fender else 0.0
+
 
 def prepared(names: Sequence[str], parameters: CollisionParameters) -> list[Body]:
     """The bodies that the parameters ask for. Raises InputError."""

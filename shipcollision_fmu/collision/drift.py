@@ -10,8 +10,8 @@ ship that is merely stopped at every start creeps through it, by 1/2 a H in ever
 
 and contact is looked for, and solved, with nu + drift. Under a parallel master an impulse is applied one step after it
 was issued, to a ship that has gained speed by then: nu + gain is the velocity that it will meet. The drift is measured where it acts, from poses, so it does not
-matter how the ship's model integrates. It is looked at only where an impulse was issued in the step before: a first
-impact is solved with the velocities as they are. An answer with drift may turn an approach round (from -a H/2 to
+matter how the ship's model integrates. It is looked at only for ships that are in a collision: a first impact is
+solved with the velocities as they are. An answer with drift may turn an approach round (from -a H/2 to
 +a H/2, which the other forces turn back); that it never adds energy is seen to where it is booked (passive.py).
 
 What it costs: two poses per ship in contact, and one step of lag. A force that grows in a step lets the ship in by

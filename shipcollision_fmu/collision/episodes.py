@@ -83,6 +83,10 @@ class Episodes:
         """Whether the pair is in a collision."""
         return (a, b) in self._pairs and self._pairs[a, b].impact > 0
 
+    def open_ships(self) -> set[int]:
+        """Bodies that are in a collision with any other."""
+        return {ship for pair, state in self._pairs.items() if state.impact for ship in pair}
+
     def numbers(self, a: int, b: int) -> tuple[int, int]:
         """(collision, scratch) of a pair, 0 where none is open."""
         pair = self._pairs.get((a, b), _Pair())

@@ -31,6 +31,7 @@ import numpy as np
 
 from ..errors import InputError, StepError
 from ..ship.frames import Array, attitude_from_rotation, attitude_unwrapped
+from .ahead import pose_ahead
 from .axes import contact_axes
 from .bodies import Body, apart, prepared
 from .broad_phase import Rectangle, near_pairs
@@ -59,6 +60,8 @@ ABSURD_PLACE = 1e9
 """Distances from the origin [m] from here on are refused: the Earth is not that large."""
 
 Pair = tuple[int, int]
+
+_NO_FORCE = (0.0,) * 6
 
 
 class ShipCollision:
@@ -90,6 +93,8 @@ class ShipCollision:
             self._detector.place(i, wall)
         self._issued = [np.zeros(6) for _ in range(n)]
         self._last = [np.zeros(6) for _ in range(n)]
+        self._echo = [[0.0] * 6 for _ in range(n)]  # what a ship that has applied everything sends back
+        self._busy = [False] * n  # had an impulse in the last step
         self._nu_sent = [np.zeros(6) for _ in range(n)]
         self._seen: list[Seen | None] = [None] * n
         self._energy = np.zeros(3)
@@ -117,6 +122,9 @@ class ShipCollision:
         """Advance from t by H [s]. Raises StepError on an input that is not finite or absurd; nothing changes then."""
         self._ready()
         self._check_inputs(t, H)
+        if self._is_alone(H):
+            self._publish_alone(t, H)
+            return
         shadows = self._receive(t)
         candidates = self._candidates(shadows, H)
         near = self._near(candidates, shadows, H)
@@ -133,23 +141,92 @@ class ShipCollision:
             raise
         self._publish(t + H, H, shadows, slots, candidates)
 
-    def _collide(self, t: float, H: float, near: list[Pair], shadows: list[Shadow]) -> list[Slot]:
-        """Take the shadows through the step; the contact points they went through."""
+    def _is_alone(self, H: float) -> bool:
+        """Whether nobody is near anybody, and nothing of an earlier contact is left: the step is then soon done."""
+        if self._fenders or any(self._seen):
+            return False
+        half, rectangles = 0.5 * self.parameters.clearance_range, list[Rectangle]()
+        echoed = self.parameters.feedback == "ledger"
+        for i, state in enumerate(self.inputs.ships):
+            if self._busy[i] or (echoed and state.impulse_applied != self._echo[i]):
+                return False
+            body, (n, e, _) = self._bodies[i], state.position
+            d = half + body.around + body.reach + H * (hypot(*state.velocity) + hypot(*state.rate) * body.reach)
+            rectangles.append((n - d, n + d, e - d, e + d))
+        for body in self._bodies[len(rectangles) :]:
+            rectangles.append(self._widened(body))
+        return not near_pairs(rectangles, len(self.names))
+
+    def _publish_alone(self, t: float, H: float) -> None:
+        self._episodes.close_old(t)
+        for state, out in zip(self.inputs.ships, self.outputs.ships, strict=True):
+            place, attitude = pose_ahead(state.position, state.attitude, state.velocity, state.rate, H)
+            out.position[:], out.attitude[:] = place, attitude
+            out.velocity[:], out.rate[:] = state.velocity, state.rate
+            out.force[:] = _NO_FORCE
+        self._publish_contacts(t, [])
+        self.outputs.clearance[0] = self.parameters.clearance_range
+
+    def _widened(self, body: Body) -> Rectangle:
+        """Where an obstacle stands, and half the range of the clearance around it."""
+        d = 0.5 * self.parameters.clearance_range + body.around
+        n_0, n_1, e_0, e_1 = body.rectangle
+        return n_0 - d, n_1 + d, e_0 - d, e_1 + d
+
+    def _collide(self, t: float, H: float, near: dict[Pair, float], shadows: list[Shadow]) -> list[Slot]:
+        """Take the shadows through the step; the contact points they went through.
+
+        near: pairs and their gaps. A gap lasts some substeps at the speeds that the hulls have: a pair is looked at
+        again when it could have closed.
+        """
         self._episodes.close_old(t)
         moving = {i for pair in near for i in pair if not shadows[i].fixed}
         _advance([s for i, s in enumerate(shadows[: len(self.names)]) if i not in moving], H)
         fenders = {pair: fender for pair in near if (fender := self._fender(pair)) is not None}
         slots = list[Slot]()
         n, h = _substeps(H, self.parameters.substep)
+        due = {pair: 0 if pair in fenders else self._lasts(pair, gap, h, shadows) for pair, gap in near.items()}
+        late = 0  # substeps that the poses are behind
         for j in range(n):
+            now = [pair for pair in near if due[pair] <= j]
+            late += 1
+            if not now:
+                continue
             for pair, fender in fenders.items():
                 slots = self._press(pair, fender, h, shadows, slots)
             for i in moving:
-                shadows[i].advance(h)
+                for _ in range(late):
+                    shadows[i].advance(h)
                 self._ready().place(i, shadows[i])
-            impulses = self._respond(t + (j + 1) * h, h, near, shadows)
+            late = 0
+            impulses = self._respond(t + (j + 1) * h, h, now, shadows)
             slots = self._book(impulses, shadows, slots)
+            if impulses:
+                due = dict.fromkeys(near, j + 1)
+            elif not fenders:
+                left = (n - 1 - j) * h
+                for pair in now:
+                    gap = self._ready().clearance(*pair, self._approach(pair, left, shadows))
+                    due[pair] = j + 1 + self._lasts(pair, gap, h, shadows)
+        for i in moving:
+            if late == n:
+                shadows[i].advance(H)
+            else:
+                for _ in range(late):
+                    shadows[i].advance(h)
         return slots
+
+    def _lasts(self, pair: Pair, gap: float, h: float, shadows: Sequence[Shadow]) -> int:
+        """Substeps of h [s] in which a gap [m] cannot close."""
+        if gap <= 0.0:
+            return 0
+        self._kept.pop(pair, None)
+        approach = self._approach(pair, h, shadows)
+        return int(min(gap / approach, 1e9)) if approach > 0.0 else 10**9
+
+    def _approach(self, pair: Pair, h: float, shadows: Sequence[Shadow]) -> float:
+        """How much nearer two hulls may come in h [s], at most [m]."""
+        return sum(self._room(self._bodies[i], shadows[i], h) - self._bodies[i].around for i in pair)
 
     def _receive(self, t: float) -> list[Shadow]:
         """Shadows at the received poses, with what is pending in their twists; then those of the obstacles."""
@@ -185,33 +262,30 @@ class ShipCollision:
         rectangles: list[Rectangle] = []
         for body, shadow in zip(self._bodies, shadows, strict=True):
             if shadow.fixed:
-                n_0, n_1, e_0, e_1 = body.rectangle
-                d = half + (body.fender.thickness if body.fender else 0.0)
-                rectangles.append((n_0 - d, n_1 + d, e_0 - d, e_1 + d))
+                rectangles.append(self._widened(body))
                 continue
             n, e, _ = shadow.x.tolist()
             d = half + self._room(body, shadow, H) + body.reach
             rectangles.append((n - d, n + d, e - d, e + d))
         return near_pairs(rectangles, len(self.names))
 
-    def _near(self, candidates: Sequence[Pair], shadows: Sequence[Shadow], H: float) -> list[Pair]:
-        """Pairs of them whose hulls, or fenders, could touch within H [s]."""
-        near = []
+    def _near(self, candidates: Sequence[Pair], shadows: Sequence[Shadow], H: float) -> dict[Pair, float]:
+        """Pairs of them whose hulls, or fenders, could touch within H [s], and their gaps [m]."""
+        near = {}
         for a, b in candidates:
             room = (
                 REACH_MARGIN + self._room(self._bodies[a], shadows[a], H) + self._room(self._bodies[b], shadows[b], H)
             )
-            if self._bounds_apart(a, b, shadows) <= room and self._gap(a, b, shadows, room) < room:
-                near.append((a, b))
+            if self._bounds_apart(a, b, shadows) <= room and (gap := self._gap(a, b, shadows, room)) < room:
+                near[a, b] = gap
         return near
 
     def _room(self, body: Body, shadow: Shadow, H: float) -> float:
         """How far any point of the hull may get in H [s], and the fender before it [m]."""
-        fender = body.fender.thickness if body.fender else 0.0
         if shadow.fixed:
-            return fender
+            return body.around
         u, v, w, p, q, r = shadow.expected.tolist()
-        return fender + H * (hypot(u, v, w) + hypot(p, q, r) * body.reach)
+        return body.around + H * (hypot(u, v, w) + hypot(p, q, r) * body.reach)
 
     def _bounds_apart(self, a: int, b: int, shadows: Sequence[Shadow]) -> float:
         """Horizontal distance [m] of the bounds of two hulls, circles or an obstacle's rectangle; not more than the
@@ -304,22 +378,24 @@ class ShipCollision:
     def _publish(
         self, t: float, H: float, shadows: list[Shadow], slots: list[Slot], candidates: Sequence[Pair]
     ) -> None:
+        colliding = self._episodes.open_ships()
         for i, shadow in enumerate(shadows[: len(self.names)]):
             out, state = self.outputs.ships[i], self.inputs.ships[i]
             self._last[i] = shadow.issued
             self._nu_sent[i] = shadow.nu_received
-            if shadow.issued.any():
+            self._busy[i] = bool(shadow.issued.any())
+            if self._busy[i]:
                 self._issued[i] = self._issued[i] + shadow.issued
-                self._seen[i] = _seen(t - H, H, state)
                 out.force[:] = (shadow.issued / H).tolist()
             else:
-                self._seen[i] = None
-                out.force[:] = [0.0] * 6
+                out.force[:] = _NO_FORCE
+            self._seen[i] = _seen(t - H, H, state) if i in colliding else None
             nu = shadow.nu.tolist()
             out.position[:] = shadow.x.tolist()
             out.attitude[:] = attitude_unwrapped(attitude_from_rotation(shadow.R), state.attitude[2]).tolist()
             out.velocity[:], out.rate[:] = nu[:3], nu[3:]
             out.impulse[:] = self._issued[i].tolist()
+            self._echo[i] = list(out.impulse)
         self._publish_contacts(t, slots)
         self.outputs.energy[:] = self._energy.tolist()
         self.outputs.fender[:] = [sum(self._fenders.values()), self._fender_dissipated]
@@ -329,7 +405,10 @@ class ShipCollision:
         out, latest = self.outputs, self._episodes.latest
         slots = sorted(slots, key=lambda s: -float(np.linalg.norm(s.P)))[:SLOTS] if len(slots) > SLOTS else slots
         for k, place in enumerate(out.contacts):
-            (slots[k] if k < len(slots) else Slot.unused()).fill(place)
+            if k < len(slots):
+                slots[k].fill(place)
+            elif place.ship_a:
+                Slot.unused().fill(place)
         out.contact_active, out.contact_count = any(s.impact for s in slots), len(slots)
         out.scratch_id = max((s.scratch for s in slots), default=0)
         out.impact_count, out.impact_ship_a, out.impact_ship_b = self._episodes.impacts, latest.ship_a, latest.ship_b
@@ -365,7 +444,9 @@ class ShipCollision:
     def set_state(self, state: dict[str, Any]) -> None:
         """Back to a state of get_state, exact to the bit."""
         self._issued = [np.array(v) for v in state["issued"]]
+        self._echo = [list(v) for v in state["issued"]]
         self._last = [np.array(v) for v in state["last"]]
+        self._busy = [bool(last.any()) for last in self._last]
         self._nu_sent = [np.array(v) for v in state["nu_sent"]]
         self._energy = np.array(state["energy"])
         self._seen = [None if s is None else Seen(*s) for s in state["seen"]]

@@ -36,15 +36,15 @@ Rows = npt.NDArray[Any]
 
 
 def events(
-    record: Record, ships: Mapping[str, Ship], free: Mapping[str, int], step: float, damage: DamageTable | None = None
+    record: Record, ships: Mapping[str, Ship], free: Mapping[str, int], damage: DamageTable | None = None
 ) -> dict[str, Any]:
     """{"collisions": [...], "scratches": [...]} as JSON-able data; the schema is cosim/events.schema.json.
 
-    `free` are the ships' degrees of freedom, `step` is the communication step [s]; with `damage` every collision has an
+    `free` are the ships' degrees of freedom; with `damage` every collision has an
     object of that name.
     """
     contacts = record.contacts
-    gained = _velocity_gains(record, ships, free, step)
+    gained = _velocity_gains(record, ships, free)
     collisions = [
         _collision(int(number), contacts[contacts["impact"] == number], record, gained)
         for number in np.unique(contacts["impact"])
@@ -119,16 +119,14 @@ def _scratch(number: int, rows: Rows) -> dict[str, Any]:
     }
 
 
-def _velocity_gains(
-    record: Record, ships: Mapping[str, Ship], free: Mapping[str, int], step: float
-) -> dict[tuple[int, str], Array]:
+def _velocity_gains(record: Record, ships: Mapping[str, Ship], free: Mapping[str, int]) -> dict[tuple[int, str], Array]:
     """Change of velocity of CO in n [m/s] by collision and ship; (3,) each."""
     names = list(ships)
     inverse = {name: free_inverse(ship.M, free[name]) for name, ship in ships.items()}
     gains: dict[tuple[int, str], Array] = {}
     issued_before = np.zeros((len(names), 6))
     for k, issued in record.issued.items():
-        rows = record.contacts[record.contacts["time"] == k * step]
+        rows = record.contacts[record.contacts["time"] == record.states["time"][k]]
         at = record.states[k - 1]
         for i, name in enumerate(names):
             R_nb = rotation([float(at[f"{name}.attitude.{angle}"]) for angle in ("roll", "pitch", "yaw")])

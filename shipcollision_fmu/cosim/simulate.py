@@ -100,7 +100,7 @@ def simulate(
             factories = through_fmus(ready_fmus(tuple(scenario.ships)), stack)
         record, wall_time = stepped(scenario, factories, progress)
     free = {name: start.free for name, start in scenario.ships.items()}
-    found = events(record, ships, free, scenario.step, scenario.collision.damage)
+    found = events(record, ships, free, scenario.collision.damage)
     duration = scenario.step * scenario.steps
     run = Run(
         states=record.states,

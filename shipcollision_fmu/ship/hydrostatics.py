@@ -9,9 +9,9 @@
 C_w waterplane coefficient, A_wp waterplane area [m2], V displaced volume [m3], KB and KG centres of buoyancy and
 gravity above the keel [m], I second moments of the waterplane area [m4], GM metacentric heights [m].
 
-The formulas are those of the vessel osv in Fossen's Marine Systems Simulator; I_L has C_w^2 in the place of its constant
-0.7, which is the same for C_w = 0.84. A GM that is known replaces the estimate: KG is rarely known, and GM_T is the
-small difference of two large numbers.
+The formulas are those of the vessel osv in Fossen's Marine Systems Simulator; I_L has C_w^2 in the place of its
+constant 0.7, which is the same for C_w = 0.84. A GM that is known replaces the estimate: KG is rarely known, and GM_T
+is the small difference of two large numbers.
 """
 
 from __future__ import annotations

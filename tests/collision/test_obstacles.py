@@ -12,7 +12,13 @@ import numpy as np
 import pytest
 
 from shipcollision_fmu.collision.model import ShipCollision
-from shipcollision_fmu.collision.obstacles import CYLINDER_SIDES, ObstacleTable, obstacle, obstacles_from, obstacles_toml
+from shipcollision_fmu.collision.obstacles import (
+    CYLINDER_SIDES,
+    ObstacleTable,
+    obstacle,
+    obstacles_from,
+    obstacles_toml,
+)
 from shipcollision_fmu.errors import InputError, StepError
 from shipcollision_fmu.ship.hull import HullMesh
 from tests.collision.conftest import BOX, NO_ADDED_MASS, World

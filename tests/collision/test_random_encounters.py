@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable
-from math import cos, isfinite, pi, sin
+from math import atan2, cos, degrees, isfinite, pi, sin
 
 import numpy as np
 import pytest
@@ -17,12 +17,21 @@ MakeWorld = Callable[..., World]
 SHIPS = ("kvlcc2", "guan2014_own_added_mass", "guan2014_target_added_mass", "buoy", "floating_log")
 REACH = {"kvlcc2": 160.0, "guan2014_own_added_mass": 147.0, "guan2014_target_added_mass": 135.0, "buoy": 1.5,
          "floating_log": 5.0}  # fmt: skip
-OBSTACLES = (
-    "",
-    '[pier]\nkind = "pier"\nshape = "cylinder"\ndiameter = 15.0\nposition = [0.0, 60.0]\n',
-    '[quay]\nkind = "quay"\nshape = "box"\nlength = 900.0\nbreadth = 30.0\nposition = [0.0, 90.0]\nheading_deg = 10.0\n'
-    "fender = {stiffness = 2e7, damping = 2e6, thickness = 1.5}\n",
-)
+
+
+def obstacle(rng: random.Random, distance: float, towards: np.ndarray) -> str:
+    """Nothing, a pier, or a quay with a fender across the way, so far from the origin in that direction [m]."""
+    kind = rng.choice(("none", "pier", "quay"))
+    north, east = (float(x) for x in distance * towards)
+    if kind == "none":
+        return ""
+    if kind == "pier":
+        return f'[pier]\nkind = "pier"\nshape = "cylinder"\ndiameter = 15.0\nposition = [{north}, {east}]\n'
+    across = degrees(atan2(towards[1], towards[0])) + 90.0
+    return (
+        f'[quay]\nkind = "quay"\nshape = "box"\nlength = 900.0\nbreadth = 10.0\nposition = [{north}, {east}]\n'
+        f"heading_deg = {across}\nfender = {{stiffness = 2e7, damping = 2e6, thickness = 1.5}}\n"
+    )
 
 
 def encounter(rng: random.Random) -> tuple[list[str], list[dict], dict]:
@@ -48,26 +57,31 @@ def encounter(rng: random.Random) -> tuple[list[str], list[dict], dict]:
         })  # fmt: skip
     parameters = {
         "degrees_of_freedom": 3 if flat else 6, "friction": rng.choice([0.0, 0.3, 1.0]),
-        "algorithm": rng.choice(["gauss-seidel", "jacobi"]), "obstacles": rng.choice(OBSTACLES), "substep": 0.05,
+        "algorithm": rng.choice(["gauss-seidel", "jacobi"]), "obstacles": obstacle(rng, REACH[names[1]] + rng.uniform(10.0, 40.0), towards), "substep": 0.05,
         "response": rng.choice(["pgs", "pgs", "closed_form"]),
     }  # fmt: skip
-    return names, starts, {**parameters, "time": min(60.0, 1.3 * (gap + abs(aim)) / closing)}
+    return names, starts, {**parameters, "time": min(40.0, 1.3 * (gap + abs(aim)) / closing)}
 
 
 def check(world: MakeWorld, seed: int) -> bool:
-    """Run one encounter; whether the hulls touched. Nothing may be gained at any step, and nothing may be NaN."""
+    """Run one encounter; whether the hulls touched. Nothing is NaN, and no energy is gained.
+
+    With a sequential master in no step, but what a fender held before. A parallel one applies an impulse to a ship that
+    has turned since it was computed: there the sum counts.
+    """
     names, starts, parameters = encounter(random.Random(seed))
     duration = parameters.pop("time")
     w = world(names, starts, **parameters)
     kinetic = sum(0.5 * nu @ M @ nu for nu, M in zip(w.nu, w.M, strict=True))
     H, spent, touched = 0.2, 0.0, False
     for _ in range(round(duration / H)):
+        held = w.model.outputs.fender[0]
         w.step(H)
         out = w.model.outputs
         spent += w.work[-1]
-        held = out.fender[0]
-        assert w.work[-1] <= held + 1e-9 * kinetic + 1e-3, (seed, w.t, w.work[-1])
-        assert spent <= 1e-9 * kinetic + 1e-3, (seed, w.t, spent)
+        if parameters["algorithm"] == "gauss-seidel":
+            assert w.work[-1] <= held * (1 + 1e-9) + 1e-9 * kinetic, (seed, w.t, w.work[-1])
+        assert spent <= (1e-9 if parameters["algorithm"] == "gauss-seidel" else 1e-5) * kinetic, (seed, w.t, spent)
         values = [*out.energy, *out.fender, *out.clearance, *(x for s in out.ships for x in (
             *s.position, *s.attitude, *s.velocity, *s.rate, *s.impulse, *s.force))]  # fmt: skip
         assert all(map(isfinite, values)), (seed, w.t)

@@ -41,7 +41,7 @@ def record(rows: list[tuple[Any, ...]], issued: dict[int, list[list[float]]], im
 
 
 def found(made: Record) -> dict[str, Any]:
-    return events(made, dict.fromkeys(NAMES, SHIP), dict.fromkeys(NAMES, 3), STEP)
+    return events(made, dict.fromkeys(NAMES, SHIP), dict.fromkeys(NAMES, 3))
 
 
 def sway(impulse: float) -> list[float]:

@@ -253,7 +253,7 @@ def test_free_drift_settles_and_stays_bounded_for_an_hour(start: Start) -> None:
 
 
 def test_a_beam_impact_rolls_but_hardly_heaves_or_pitches(start: Start) -> None:
-    """95 MN s on KVLCC2's side, 120 m forward, 5 m above the water: 1 deg of roll, 3 mm of heave, 0.004 deg of pitch."""
+    """95 MN s on KVLCC2's side, 120 m forward, 5 m above the water: 1 deg of roll, 3 mm of heave, next to no pitch."""
     F = 95e6
     ship = start(**SIX, impulse=[0.0, F, 0.0, F * 5.0, 0.0, F * 120.0])
     most = np.zeros(12)

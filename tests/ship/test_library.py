@@ -10,6 +10,7 @@ import pytest
 
 from shipcollision_fmu.errors import ShipError
 from shipcollision_fmu.ship.frames import Array
+from shipcollision_fmu.ship.hull import build_hull
 from shipcollision_fmu.ship.library import load_ship, models_directory, ship_names
 
 BARGE = """
@@ -121,6 +122,8 @@ def test_shipped_ship_loads(name: str) -> None:
     assert ship.name
     assert ship.source
     assert np.linalg.eigvalsh(ship.M)[0] > 0.0
+    if ship.hull.shape != "mesh":
+        assert build_hull(ship.L_oa, ship.B, ship.T, ship.hull).volume > ship.mass / ship.rho  # it can float
 
 
 def test_unknown_ship_names_the_known_ones() -> None:
