@@ -3,8 +3,8 @@
     python benchmarks/harbour.py [MOST]          default: 500 ships
 
 Ships lie 600 m apart on a grid, on headings of their own, under way at 3 m/s; one in ten has a neighbour 40 m off,
-close enough for the narrow phase; a quay of 2 km runs along one side. All numbers are timed in turns in one process; each
-figure is the least of ROUNDS. The exponent is the slope of log(cost) over log(number); 1 is the best there can be.
+close enough for the narrow phase; a quay of 2 km runs along one side. All numbers are timed in turns in one process;
+each figure is the least of ROUNDS. The exponent is the slope of log(cost) over log(number); 1 is the best there can be.
 """
 
 from __future__ import annotations

@@ -169,7 +169,9 @@ _M: dict[str, np.ndarray] = {}
 
 
 def load_ship_M(name: str) -> np.ndarray:
-    return _M.setdefault(name, load_ship(name).M)
+    if name not in _M:
+        _M[name] = load_ship(name).M
+    return _M[name]
 
 
 @pytest.mark.parametrize("name", scenario_names())

@@ -9,10 +9,11 @@ ship that is merely stopped at every start creeps through it, by 1/2 a H in ever
     gain     = velocity at its end - nu_start                              all in b at the step's start
 
 and contact is looked for, and solved, with nu + drift. Under a parallel master an impulse is applied one step after it
-was issued, to a ship that has gained speed by then: nu + gain is the velocity that it will meet. The drift is measured where it acts, from poses, so it does not
-matter how the ship's model integrates. It is looked at only for ships that are in a collision: a first impact is
-solved with the velocities as they are. An answer with drift may turn an approach round (from -a H/2 to
-+a H/2, which the other forces turn back); that it never adds energy is seen to where it is booked (passive.py).
+was issued, to a ship that has gained speed by then: nu + gain is the velocity that it will meet. The drift is measured
+where it acts, from poses, so it does not matter how the ship's model integrates. It is looked at only for ships that
+are in a collision: a first impact is solved with the velocities as they are. An answer with drift may turn an approach
+round (from -a H/2 to +a H/2, which the other forces turn back); that it never adds energy is seen to where it is booked
+(passive.py).
 
 What it costs: two poses per ship in contact, and one step of lag. A force that grows in a step lets the ship in by
 1/2 H^2 of its growth; when it falls the ship comes out by as much.

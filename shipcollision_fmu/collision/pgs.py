@@ -56,7 +56,8 @@ class Solution:
 
 
 def solve_pgs(W: Array, v: Array, mu: float) -> Solution:
-    """Impulses of k contacts in a plastic impact. W (3k, 3k) [1/kg] and v (3k,) [m/s] in contact axes, per contact (normal, t1, t2).
+    """Impulses of k contacts in a plastic impact. W (3k, 3k) [1/kg] and v (3k,) [m/s] in contact axes, per contact
+    (normal, t1, t2).
 
     v is the relative velocity before; its normal part is negative on approach. Restitution is in restitution.py.
     """

@@ -41,7 +41,7 @@ def solve_impact(W: Array, v: Array, mu: float, e: float) -> Solution:
 
 
 def _sprung_back(W: Array, v: Array, mu: float, P: Array) -> Array:
-    """Impulses of restitution (3k,): P's normal parts are given; friction, in the cone, holds the slip as far as it can.
+    """Impulses of restitution (3k,): P's normal parts are given; friction, in the cone, holds the slip if it can.
 
     Projected Gauss-Seidel on the tangential pairs alone.
     """

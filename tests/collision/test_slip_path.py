@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from shipcollision_fmu.collision.closed_form import energy_of_stick, solve_closed_form
@@ -153,8 +153,11 @@ def test_turning_slip_equals_the_literal_integration(e: float) -> None:
 
 
 @given(impacts())
-@settings(max_examples=150)
 def test_energy_is_never_created_and_its_parts_add_up(impact: Impact) -> None:
+    # Where the ships are a million times heavier across the normal than along it, W is so ill-conditioned that the
+    # direct figure itself holds only some seven digits.
+    mobility = np.linalg.eigvalsh(impact.W[1:, 1:]) / impact.W[0, 0]
+    assume(np.all((mobility < 1e-14) | (mobility > 1e-6)))
     path = solved(impact)
     after = impact.after(path.P)
     lost = impact.scale - after.scale
