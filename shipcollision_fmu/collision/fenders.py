@@ -11,8 +11,8 @@ It is integrated within the substeps of the collision model and booked as impuls
 
 Kick at the old place and drift with the new speed, as the ships do, is the leapfrog scheme: it conserves
 1/2 v^2 + 1/2 W_nn k delta_j delta_{j+1} to rounding, so the half-sine of a mass on a spring comes back with its speed
-but for (omega h)^2. A communication step H longer than the substep h adds damping: the ship applies the impulse of a whole step at its start,
-and comes back with exp(-pi omega (H - h)/4) of its speed.
+but for (omega h)^2. A communication step H longer than the substep h adds damping: the ship applies the impulse of a
+whole step at its start, and comes back with exp(-pi omega (H - h)/4) of its speed.
 
 No energy is gained, whatever the step, the delay or the ships' other forces: what the ships have put into the spring
 is kept in a book per pair, and the fender never gives back more than stands there; never does more stand there than
