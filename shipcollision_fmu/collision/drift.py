@@ -5,8 +5,10 @@ ship that is merely stopped at every start creeps through it, by 1/2 a H in ever
 *mean* velocity over the step:
 
     nu_start = nu received + M^-1 (impulse applied in the step)            after the step has begun
-    drift    = mean velocity over the step - nu_start                      from the two poses received
-    gain     = velocity at its end - nu_start                              all in b at the step's start
+    drift    = mean velocity over the step - that of coasting on           from the two poses received
+    gain     = velocity at its end - that of coasting on                   all in b at the step's start
+
+Coasting on: CG straight ahead and CO round it. What is left is the work of forces.
 
 and contact is looked for, and solved, with nu + drift. Under a parallel master an impulse is applied one step after it
 was issued, to a ship that has gained speed by then: nu + gain is the velocity that it will meet. The drift is measured
@@ -26,7 +28,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..ship.frames import Array, rotation
+from ..ship.frames import Array, rotation, rotation_vector
 
 __all__ = ["Drift", "Seen", "drift"]
 
@@ -55,7 +57,7 @@ class Drift(NamedTuple):
     gain: Array
 
 
-def drift(before: Seen, now: Seen, M_inverse: Array, reach: float) -> Drift | None:
+def drift(before: Seen, now: Seen, M_inverse: Array, r_bg: Array, reach: float) -> Drift | None:
     """Of the step that `before` began and `now` ended; None where there is nothing to be seen."""
     H = before.H
     if not isclose(before.t + H, now.t, rel_tol=1e-9, abs_tol=1e-6 * H):
@@ -63,13 +65,16 @@ def drift(before: Seen, now: Seen, M_inverse: Array, reach: float) -> Drift | No
     start = np.array(before.nu) + M_inverse @ (np.array(now.applied) - np.array(before.applied))
     R = rotation(before.attitude)
     turn = R.T @ rotation(now.attitude)
-    mean_v = R.T @ (np.array(now.position) - np.array(before.position)) / H
-    mean = np.concatenate([mean_v, _turned(turn) / H]) - start
+    v, omega = start[:3], start[3:]
+    v_bg, coasted = np.cross(omega, r_bg), rotation_vector(omega * H)
+    mean_v = v + v_bg + (r_bg - coasted @ r_bg) / H  # of CO, coasting
+    moved = R.T @ (np.array(now.position) - np.array(before.position))
+    mean = np.concatenate([moved / H - mean_v, _turned(turn) / H - omega])
     speed = _speed(mean, reach)
     if not LEAST < speed <= 0.5 * MOST * H:
         return None
     nu = np.array(now.nu)
-    gain = np.concatenate([turn @ nu[:3], turn @ nu[3:]]) - start
+    gain = np.concatenate([turn @ nu[:3] - (v + v_bg - coasted @ v_bg), turn @ nu[3:] - omega])
     return Drift(mean, gain) if _speed(gain, reach) <= MOST * H else None
 
 

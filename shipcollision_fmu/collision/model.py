@@ -23,7 +23,7 @@ State before a step that fails stays as it was. The model knows nothing of FMI.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from math import ceil, hypot, isfinite
 from typing import Any
 
@@ -87,6 +87,7 @@ class ShipCollision:
         self._detector = Detector([body.hull for body in bodies])
         self._bodies = bodies
         self._bullets = [body.bullet for body in bodies]
+        self._absent = Shadow.wall(np.zeros(3), 0.0)  # stands for a ship that is far from all others
         self._walls = [body.wall for body in bodies if body.wall is not None]
         n = len(self.names)
         for i, wall in enumerate(self._walls, start=n):
@@ -102,7 +103,10 @@ class ShipCollision:
         self._fender_dissipated = 0.0
         self._kept: KeptNormals = {}
         self._episodes = Episodes(self.parameters.minimum_separation_time)
-        shadows = [self._received(i, np.zeros(6)) for i in range(n)] + self._walls
+        shadows = [
+            Shadow.at(np.array(s.position), np.array(s.attitude), np.array(s.velocity + s.rate), body.M_inverse)
+            for s, body in zip(self.inputs.ships, bodies, strict=False)
+        ] + self._walls
         self._publish(0.0, 0.0, shadows, [], self._candidates(shadows, 0.0))
 
     @property
@@ -122,15 +126,18 @@ class ShipCollision:
         """Advance from t by H [s]. Raises StepError on an input that is not finite or absurd; nothing changes then."""
         self._ready()
         self._check_inputs(t, H)
-        if self._is_alone(H):
-            self._publish_alone(t, H)
-            return
-        shadows = self._receive(t)
+        shadows = [
+            self._absent if self._is_quiet(i, state) else self._received(i, t)
+            for i, state in enumerate(self.inputs.ships)
+        ] + self._walls
         candidates = self._candidates(shadows, H)
+        for i in {i for pair in candidates for i in pair}:
+            if shadows[i] is self._absent:
+                shadows[i] = self._received(i, t)
         near = self._near(candidates, shadows, H)
         if not near:
             self._episodes.close_old(t)
-            _advance(shadows[: len(self.names)], H)
+            self._advance(shadows, H)
             self._publish(t + H, H, shadows, [], candidates)
             return
         before = self.get_state()
@@ -141,31 +148,16 @@ class ShipCollision:
             raise
         self._publish(t + H, H, shadows, slots, candidates)
 
-    def _is_alone(self, H: float) -> bool:
-        """Whether nobody is near anybody, and nothing of an earlier contact is left: the step is then soon done."""
-        if self._fenders or any(self._seen):
-            return False
-        half, rectangles = 0.5 * self.parameters.clearance_range, list[Rectangle]()
-        echoed = self.parameters.feedback == "ledger"
-        for i, state in enumerate(self.inputs.ships):
-            if self._busy[i] or (echoed and state.impulse_applied != self._echo[i]):
-                return False
-            body, (n, e, _) = self._bodies[i], state.position
-            d = half + body.around + body.reach + H * (hypot(*state.velocity) + hypot(*state.rate) * body.reach)
-            rectangles.append((n - d, n + d, e - d, e + d))
-        for body in self._bodies[len(rectangles) :]:
-            rectangles.append(self._widened(body))
-        return not near_pairs(rectangles, len(self.names))
+    def _is_quiet(self, i: int, state: ShipState) -> bool:
+        """Whether nothing of an earlier contact is left for a ship: it needs no shadow until another comes near."""
+        applied = self.parameters.feedback != "ledger" or state.impulse_applied == self._echo[i]
+        return applied and not self._busy[i] and self._seen[i] is None
 
-    def _publish_alone(self, t: float, H: float) -> None:
-        self._episodes.close_old(t)
-        for state, out in zip(self.inputs.ships, self.outputs.ships, strict=True):
-            place, attitude = pose_ahead(state.position, state.attitude, state.velocity, state.rate, H)
-            out.position[:], out.attitude[:] = place, attitude
-            out.velocity[:], out.rate[:] = state.velocity, state.rate
-            out.force[:] = _NO_FORCE
-        self._publish_contacts(t, [])
-        self.outputs.clearance[0] = self.parameters.clearance_range
+    def _advance(self, shadows: Sequence[Shadow], H: float, but: Container[int] = ()) -> None:
+        """Move on by H [s] the shadows that there are, but for some."""
+        for i, shadow in enumerate(shadows):
+            if not shadow.fixed and i not in but:
+                shadow.advance(H)
 
     def _widened(self, body: Body) -> Rectangle:
         """Where an obstacle stands, and half the range of the clearance around it."""
@@ -181,7 +173,7 @@ class ShipCollision:
         """
         self._episodes.close_old(t)
         moving = {i for pair in near for i in pair if not shadows[i].fixed}
-        _advance([s for i, s in enumerate(shadows[: len(self.names)]) if i not in moving], H)
+        self._advance(shadows, H, moving)
         fenders = {pair: fender for pair in near if (fender := self._fender(pair)) is not None}
         slots = list[Slot]()
         n, h = _substeps(H, self.parameters.substep)
@@ -228,31 +220,23 @@ class ShipCollision:
         """How much nearer two hulls may come in h [s], at most [m]."""
         return sum(self._room(self._bodies[i], shadows[i], h) - self._bodies[i].around for i in pair)
 
-    def _receive(self, t: float) -> list[Shadow]:
-        """Shadows at the received poses, with what is pending in their twists; then those of the obstacles."""
-        feedback, shadows = self.parameters.feedback, []
-        for i, state in enumerate(self.inputs.ships):
-            nu, body = np.array(state.velocity + state.rate), self._bodies[i]
-            account = Account(
-                self._issued[i], self._last[i], np.array(state.impulse_applied), self._nu_sent[i], nu, body.M
-            )
-            pending, before = pending_impulse(feedback, account), self._seen[i]
-            shadow = self._received(i, pending)
-            if before is not None and feedback == "ledger":
-                found = drift(before, _seen(t, 0.0, state), body.M_inverse, body.reach)
-                if found is not None:
-                    shadow.drift = found.mean
-                    if pending.any():  # a parallel master: what is issued now is applied to a ship that has gone on
-                        shadow.nu = shadow.nu + found.gain
-            shadows.append(shadow)
-        return shadows + self._walls
-
-    def _received(self, i: int, pending: Array) -> Shadow:
-        state, M_inverse = self.inputs.ships[i], self._bodies[i].M_inverse
+    def _received(self, i: int, t: float) -> Shadow:
+        """Shadow of a ship at the received pose, with what is pending, and expected of other forces, in its twist."""
+        state, body, feedback = self.inputs.ships[i], self._bodies[i], self.parameters.feedback
         nu = np.array(state.velocity + state.rate)
+        applied = np.array(state.impulse_applied)
+        account = Account(self._issued[i], self._last[i], applied, self._nu_sent[i], nu, body.M)
+        pending, before = pending_impulse(feedback, account), self._seen[i]
         if pending.any():
-            nu = nu + M_inverse @ pending
-        return Shadow.at(np.array(state.position), np.array(state.attitude), nu, M_inverse)
+            nu = nu + body.M_inverse @ pending
+        shadow = Shadow.at(np.array(state.position), np.array(state.attitude), nu, body.M_inverse)
+        if before is not None and feedback == "ledger":
+            found = drift(before, _seen(t, 0.0, state), body.M_inverse, body.bullet.r_bg, body.reach)
+            if found is not None:
+                shadow.drift = found.mean
+                if pending.any():  # a parallel master: what is issued now is applied to a ship that has gone on
+                    shadow.nu = shadow.nu + found.gain
+        return shadow
 
     # -- who is near whom -----------------------------------------------------------------------------
 
@@ -260,12 +244,18 @@ class ShipCollision:
         """Pairs that could come within clearance_range, or touch, in H [s]; all others are out of this step."""
         half = 0.5 * self.parameters.clearance_range
         rectangles: list[Rectangle] = []
-        for body, shadow in zip(self._bodies, shadows, strict=True):
-            if shadow.fixed:
+        for i, (body, shadow) in enumerate(zip(self._bodies, shadows, strict=True)):
+            if body.wall is not None:
                 rectangles.append(self._widened(body))
                 continue
-            n, e, _ = shadow.x.tolist()
-            d = half + self._room(body, shadow, H) + body.reach
+            if shadow is self._absent:
+                state = self.inputs.ships[i]
+                n, e, _ = state.position
+                room = body.around + H * (hypot(*state.velocity) + hypot(*state.rate) * body.reach)
+            else:
+                n, e, _ = shadow.x.tolist()
+                room = self._room(body, shadow, H)
+            d = half + room + body.reach
             rectangles.append((n - d, n + d, e - d, e + d))
         return near_pairs(rectangles, len(self.names))
 
@@ -381,6 +371,12 @@ class ShipCollision:
         colliding = self._episodes.open_ships()
         for i, shadow in enumerate(shadows[: len(self.names)]):
             out, state = self.outputs.ships[i], self.inputs.ships[i]
+            if shadow is self._absent:
+                place, attitude = pose_ahead(state.position, state.attitude, state.velocity, state.rate, H)
+                out.position[:], out.attitude[:] = place, attitude
+                out.velocity[:], out.rate[:] = state.velocity, state.rate
+                out.force[:] = _NO_FORCE
+                continue
             self._last[i] = shadow.issued
             self._nu_sent[i] = shadow.nu_received
             self._busy[i] = bool(shadow.issued.any())
@@ -477,11 +473,6 @@ class ShipCollision:
                     f"{body.name}.{quantity} is {value:g} {unit} at t = {t} s, above {limit:g} {unit}: check the "
                     "signal and its unit"
                 )
-
-
-def _advance(shadows: Sequence[Shadow], h: float) -> None:
-    for shadow in shadows:
-        shadow.advance(h)
 
 
 def _substeps(H: float, substep: float) -> tuple[int, float]:

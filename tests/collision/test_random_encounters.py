@@ -68,7 +68,7 @@ def check(world: MakeWorld, seed: int) -> bool:
     """Run one encounter; whether the hulls touched. Nothing is NaN, and no energy is gained.
 
     With a sequential master in no step, but what a fender held before. A parallel one applies an impulse to a ship that
-    has turned since it was computed: there the sum counts.
+    has turned since it was computed, a buoy by some degrees: there the sum counts, to one per cent.
     """
     names, starts, parameters = encounter(random.Random(seed))
     duration = parameters.pop("time")
@@ -82,7 +82,7 @@ def check(world: MakeWorld, seed: int) -> bool:
         spent += w.work[-1]
         if parameters["algorithm"] == "gauss-seidel":
             assert w.work[-1] <= held * (1 + 1e-9) + 1e-9 * kinetic, (seed, w.t, w.work[-1])
-        assert spent <= (1e-9 if parameters["algorithm"] == "gauss-seidel" else 1e-5) * kinetic, (seed, w.t, spent)
+        assert spent <= (1e-9 if parameters["algorithm"] == "gauss-seidel" else 1e-2) * kinetic, (seed, w.t, spent)
         values = [*out.energy, *out.fender, *out.clearance, *(x for s in out.ships for x in (
             *s.position, *s.attitude, *s.velocity, *s.rate, *s.impulse, *s.force))]  # fmt: skip
         assert all(map(isfinite, values)), (seed, w.t)
