@@ -113,7 +113,7 @@ def test_a_minute_at_the_quay(berthed: MakeBerthed, algorithm: str, response: st
     is_held(b, b.run(60.0, 0.1), 0.1)
 
 
-@pytest.mark.slow
+@pytest.mark.soak
 @pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
 @pytest.mark.parametrize("H", [0.05, 0.5])
 def test_ten_minutes_at_the_quay(berthed: MakeBerthed, algorithm: str, H: float) -> None:

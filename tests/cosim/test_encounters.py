@@ -96,7 +96,7 @@ def test_a_coarse_grid_collides_as_wanted() -> None:
     assert along == 0
 
 
-@pytest.mark.slow
+@pytest.mark.soak
 @pytest.mark.parametrize(
     ("own", "target", "most_along_a_line"),
     [("kvlcc2", "kvlcc2", 0), ("guan2014_target", "kvlcc2", 40), ("kvlcc2", "guan2014_target", 20)],
@@ -109,7 +109,7 @@ def test_the_whole_grid_collides_as_wanted(own: str, target: str, most_along_a_l
     assert along <= most_along_a_line
 
 
-@pytest.mark.slow
+@pytest.mark.soak
 def test_the_grid_under_way_collides_as_wanted() -> None:
     """With the manoeuvring model: rudder over before the impact, either way, and a drifting target."""
     for angle, s, rudder, before in product((45.0, 75.0, 100.0), (-0.2, 0.3), (-35.0, 20.0), (20.0, 60.0)):

@@ -55,7 +55,7 @@ def test_a_case_ends_in_a_collision(case: int) -> None:
     assert run.summary["collisions"] >= 1
 
 
-@pytest.mark.slow
+@pytest.mark.soak
 @pytest.mark.parametrize("case", list(COURSES))
 def test_every_case_ends_in_a_collision_under_way(case: int) -> None:
     run = simulate(imazu(case, time=180.0, after=1.0, step=0.1, hydrodynamics=True).scenario, in_process=True)
