@@ -21,6 +21,7 @@ import numpy as np
 
 from ..ship.frames import Array
 from .pgs import MAX_SWEEPS, RESIDUAL, Solution, solve_pgs
+from .slip_path import solve_slip_path
 
 __all__ = ["solve_impact"]
 
@@ -28,6 +29,9 @@ __all__ = ["solve_impact"]
 def solve_impact(W: Array, v: Array, mu: float, e: float) -> Solution:
     """Impulses of k contacts with restitution e. W (3k, 3k) [1/kg], v (3k,) [m/s] before, in contact axes."""
     plastic = solve_pgs(W, v, mu)
+    if len(v) == 3 and not _sound(W, v, mu, plastic.P[0]):
+        # Ships that cannot move in some direction make W singular, and the search for the slip's angle may miss.
+        return Solution(solve_slip_path(W, v, mu, e).P[None, :], 0.0, plastic.sweeps)
     if e == 0.0 or not plastic.P.any():
         return plastic
     P = plastic.P.ravel()
@@ -38,6 +42,18 @@ def solve_impact(W: Array, v: Array, mu: float, e: float) -> Solution:
     last = solve_pgs(W, v + W @ whole, mu)  # contacts that the others' rebound has closed
     residual = max(plastic.residual, last.residual)
     return Solution(whole.reshape(-1, 3) + last.P, residual, plastic.sweeps + last.sweeps)
+
+
+def _sound(W: Array, v: Array, mu: float, P: Array) -> bool:
+    """Whether a single contact's plastic impulse obeys its law: friction against the slip, full while it slides."""
+    if not np.isfinite(P).all():
+        return False
+    after = v + W @ P
+    slip, friction = float(np.hypot(*after[1:])), float(np.hypot(*P[1:]))
+    if slip <= 1e-9 * float(np.abs(v).max()) or P[0] <= 0.0 or mu == 0.0:
+        return True
+    against = float(P[1:] @ after[1:]) <= -(1.0 - 1e-6) * friction * slip
+    return against and friction >= (1.0 - 1e-6) * mu * P[0]
 
 
 def _sprung_back(W: Array, v: Array, mu: float, P: Array) -> Array:

@@ -5,8 +5,9 @@
     jacobi          everything is exchanged first, then all step: impulses reach the ships one step late, and hulls
                     overlap by about closing speed x h
 
-Both keep momentum, because the collision FMU keeps books of what it issued and what was applied. Connections are data:
-a Wire is a group of outputs and a group of inputs on one buffer.
+Neither loses or repeats an impulse, because the collision FMU keeps books of what it issued and what was applied. The
+sequential master keeps momentum to rounding; under the parallel one a ship has turned, by her rate times h, when the
+impulse reaches her. Connections are data: a Wire is a group of outputs and a group of inputs on one buffer.
 
 After `start` and after every step all wires hold the outputs of that communication point: a recorder reads them there.
 """

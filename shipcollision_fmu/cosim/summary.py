@@ -8,8 +8,8 @@
     obstacles  by name: impulse that it took, in n [N s]. It has no momentum of its own, so the ships' is not kept
                where one takes part: `closed` says whether momentum holds among the ships alone
 
-M = M_RB + M_A is that of the ship file. Momentum and kinetic energy are kept outside contact by ships that coast
-without added mass; water, rudder and propeller change them otherwise.
+M = M_RB + M_A is that of the ship file. Outside contact, ships that coast without added mass keep linear momentum and,
+where the inertia about their axis of turning is one, energy; added mass, water, rudder and propeller change them.
 
 Nothing here depends on the machine's speed, nor on whether FMUs or models in process ran: see timing.json for those.
 """

@@ -84,3 +84,14 @@ def test_plastic_impact_is_the_plain_solution() -> None:
     W, v = encounter(5, 3)
     v[0::3] = -np.abs(v[0::3])
     np.testing.assert_array_equal(solve_impact(W, v, 0.3, 0.0).P, solve_pgs(W, v, 0.3).P)
+
+
+@given(SEEDS, st.floats(0.1, 1.0), st.sampled_from([3, 6]))
+def test_friction_of_one_contact_is_against_the_slip_or_sticks(seed: int, mu: float, dof: int) -> None:
+    """Also for ships held in some direction, whose W is singular."""
+    W, v = encounter(seed, 1, dof)
+    assume(v[0] < -1e-3)
+    P = solve_impact(W, v, mu, 0.0).P[0]
+    after = v + W @ P
+    assert float(P[1:] @ after[1:]) <= 1e-9 * float(np.abs(P).max() * np.abs(v).max())
+    assert float(P @ (v + 0.5 * W @ P)) <= 0.0
