@@ -10,7 +10,9 @@ fixed count. Here a contact is one 3 x 3 block, the cone is a cone, and the swee
 of contact velocity that solving any block anew would make, in units of the largest approach speed. (Their figure 4
 clips the increment of the impulse; it is the accumulated impulse that must be projected, as is done here.)
 
-One contact alone is solved exactly. Plain floats: a block is nine numbers, and arrays would cost more than the sums.
+One contact alone takes one sweep and is not measured by the residual: where ships are held in some direction W is
+singular, and the search for the slip's angle can miss. restitution.py checks it and then follows the slip path instead;
+of several contacts nobody checks that yet. Plain floats: a block is nine numbers, arrays would cost more than the sums.
 
 References: Guan et al. (2014); Catto (2005), "Iterative dynamics with temporal coherence"; Jourdan, Alart and Jean
 (1998) for the block form with friction.

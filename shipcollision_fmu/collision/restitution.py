@@ -12,6 +12,8 @@ P_c is plastic, so P_c . (v + W P_c) <= 0, hence P_c . W P_c <= -P_c . v = a, an
 
     (1 + e) P_c . v + 1/2 (1 + e)^2 P_c . W P_c  <=  -1/2 (1 + e)(1 - e) a  <=  0
 
+A single contact whose plastic impulse breaks the law of friction is solved along its slip path (slip_path.py) instead.
+
 References: Poisson's hypothesis as in Glocker and Pfeiffer (1995); that it may gain energy: Stronge (2000), chapter 3.
 """
 
