@@ -1,18 +1,23 @@
 """Projected Gauss-Seidel: non-penetration and Coulomb friction at all contacts at once.
 
-For every contact, with v = v(0) + W P split along the normal (n) and across it (t), and friction mu:
+Guan et al. 2014, equations (5)-(13), state the law of contact (coulomb.py) with a pyramid for the cone, one scalar row
+at a time, and stop after a fixed count. Here a contact is one 3 x 3 block, the cone is a cone, and the sweeps end on a
+residual.
 
-    0 <= P_n   perpendicular to   v_n >= 0                         no approach left, no pull
-    |P_t| <= mu P_n,   and while sliding   P_t = -mu P_n v_t / |v_t|    friction inside the cone, against the slip
+    equations (5)-(10)    motion of the bodies under contact impulses: here v = v(0) + W P (delassus.py)
+    equation (11)         the Jacobian; in the second body's block r_j belongs where r_i is printed (delassus.py)
+    equation (13)         the law with bounds: w = 0 strictly between them, >= 0 at the lower, <= 0 at the upper one,
+                          printed with > and < there                                               (there is no (12))
+    figure 4              the sweep: each row with the others' latest impulses; it clips the increment of an impulse,
+                          but what must be projected is the accumulated impulse
 
-Guan et al. 2014, equations (5)-(13), state this with a pyramid for the cone, one scalar row at a time, and stop after a
-fixed count. Here a contact is one 3 x 3 block, the cone is a cone, and the sweep ends on a residual: the largest change
-of contact velocity that solving any block anew would make, in units of the largest approach speed. (Their figure 4
-clips the increment of the impulse; it is the accumulated impulse that must be projected, as is done here.)
+    turn every contact's tangents to the principal axes of its own W_tt
+    start from the impulses of the substep before, scaled to take most energy (warm start)
+    sweep over the contacts until none changes its velocity by more than RESIDUAL of the approach
+    sweeps that do not get there in PATIENCE are helped by Newton's method on all contacts at once (newton.py)
+    measure what is left by the law itself: Solution.residual
 
-One contact alone takes one sweep and is not measured by the residual: where ships are held in some direction W is
-singular, and the search for the slip's angle can miss. restitution.py checks it and then follows the slip path instead;
-of several contacts nobody checks that yet. Plain floats: a block is nine numbers, arrays would cost more than the sums.
+Plain floats in the sweeps: a block is nine numbers, arrays would cost more than the sums.
 
 References: Guan et al. (2014); Catto (2005), "Iterative dynamics with temporal coherence"; Jourdan, Alart and Jean
 (1998) for the block form with friction.
@@ -20,160 +25,132 @@ References: Guan et al. (2014); Catto (2005), "Iterative dynamics with temporal 
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from math import atan2, cos, hypot, pi, sin
-from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from ..ship.frames import Array
+from .coulomb import Block, law_residual, solve_contact
+from .newton import newton
 
-__all__ = ["MAX_SWEEPS", "RESIDUAL", "Solution", "solve_pgs"]
+__all__ = ["RESIDUAL", "Solution", "principal_axes", "solve_pgs"]
 
 RESIDUAL = 1e-11
-"""Relative velocity residual at which the sweeps end."""
+"""Change of a contact's velocity in a sweep, in units of the largest approach speed, at which the sweeps end."""
 
-MAX_SWEEPS = 10_000
-"""Bound on the sweeps: nearly dependent contacts need some thousands, and a sweep costs microseconds."""
+PATIENCE = 60
+"""Sweeps before Newton's method is tried, and between its trials."""
 
-ALIGNED = 1e-13
-"""Angle [rad] below which friction counts as exactly against the slip."""
+MAX_SWEEPS = 1200
+"""Bound on the sweeps."""
 
-RANK = 1e-9
-"""Singular values of a block below this share of the largest are directions in which neither ship can move."""
 
-Row = tuple[float, float, float]
-Block = tuple[Row, Row, Row]
+FLAT = 1e-9
+"""Share of the largest mobility below which neither ship can move along a tangent."""
 
 
 @dataclass(frozen=True)
 class Solution:
-    """P (k, 3) [N s] in the contacts' axes (normal, two tangents); residual (relative velocity); sweeps taken."""
+    """P (k, 3) [N s] in the contacts' axes (normal, two tangents); sweeps taken; residual: by how much the law of
+    contact is missed, in units of the largest approach speed."""
 
     P: Array
     residual: float
     sweeps: int
 
 
-def solve_pgs(W: Array, v: Array, mu: float) -> Solution:
+def solve_pgs(W: Array, v: Array, mu: float, start: Array | None = None) -> Solution:
     """Impulses of k contacts in a plastic impact. W (3k, 3k) [1/kg] and v (3k,) [m/s] in contact axes, per contact
     (normal, t1, t2).
 
-    v is the relative velocity before; its normal part is negative on approach. Restitution is in restitution.py.
+    v is the relative velocity before; its normal part is negative on approach. start (k, 3): impulses to start from,
+    of which the direction counts and not the size. Restitution is in restitution.py.
     """
     k = len(v) // 3
-    scale = max((-float(x) for x in v[0::3]), default=0.0)
+    scale = -min((float(x) for x in v[0::3]), default=0.0)
     if scale <= 0.0:
         return Solution(np.zeros((k, 3)), 0.0, 0)
-    blocks = [_block(W[3 * i : 3 * i + 3, 3 * i : 3 * i + 3]) for i in range(k)]
-    inverses = [_block(np.linalg.pinv(W[3 * i : 3 * i + 3, 3 * i : 3 * i + 3], RANK, hermitian=True)) for i in range(k)]
-    rows, start = W.tolist(), v.tolist()
-    P = [0.0] * (3 * k)
-    angles: list[float | None] = [None] * k
-    residual, sweeps = np.inf, 0
-    while residual > RESIDUAL and sweeps < (1 if k == 1 else MAX_SWEEPS):
-        residual, sweeps = 0.0, sweeps + 1
-        for i in range(k):
-            first = 3 * i
-            old = (P[first], P[first + 1], P[first + 2])
-            block = blocks[i]
+    T = principal_axes(W)
+    W_p, v_p = T @ W @ T.T, T @ v
+    _without_rounding(W_p, v_p)
+    blocks = [Block.of(W_p[i : i + 3, i : i + 3]) for i in range(0, 3 * k, 3)]
+    if k == 1:
+        P_p, sweeps = np.array([solve_contact(blocks[0], (v_p[0], v_p[1], v_p[2]), mu)[0]]), 1
+    else:
+        P_p, sweeps = _swept(W_p, v_p, mu, blocks, scale, _scaled(W, v, start, T))
+    return Solution((P_p.ravel() @ T).reshape(k, 3), law_residual(W_p, v_p, mu, P_p) / scale, sweeps)
+
+
+def principal_axes(W: Array) -> Array:
+    """(3k, 3k): turns the tangents of every contact to the principal axes of its own W_tt."""
+    T = np.eye(len(W))
+    for i in range(1, len(W), 3):
+        a, b, d = W[i, i], W[i, i + 1], W[i + 1, i + 1]
+        angle = 0.5 * np.arctan2(2.0 * b, a - d)
+        c, s = np.cos(angle), np.sin(angle)
+        T[i, i], T[i, i + 1], T[i + 1, i], T[i + 1, i + 1] = c, s, -s, c
+    return T
+
+
+def _without_rounding(W: Array, v: Array) -> None:
+    """Exact zeros, in place, for the tangents along which neither ship can move."""
+    largest = float(np.diag(W).max())
+    for n in range(len(v)):
+        if n % 3 and W[n, n] <= FLAT * largest:
+            W[n], W[:, n] = 0.0, 0.0
+            if abs(v[n]) <= FLAT * float(np.abs(v).max()):
+                v[n] = 0.0
+
+
+def _scaled(W: Array, v: Array, start: Array | None, T: Array) -> Array:
+    """The guess, as large as takes most energy: its share in the impulses persists, their size does not."""
+    if start is None or not start.any():
+        return np.zeros((len(v) // 3, 3))
+    P = start.ravel()
+    share = max(0.0, -float(P @ v)) / float(P @ W @ P)
+    return (T @ (share * P)).reshape(-1, 3) if np.isfinite(share) else np.zeros((len(v) // 3, 3))
+
+
+def _swept(W: Array, v: Array, mu: float, blocks: list[Block], scale: float, start: Array) -> tuple[Array, int]:
+    """Impulses (k, 3) and the sweeps taken."""
+    rows, before = W.tolist(), v.tolist()
+    contacts = range(len(blocks))
+    P: list[float] = start.ravel().tolist()
+    angles: list[float | None] = [None] * len(blocks)
+    sweeps, wanted = 0, RESIDUAL * scale
+    while True:
+        sweeps, change = sweeps + 1, 0.0
+        for i in contacts:
+            n = 3 * i
+            W_i = blocks[i]
+            p, p_1, p_2 = P[n : n + 3]
+            row, row_1, row_2 = rows[n], rows[n + 1], rows[n + 2]
             # Contact velocity if this contact had no impulse: all the others' effect.
-            free = tuple(
-                start[first + r] + sum(map(_times, rows[first + r], P)) - _dot(block[r], old) for r in range(3)
+            f, f_1, f_2 = before[n], before[n + 1], before[n + 2]
+            for x, w, w_1, w_2 in zip(P, row, row_1, row_2, strict=True):
+                f += w * x
+                f_1 += w_1 * x
+                f_2 += w_2 * x
+            f -= W_i.W_nn * p + W_i.w_1 * p_1 + W_i.w_2 * p_2
+            f_1 -= W_i.w_1 * p + W_i.a_1 * p_1
+            f_2 -= W_i.w_2 * p + W_i.a_2 * p_2
+            new, angles[i] = solve_contact(W_i, (f, f_1, f_2), mu, angles[i])
+            P[n : n + 3] = new
+            d, d_1, d_2 = new[0] - p, new[1] - p_1, new[2] - p_2
+            change = max(
+                change,
+                abs(W_i.W_nn * d + W_i.w_1 * d_1 + W_i.w_2 * d_2),
+                abs(W_i.w_1 * d + W_i.a_1 * d_1),
+                abs(W_i.w_2 * d + W_i.a_2 * d_2),
             )
-            new, angles[i] = _one_contact(block, inverses[i], free, mu, angles[i])
-            P[first : first + 3] = new
-            step = (new[0] - old[0], new[1] - old[1], new[2] - old[2])
-            residual = max(residual, *(abs(_dot(row, step)) for row in block))
-        residual /= scale
-    return Solution(np.array(P).reshape(k, 3), 0.0 if k == 1 else residual, sweeps)
+        if change <= wanted:
+            return np.array(P).reshape(-1, 3), sweeps
+        if sweeps % PATIENCE == 0:
+            tried = newton(W, v, mu, np.array(P).reshape(-1, 3), wanted)
+            if law_residual(W, v, mu, tried) <= wanted or sweeps >= MAX_SWEEPS:
+                return _better(W, v, mu, tried, np.array(P).reshape(-1, 3)), sweeps
 
 
-def _block(m: npt.NDArray[np.floating[Any]]) -> Block:
-    a, b, c = m.tolist()
-    return (tuple(a), tuple(b), tuple(c))
-
-
-def _times(a: float, b: float) -> float:
-    return a * b
-
-
-def _dot(a: Row, b: Row) -> float:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def _one_contact(W: Block, inverse: Block, v: Row, mu: float, near: float | None) -> tuple[Row, float | None]:
-    """Impulse of one contact alone: apart, else stick, else slide; and the angle of the friction if it slides."""
-    if v[0] >= 0.0:
-        return (0.0, 0.0, 0.0), None
-    stick = (-_dot(inverse[0], v), -_dot(inverse[1], v), -_dot(inverse[2], v))
-    if hypot(stick[1], stick[2]) <= mu * stick[0]:
-        return stick, None
-    return _slide(W, v, mu, near)
-
-
-def _slide(W: Block, v: Row, mu: float, near: float | None) -> tuple[Row, float]:
-    """Sliding impulse P_n (1, mu cos a, mu sin a): P_n makes the normal velocity vanish, and the slip that then remains
-    must point against the friction. `turn` is the angle by which it misses; its zero is sought next to the friction
-    against the slip before (or next to `near`, the angle of the last sweep)."""
-
-    def impulse(a: float) -> Row:
-        c, s = mu * cos(a), mu * sin(a)
-        felt = W[0][0] + W[0][1] * c + W[0][2] * s
-        if felt <= 0.0:  # friction so strong that it would pull the hulls together: the normal alone holds
-            return (-v[0] / W[0][0], 0.0, 0.0)
-        P_n = -v[0] / felt
-        return (P_n, P_n * c, P_n * s)
-
-    def turn(a: float) -> float:
-        P = impulse(a)
-        slip_1, slip_2 = v[1] + _dot(W[1], P), v[2] + _dot(W[2], P)
-        c, s = cos(a), sin(a)
-        return atan2(s * slip_1 - c * slip_2, -(c * slip_1 + s * slip_2))
-
-    start = atan2(-v[2], -v[1]) if near is None else near
-    angle = start if mu == 0.0 else _zero_near(turn, start)
-    return impulse(angle), angle
-
-
-def _zero_near(f: Callable[[float], float], start: float) -> float:
-    """The zero of f next to `start`, f being an angle in (-pi, pi] of period 2 pi: bracketed outwards, then closed
-    in."""
-    step = pi / 48
-    left = right = start
-    f_left = f_right = f(start)
-    for a, f_a in ((start, f_left), (start + pi, f(start + pi))):
-        if abs(f_a) < ALIGNED:  # ships that move in the plane slide this way or the other, nothing between
-            return a
-    for _ in range(48):
-        # Outwards first to the side to which f points: near a zero friction turns towards it.
-        for side in (1, -1) if f_left + f_right > 0.0 else (-1, 1):
-            old, f_old = (right, f_right) if side > 0 else (left, f_left)
-            new = old + side * step
-            f_new = f(new)
-            if f_old * f_new <= 0.0 and abs(f_new - f_old) < pi:  # a zero, not the jump from pi to -pi
-                return _closed_in(f, old, new, f_old, f_new)
-            if side > 0:
-                right, f_right = new, f_new
-            else:
-                left, f_left = new, f_new
-    return start
-
-
-def _closed_in(f: Callable[[float], float], a: float, b: float, f_a: float, f_b: float) -> float:
-    """Zero of f between a and b, to rounding: regula falsi with Illinois' weights."""
-    for _ in range(100):
-        if f_a == f_b:
-            return a
-        c = b - f_b * (b - a) / (f_b - f_a)
-        f_c = f(c)
-        if f_c == 0.0 or c in (a, b):
-            return c
-        if f_c * f_b < 0.0:
-            a, f_a = b, f_b
-        else:
-            f_a *= 0.5
-        b, f_b = c, f_c
-    return b
+def _better(W: Array, v: Array, mu: float, one: Array, other: Array) -> Array:
+    """Which of two answers breaks the law less."""
+    return one if law_residual(W, v, mu, one) <= law_residual(W, v, mu, other) else other

@@ -8,9 +8,10 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from shipcollision_fmu.collision.axes import contact_axes
+from shipcollision_fmu.collision.coulomb import law_residual
 from shipcollision_fmu.collision.pgs import solve_pgs
 from shipcollision_fmu.collision.shadow import point_jacobian
-from shipcollision_fmu.ship.inertia import added_mass_matrix, free_inverse, rigid_body_inertia
+from shipcollision_fmu.ship.inertia import FREE, added_mass_matrix, free_inverse, rigid_body_inertia
 
 SEEDS = st.integers(0, 2**32 - 1)
 
@@ -32,7 +33,7 @@ def encounter(seed: int, contacts: int, degrees_of_freedom: int = 6) -> tuple[np
         base = rng.normal(size=3) * [100.0, 15.0, 8.0]
         G = sign * np.vstack([axes @ point_jacobian(np.eye(3), base + o) for o in offsets])
         nu = rng.normal(size=6) * [4.0, 1.0, 0.1, 0.01, 0.003, 0.01]
-        nu *= np.isin(range(6), {3: (0, 1, 5), 6: range(6)}[degrees_of_freedom])
+        nu *= np.isin(range(6), FREE[degrees_of_freedom])
         W += G @ free_inverse(M, degrees_of_freedom) @ G.T
         v += G @ nu
         blocks.append(G)
@@ -55,27 +56,46 @@ def check_solution(W: np.ndarray, v: np.ndarray, mu: float, P: np.ndarray, accur
             assert np.hypot(*against) <= 1e3 * accuracy * impulse, "friction not against the slip"
 
 
-@given(SEEDS, st.floats(0.0, 1.0), st.sampled_from([3, 6]))
+@given(SEEDS, st.floats(0.0, 1.0), st.sampled_from([3, 4, 6]))
 def test_one_contact_is_solved_exactly(seed: int, mu: float, dof: int) -> None:
     W, v = encounter(seed, 1, dof)
     assume(v[0] < 0.0)
     solution = solve_pgs(W, v, mu)
-    assert (solution.sweeps, solution.residual) == (1, 0.0)
+    assert solution.sweeps == 1
+    assert solution.residual <= 1e-12
     check_solution(W, v, mu, solution.P, 1e-12)
 
 
-@given(SEEDS, st.integers(2, 4), st.floats(0.0, 0.6))
-def test_several_contacts_to_the_residual(seed: int, contacts: int, mu: float) -> None:
-    W, v = encounter(seed, contacts)
+@given(SEEDS, st.integers(2, 4), st.floats(0.0, 1.0), st.sampled_from([3, 4, 6]))
+def test_several_contacts_obey_the_law(seed: int, contacts: int, mu: float, dof: int) -> None:
+    W, v = encounter(seed, contacts, dof)
     assume(v[0::3].min() < 0.0)
     solution = solve_pgs(W, v, mu)
-    assume(solution.residual <= 1e-11)  # the rare case that does not get there says so, and is the solver's known limit
+    assert solution.residual == pytest.approx(law_residual(W, v, mu, solution.P) / -v[0::3].min(), abs=1e-12)
+    assume(solution.residual <= 1e-10)  # how rarely it is not: the next test
     check_solution(W, v, mu, solution.P, 1e-8)
 
 
-def test_nearly_all_random_patches_converge() -> None:
-    residuals = [solve_pgs(*encounter(seed, 3), 0.3).residual for seed in range(60)]
-    assert sum(r > 1e-11 for r in residuals) <= 1
+def test_a_patch_that_does_not_converge_is_rare_and_says_so() -> None:
+    """Contacts some metres apart on ships of hundreds: nearly dependent. In a thousand patches two may end short of
+    1e-10, and those by less than a thousandth of the approach."""
+    residuals = [
+        solve_pgs(*encounter(seed, k, dof), mu).residual
+        for dof in (3, 6) for k in (2, 4) for mu in (0.0, 0.3, 1.0) for seed in range(80)
+    ]  # fmt: skip
+    assert sum(r > 1e-10 for r in residuals) <= 2
+    assert max(residuals) <= 1e-3
+
+
+@given(SEEDS, st.integers(2, 4), st.floats(0.0, 1.0))
+def test_a_warm_start_changes_the_sweeps_and_not_the_motion(seed: int, contacts: int, mu: float) -> None:
+    W, v = encounter(seed, contacts)
+    assume(v[0::3].min() < -1e-3)
+    cold = solve_pgs(W, v, mu)
+    warm = solve_pgs(W, v, mu, 1e-3 * cold.P)
+    assume(max(cold.residual, warm.residual) <= 1e-10)
+    np.testing.assert_allclose(W @ warm.P.ravel(), W @ cold.P.ravel(), atol=1e-6 * np.abs(v).max())
+    assert warm.sweeps <= cold.sweeps
 
 
 @given(SEEDS, st.integers(1, 4), st.floats(0.0, 1.0))
