@@ -25,16 +25,11 @@ ALGORITHMS = ("gauss-seidel", "jacobi")
 class Watch:
     """What went through the models of a run, taken down beside them."""
 
-    issued: list[list[tuple[np.ndarray, np.ndarray, np.ndarray]]] = field(default_factory=list)  # per step: x, R, J
     dissipated: list[float] = field(default_factory=list)
     strikes: list[dict[str, Any]] = field(default_factory=list)
 
     def step(self, model: ShipCollision, original: Any, t: float, h: float) -> None:
-        before = [np.array(ship.impulse) for ship in model.outputs.ships]
-        poses = [(np.array(s.position), rotation(s.attitude)) for s in model.inputs.ships]
         original(model, t, h)
-        new = [np.array(ship.impulse) - old for ship, old in zip(model.outputs.ships, before, strict=True)]
-        self.issued.append([(x, R, J) for (x, R), J in zip(poses, new, strict=True)])
         self.dissipated.append(model.outputs.energy[0])
 
     def strike(self, model: ShipManoeuvring, original: Any, *arguments: Any) -> Any:
@@ -43,6 +38,7 @@ class Watch:
         self.strikes.append({
             "ship": model.parameters.ship, "free": list(FREE[model.parameters.degrees_of_freedom]), "before": nu,
             "after": np.array(struck[0]), "impulse": np.array(model.inputs.impulse) - applied,
+            "x": np.array(model.outputs.position), "R": rotation(model.outputs.attitude),
         })  # fmt: skip
         return struck
 
@@ -87,11 +83,16 @@ def test_ships_collide_once_and_come_clear(runs: Runs, name: str, algorithm: str
 
 @each()
 def test_impulses_and_moments_on_the_ships_are_equal_and_opposite(runs: Runs, name: str, algorithm: str) -> None:
-    """About n's origin, and so about any fixed point; to 1e-12 of the impulse and of its moment there."""
-    steps = [rows for rows in runs[name, algorithm].watch.issued if any(J.any() for _, _, J in rows)]
+    """As the ships take them, where they are by then, about n's origin, and so about any fixed point; to 1e-12 of the
+    impulse and of its moment there. In every step of a sequential master. A parallel one takes the first impulse at
+    poses for which it was not meant, and what that was short of in the next steps: there the whole run balances."""
+    watched = runs[name, algorithm]
+    n, strikes = len(watched.scenario.ships), watched.watch.strikes
+    taken = [[(s["x"], s["R"], s["impulse"]) for s in strikes[k : k + n]] for k in range(0, len(strikes), n)]
+    steps = [rows for rows in taken if any(J.any() for _, _, J in rows)]
     assert steps
     largest = max(np.linalg.norm(J[:3]) for rows in steps for _, _, J in rows)
-    for rows in steps:
+    for rows in steps if algorithm == "gauss-seidel" else [[row for step in steps for row in step]]:
         P = [R @ J[:3] for _, R, J in rows]
         L = [R @ J[3:] + np.cross(x, p) for (x, R, J), p in zip(rows, P, strict=True)]
         # A small impulse is a difference of two large cumulative numbers: their rounding is the floor.
@@ -122,7 +123,8 @@ def test_all_that_was_issued_has_been_applied(runs: Runs, name: str, algorithm: 
 
 @each()
 def test_contact_never_gives_kinetic_energy(runs: Runs, name: str, algorithm: str) -> None:
-    """Neither in the collision model's account nor in that of the ships, in any step."""
+    """Neither in the collision model's account nor in that of the ships, in any step; and not by any step of a parallel
+    master, in which a single one may give back what the one before took too much of, a thousandth of the whole."""
     watched = runs[name, algorithm]
     dissipated = np.array([0.0, *watched.watch.dissipated])
     assert np.diff(dissipated).min() >= -1e-9 * dissipated[-1]
@@ -135,7 +137,8 @@ def test_contact_never_gives_kinetic_energy(runs: Runs, name: str, algorithm: st
             change += 0.5 * (s["after"] @ M @ s["after"] - s["before"] @ M @ s["before"])
         work.append(change)
     assert len(work) == watched.scenario.changed(step=0.05).steps
-    assert max(work) <= 1e-9 * dissipated[-1]
+    assert max(work) <= (1e-9 if algorithm == "gauss-seidel" else 1e-3) * dissipated[-1]
+    assert max(np.cumsum(work)) <= 0.0
     assert -sum(work) == pytest.approx(dissipated[-1], rel=0.02)
 
 

@@ -18,7 +18,7 @@ from ..ship.frames import Array
 from .contact import Contact
 from .shadow import Shadow
 
-__all__ = ["contact_jacobian", "delassus"]
+__all__ = ["contact_jacobian", "delassus", "mobility"]
 
 
 def contact_jacobian(contacts: Sequence[Contact]) -> tuple[Array, list[int]]:
@@ -38,3 +38,9 @@ def delassus(G: Array, ships: Sequence[int], shadows: Sequence[Shadow]) -> Array
     W: Array = GM @ G.T
     symmetric: Array = 0.5 * (W + W.T)
     return symmetric
+
+
+def mobility(c: Contact, shadows: Sequence[Shadow]) -> Array:
+    """W of one contact alone, in n: what a unit impulse does to its relative velocity; (3, 3) [1/kg]."""
+    W: Array = c.G_a @ shadows[c.a].M_inverse @ c.G_a.T + c.G_b @ shadows[c.b].M_inverse @ c.G_b.T
+    return W

@@ -9,61 +9,154 @@ How a ship's answer is known depends on `feedback`:
     force    the ship takes the mean force: seen in the velocity it sends back
     state    the ship adopts the post-impact state: seen in the velocity it sends back
     none     the ship ignores contact: nothing is ever applied, nothing is pending
+
+A number in b means an impulse in n only together with a pose. A sequential master applies an impulse at the pose for
+which it was solved; a parallel one a step later, when the ship has turned and moved on. So the books are kept in n as
+well, as wrenches (linear, and angular about n's origin):
+
+    meant       what contact gave, at the poses for which it was solved
+    delivered   what the ship took, at the poses at which it applied it
+    owed        = meant - delivered - (pending, at the pose received now)
+
+What is owed goes out with the next impulse, and after a ship was seen to be late impulses are expressed for the pose
+that she will have by then. Linear and angular momentum are kept to rounding under either master, once all is applied.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..ship.frames import Array
+from ..ship.frames import Array, skew
 
-__all__ = ["FEEDBACKS", "Account", "pending_impulse"]
+__all__ = ["FEEDBACKS", "Books", "Reading"]
+
+ROUNDING = 1e-12
+"""What is owed, as a share of all that was ever given, that is rounding."""
 
 
-@dataclass(frozen=True)
-class Account:
-    """A ship's books at the start of a step. Vectors (6,) in b about CO.
+class Reading(NamedTuple):
+    """A ship's books at the start of a step. pending: impulse (6,) in b that the ship will still apply, or that its
+    velocity does not show; owed (6,) in b: what is missing of what was meant; late: whether the ship applies an impulse
+    after it has moved on."""
 
-    issued, last: all that was issued, and the part of the last step; echoed: the ship's impulse_applied; nu_sent: the
-    twist that the last step was computed from (pending included), nu: the twist received now; M (6, 6).
-    """
-
-    issued: Array
-    last: Array
-    echoed: Array
-    nu_sent: Array
+    x: Array
+    R: Array
     nu: Array
-    M: Array
+    applied: Array
+    delivered: Array
+    pending: Array
+    owed: Array
+    late: bool
 
 
-def _echoed(account: Account) -> Array:
-    return account.issued - account.echoed
+class Books:
+    """The books of one ship. Impulses (6,) in b about CO; wrenches (6,) in n, linear and about n's origin."""
+
+    def __init__(self) -> None:
+        self.issued = np.zeros(6)
+        self.last = np.zeros(6)  # the part of it that the last step issued
+        self.settled = True  # nothing pending, owed or just issued
+        self._echo = [0.0] * 6  # what a ship that has applied everything sends back
+        self._nu = np.zeros(6)  # the twist of which the last step knew, pending included
+        self._applied = np.zeros(6)
+        self._x, self._R = np.zeros(3), np.eye(3)
+        self._meant, self._delivered = np.zeros(6), np.zeros(6)
+        self._size = np.zeros(2)  # of all that was given: linear, angular
+        self._late = False
+
+    def is_quiet(self, feedback: str, applied: list[float]) -> bool:
+        """Whether there is nothing to be read; `applied` as received."""
+        return self.settled and (feedback != "ledger" or applied == self._echo)
+
+    def read(self, feedback: str, x: Array, R: Array, nu: Array, applied: Array, M: Array) -> Reading:
+        """What the state received says. Changes nothing."""
+        if feedback != "ledger":
+            pending = FEEDBACKS[feedback](self, nu, M)
+            return Reading(x, R, nu, applied, self._delivered, pending, np.zeros(6), False)
+        taken, pending = applied - self._applied, self.issued - applied
+        delivered, late = self._delivered, self._late
+        if taken.any():
+            delivered = delivered + _wrench(self._x, self._R, taken)
+        if self.last.any():
+            late = bool(pending.any())
+        owed = self._meant - delivered
+        if pending.any():
+            owed = owed - _wrench(x, R, pending)
+        small = ROUNDING * self._size
+        if np.abs(owed[:3]).max() <= small[0] and np.abs(owed[3:]).max() <= small[1]:
+            return Reading(x, R, nu, applied, delivered, pending, np.zeros(6), late)
+        return Reading(x, R, nu, applied, delivered, pending, _in_body(x, R, owed), late)
+
+    def close(self, reading: Reading, J: Array, nu: Array, ahead: tuple[Array, Array]) -> None:
+        """End a step in which contact gave J (6,), solved at the received pose. nu: twist with which the step began;
+        ahead: the pose (x, R) at which a late ship will apply what is issued now."""
+        x, R = reading.x, reading.R
+        given = J + reading.owed
+        out = given
+        if J.any():
+            w = _wrench(x, R, J)
+            self._meant = self._meant + w
+            linear = float(np.linalg.norm(w[:3]))
+            self._size = self._size + [linear, float(np.linalg.norm(J[3:])) + float(np.linalg.norm(x)) * linear]
+        if reading.late and given.any():
+            out = _in_body(*ahead, _wrench(x, R, given))
+        if out.any():
+            self.issued = self.issued + out
+            self._echo = self.issued.tolist()
+        self.last, self._nu = out, nu
+        self.settled = not (out.any() or reading.pending.any())
+        self._x, self._R, self._applied = x, R, reading.applied
+        self._delivered, self._late = reading.delivered, reading.late
+
+    # How a ship that does not echo shows what it has taken.
+
+    def inferred(self, nu: Array, M: Array) -> Array:
+        """The last step's impulse, unless the received velocity shows it: the nearer of "all" and "nothing" counts."""
+        if not self.last.any():
+            return self.last
+        change = float(self.last @ (nu - self._nu))  # twice the work of the impulse, if applied
+        whole = float(self.last @ np.linalg.solve(M, self.last))
+        return np.zeros(6) if change > 0.5 * whole else self.last
+
+    # -- state --------------------------------------------------------------------------------------
+
+    def get_state(self) -> dict[str, Any]:
+        """All of it as plain data."""
+        return {name: getattr(self, name).tolist() for name in _ARRAYS} | {"late": self._late, "settled": self.settled}
+
+    def set_state(self, state: dict[str, Any]) -> None:
+        """Back to a state of get_state, exact to the bit."""
+        for name in _ARRAYS:
+            setattr(self, name, np.array(state[name]))
+        self._late, self.settled, self._echo = state["late"], state["settled"], list(state["issued"])
 
 
-def _inferred(account: Account) -> Array:
-    """The last step's impulse, unless the received velocity shows it: the nearer of "all" and "nothing" counts."""
-    if not account.last.any():
-        return account.last
-    change = float(account.last @ (account.nu - account.nu_sent))  # twice the work of the impulse, if applied
-    whole = float(account.last @ np.linalg.solve(account.M, account.last))
-    return np.zeros(6) if change > 0.5 * whole else account.last
+_ARRAYS = ("issued", "last", "_nu", "_applied", "_x", "_R", "_meant", "_delivered", "_size")
 
 
-def _nothing(account: Account) -> Array:
-    return np.zeros_like(account.issued)
+def _nothing(books: Books, nu: Array, M: Array) -> Array:
+    return np.zeros(6)
 
 
-FEEDBACKS: dict[str, Callable[[Account], Array]] = {
-    "ledger": _echoed,
-    "force": _inferred,
-    "state": _inferred,
+FEEDBACKS: dict[str, Callable[[Books, Array, Array], Array]] = {
+    "ledger": _nothing,
+    "force": Books.inferred,
+    "state": Books.inferred,
     "none": _nothing,
 }
+"""By name, how the pending impulse (6,) of a ship is inferred that does not echo; "ledger" reads it."""
 
 
-def pending_impulse(feedback: str, account: Account) -> Array:
-    """Impulse (6,) issued and not yet in the received velocity."""
-    return FEEDBACKS[feedback](account)
+def _wrench(x: Array, R: Array, J: Array) -> Array:
+    """J (6,), in b about CO at a pose, as a wrench in n about its origin."""
+    linear = R @ J[:3]
+    return np.concatenate([linear, R @ J[3:] + skew(x) @ linear])
+
+
+def _in_body(x: Array, R: Array, wrench: Array) -> Array:
+    """A wrench in n about its origin, in b about CO at a pose; (6,)."""
+    linear = wrench[:3]
+    return np.concatenate([R.T @ linear, R.T @ (wrench[3:] - skew(x) @ linear)])

@@ -2,8 +2,8 @@
 
 A communication step [t, t + H]:
 
-    receive       check what came in; shadows of the ships at the received poses, pending impulses taken in
-    find near     pairs whose hulls could touch within the step (broad_phase.py); far pairs are never looked at
+    read          check what came in; the books say what is pending (ledger.py); shadows at the received poses
+    find near     pairs whose hulls could touch within the step (neighbours.py); far pairs are never looked at
     for each substep of fixed length h:
         press     fenders that are compressed (fenders.py), booked one by one
         advance   the predicted poses of the shadows that are near another
@@ -24,44 +24,40 @@ State before a step that fails stays as it was. The model knows nothing of FMI.
 from __future__ import annotations
 
 from collections.abc import Container, Sequence
-from math import ceil, hypot, isfinite
+from math import ceil
 from typing import Any
 
 import numpy as np
 
-from ..errors import InputError, StepError
-from ..ship.frames import Array, attitude_from_rotation, attitude_unwrapped
-from .ahead import pose_ahead
+from ..errors import StepError
+from ..ship.frames import attitude_from_rotation, attitude_unwrapped
+from .ahead import state_ahead
 from .axes import contact_axes
-from .bodies import Body, apart, prepared
-from .broad_phase import Rectangle, near_pairs
-from .contact import Contact, Impulse, actual_velocity
+from .bodies import Body, prepared
+from .checks import check_parameters, check_step
+from .contact import Impulse, actual_velocity
+from .delassus import mobility
 from .detection import Detector, KeptNormals
 from .drift import Seen, drift
 from .energy import energy_lost
 from .episodes import Episodes
 from .fenders import Fender, friction_impulse, in_series, squeezed
-from .ledger import FEEDBACKS, Account, pending_impulse
+from .ledger import Books, Reading
+from .neighbours import Neighbours, Pair, room
 from .passive import passive
 from .ports import SLOTS, CollisionInputs, CollisionOutputs, CollisionParameters, ShipParameters, ShipPost, ShipState
 from .responses import RESPONSES, Encounter
 from .shadow import Shadow
 from .slots import Slot, merged
+from .warm_start import WarmStarts
 
 __all__ = ["ShipCollision"]
 
-REACH_MARGIN = 0.1
-"""Gap [m] within which a pair at rest still counts as near."""
-
-ABSURD_SPEED = 1e3
-"""Speeds [m/s] from here on are refused: a broken signal, not a ship."""
-
-ABSURD_PLACE = 1e9
-"""Distances from the origin [m] from here on are refused: the Earth is not that large."""
-
-Pair = tuple[int, int]
+CONVERGED = 1e-9
+"""Residual of the solver, as a share of the approach, above which an answer counts as not converged."""
 
 _NO_FORCE = (0.0,) * 6
+_ABSENT = Shadow.wall(np.zeros(3), 0.0)  # stands for a ship that is far from all others
 
 
 class ShipCollision:
@@ -74,40 +70,37 @@ class ShipCollision:
         self.outputs = CollisionOutputs([ShipPost() for _ in ships])
         self._detector: Detector | None = None
         self._bodies: list[Body] = []
-        self._circles: list[tuple[float, float]] = []
 
     # -- set-up -------------------------------------------------------------------------------------
 
     def initialise(self) -> None:
         """Read the parameters, load ships and obstacles, set the outputs of the start. Raises InputError on a bad
         parameter."""
-        _check(self.parameters)
+        check_parameters(self.parameters)
         bodies = prepared(self.names, self.parameters)
         self.close()
         self._detector = Detector([body.hull for body in bodies])
-        self._bodies = bodies
+        self._bodies, n = bodies, len(self.names)
+        self._neighbours = Neighbours(bodies, n, self._detector, self.parameters.clearance_range)
         self._bullets = [body.bullet for body in bodies]
-        self._absent = Shadow.wall(np.zeros(3), 0.0)  # stands for a ship that is far from all others
+        self._centres = [body.bullet.r_bg.tolist() for body in bodies]
         self._walls = [body.wall for body in bodies if body.wall is not None]
-        n = len(self.names)
         for i, wall in enumerate(self._walls, start=n):
             self._detector.place(i, wall)
-        self._issued = [np.zeros(6) for _ in range(n)]
-        self._last = [np.zeros(6) for _ in range(n)]
-        self._echo = [[0.0] * 6 for _ in range(n)]  # what a ship that has applied everything sends back
-        self._busy = [False] * n  # had an impulse in the last step
-        self._nu_sent = [np.zeros(6) for _ in range(n)]
+        self._books = [Books() for _ in range(n)]
         self._seen: list[Seen | None] = [None] * n
         self._energy = np.zeros(3)
         self._fenders: dict[Pair, float] = {}
         self._fender_dissipated = 0.0
         self._kept: KeptNormals = {}
+        self._warm: WarmStarts = {}
         self._episodes = Episodes(self.parameters.minimum_separation_time)
-        shadows = [
-            Shadow.at(np.array(s.position), np.array(s.attitude), np.array(s.velocity + s.rate), body.M_inverse)
-            for s, body in zip(self.inputs.ships, bodies, strict=False)
-        ] + self._walls
-        self._publish(0.0, 0.0, shadows, [], self._candidates(shadows, 0.0))
+        self._unconverged = self._scaled = 0
+        self._residual, self._sweeps = 0.0, 0
+        self._readings: dict[int, Reading] = {}
+        shadows = [self._received(i, 0.0) for i in range(n)] + self._walls
+        candidates = self._neighbours.candidates(shadows, self.inputs.ships, 0.0)
+        self._publish(0.0, 0.0, shadows, [], candidates)
 
     @property
     def obstacles(self) -> tuple[str, ...]:
@@ -125,16 +118,11 @@ class ShipCollision:
     def step(self, t: float, H: float) -> None:
         """Advance from t by H [s]. Raises StepError on an input that is not finite or absurd; nothing changes then."""
         self._ready()
-        self._check_inputs(t, H)
-        shadows = [
-            self._absent if self._is_quiet(i, state) else self._received(i, t)
-            for i, state in enumerate(self.inputs.ships)
-        ] + self._walls
-        candidates = self._candidates(shadows, H)
-        for i in {i for pair in candidates for i in pair}:
-            if shadows[i] is self._absent:
-                shadows[i] = self._received(i, t)
-        near = self._near(candidates, shadows, H)
+        check_step(t, H, self._bodies, self.inputs.ships)
+        self._readings.clear()
+        shadows, candidates = self._read(t, H)
+        near = self._neighbours.near(candidates, shadows, H)
+        self._residual, self._sweeps = 0.0, 0
         if not near:
             self._episodes.close_old(t)
             self._advance(shadows, H)
@@ -148,22 +136,47 @@ class ShipCollision:
             raise
         self._publish(t + H, H, shadows, slots, candidates)
 
-    def _is_quiet(self, i: int, state: ShipState) -> bool:
-        """Whether nothing of an earlier contact is left for a ship: it needs no shadow until another comes near."""
-        applied = self.parameters.feedback != "ledger" or state.impulse_applied == self._echo[i]
-        return applied and not self._busy[i] and self._seen[i] is None
+    def _read(self, t: float, H: float) -> tuple[list[Shadow], list[Pair]]:
+        """Shadows of the bodies, of a ship that is quiet and far from all others a mere placeholder; candidates."""
+        ships, feedback = self.inputs.ships, self.parameters.feedback
+        known = [
+            None
+            if self._seen[i] is None and self._books[i].is_quiet(feedback, state.impulse_applied)
+            else self._received(i, t)
+            for i, state in enumerate(ships)
+        ]
+        candidates = self._neighbours.candidates(known, ships, H)
+        met = {i for pair in candidates for i in pair}
+        shadows = [
+            shadow if shadow is not None else self._received(i, t) if i in met else _ABSENT
+            for i, shadow in enumerate(known)
+        ]
+        return shadows + self._walls, candidates
+
+    def _received(self, i: int, t: float) -> Shadow:
+        """Shadow of a ship at the received pose, with what is pending, and expected of other forces, in its twist."""
+        state, body, feedback = self.inputs.ships[i], self._bodies[i], self.parameters.feedback
+        nu, x = np.array(state.velocity + state.rate), np.array(state.position)
+        shadow = Shadow.at(x, np.array(state.attitude), nu, body.M_inverse, body.bullet.r_bg)
+        reading = self._books[i].read(feedback, x, shadow.R, nu, np.array(state.impulse_applied), body.M)
+        late = reading.pending.any()
+        if late or reading.owed.any():
+            shadow.nu = nu + body.M_inverse @ (reading.pending + reading.owed)
+        if (before := self._seen[i]) is not None and feedback == "ledger":
+            found = drift(before, _seen(t, 0.0, state), body.M_inverse, body.bullet.r_bg, body.reach)
+            if found is not None:
+                shadow.drift = found.mean
+                if late:  # a parallel master: what is issued now is applied to a ship that has gone on
+                    shadow.nu = shadow.nu + found.gain
+        shadow.nu_received = shadow.nu
+        self._readings[i] = reading
+        return shadow
 
     def _advance(self, shadows: Sequence[Shadow], H: float, but: Container[int] = ()) -> None:
         """Move on by H [s] the shadows that there are, but for some."""
         for i, shadow in enumerate(shadows):
             if not shadow.fixed and i not in but:
                 shadow.advance(H)
-
-    def _widened(self, body: Body) -> Rectangle:
-        """Where an obstacle stands, and half the range of the clearance around it."""
-        d = 0.5 * self.parameters.clearance_range + body.around
-        n_0, n_1, e_0, e_1 = body.rectangle
-        return n_0 - d, n_1 + d, e_0 - d, e_1 + d
 
     def _collide(self, t: float, H: float, near: dict[Pair, float], shadows: list[Shadow]) -> list[Slot]:
         """Take the shadows through the step; the contact points they went through.
@@ -218,81 +231,7 @@ class ShipCollision:
 
     def _approach(self, pair: Pair, h: float, shadows: Sequence[Shadow]) -> float:
         """How much nearer two hulls may come in h [s], at most [m]."""
-        return sum(self._room(self._bodies[i], shadows[i], h) - self._bodies[i].around for i in pair)
-
-    def _received(self, i: int, t: float) -> Shadow:
-        """Shadow of a ship at the received pose, with what is pending, and expected of other forces, in its twist."""
-        state, body, feedback = self.inputs.ships[i], self._bodies[i], self.parameters.feedback
-        nu = np.array(state.velocity + state.rate)
-        applied = np.array(state.impulse_applied)
-        account = Account(self._issued[i], self._last[i], applied, self._nu_sent[i], nu, body.M)
-        pending, before = pending_impulse(feedback, account), self._seen[i]
-        if pending.any():
-            nu = nu + body.M_inverse @ pending
-        shadow = Shadow.at(np.array(state.position), np.array(state.attitude), nu, body.M_inverse)
-        if before is not None and feedback == "ledger":
-            found = drift(before, _seen(t, 0.0, state), body.M_inverse, body.bullet.r_bg, body.reach)
-            if found is not None:
-                shadow.drift = found.mean
-                if pending.any():  # a parallel master: what is issued now is applied to a ship that has gone on
-                    shadow.nu = shadow.nu + found.gain
-        return shadow
-
-    # -- who is near whom -----------------------------------------------------------------------------
-
-    def _candidates(self, shadows: Sequence[Shadow], H: float) -> list[Pair]:
-        """Pairs that could come within clearance_range, or touch, in H [s]; all others are out of this step."""
-        half = 0.5 * self.parameters.clearance_range
-        rectangles: list[Rectangle] = []
-        for i, (body, shadow) in enumerate(zip(self._bodies, shadows, strict=True)):
-            if body.wall is not None:
-                rectangles.append(self._widened(body))
-                continue
-            if shadow is self._absent:
-                state = self.inputs.ships[i]
-                n, e, _ = state.position
-                room = body.around + H * (hypot(*state.velocity) + hypot(*state.rate) * body.reach)
-            else:
-                n, e, _ = shadow.x.tolist()
-                room = self._room(body, shadow, H)
-            d = half + room + body.reach
-            rectangles.append((n - d, n + d, e - d, e + d))
-        return near_pairs(rectangles, len(self.names))
-
-    def _near(self, candidates: Sequence[Pair], shadows: Sequence[Shadow], H: float) -> dict[Pair, float]:
-        """Pairs of them whose hulls, or fenders, could touch within H [s], and their gaps [m]."""
-        near = {}
-        for a, b in candidates:
-            room = (
-                REACH_MARGIN + self._room(self._bodies[a], shadows[a], H) + self._room(self._bodies[b], shadows[b], H)
-            )
-            if self._bounds_apart(a, b, shadows) <= room and (gap := self._gap(a, b, shadows, room)) < room:
-                near[a, b] = gap
-        return near
-
-    def _room(self, body: Body, shadow: Shadow, H: float) -> float:
-        """How far any point of the hull may get in H [s], and the fender before it [m]."""
-        if shadow.fixed:
-            return body.around
-        u, v, w, p, q, r = shadow.expected.tolist()
-        return body.around + H * (hypot(u, v, w) + hypot(p, q, r) * body.reach)
-
-    def _bounds_apart(self, a: int, b: int, shadows: Sequence[Shadow]) -> float:
-        """Horizontal distance [m] of the bounds of two hulls, circles or an obstacle's rectangle; not more than the
-        hulls'."""
-        n, e, _ = shadows[a].x.tolist()
-        one, other = self._bodies[a], self._bodies[b]
-        if shadows[b].fixed:
-            return apart((n, e), one.reach, other.rectangle)
-        n_b, e_b, _ = shadows[b].x.tolist()
-        return hypot(n_b - n, e_b - e) - one.reach - other.reach
-
-    def _gap(self, a: int, b: int, shadows: Sequence[Shadow], cap: float) -> float:
-        detector = self._ready()
-        detector.place(a, shadows[a])
-        if not shadows[b].fixed:
-            detector.place(b, shadows[b])
-        return detector.clearance(a, b, cap)
+        return sum(room(self._bodies[i], shadows[i], h) - self._bodies[i].around for i in pair)
 
     def _ready(self) -> Detector:
         if self._detector is None:
@@ -313,7 +252,7 @@ class ShipCollision:
             self._fender_dissipated += self._fenders.pop(pair, 0.0)  # what a released spring still holds is lost
             return slots
         axes = contact_axes(contact.normal)
-        W = axes @ _mobility(contact, shadows) @ axes.T
+        W = axes @ mobility(contact, shadows) @ axes.T
         v = axes @ actual_velocity(contact, shadows)
         squeeze = squeezed(fender, compression, -float(v[0]), float(W[0, 0]), stored, h)
         P = squeeze.P * contact.normal
@@ -339,16 +278,21 @@ class ShipCollision:
             for a, b in set(near) - set(answered):
                 if watched := detector.contacts(a, b, shadows, self._kept):
                     self._episodes.touch(t, watched, shadows)
-        impulses = RESPONSES[parameters.response](
+        answer = RESPONSES[parameters.response](
             Encounter(
-                answered, shadows, detector, self._kept, self._bullets, parameters.friction, parameters.restitution, h
+                answered, shadows, detector, self._kept, self._warm, self._bullets, parameters.friction,
+                parameters.restitution, h,
             )
-        )
+        )  # fmt: skip
         for pair in answered:
-            contacts = [i.contact for i in impulses if (i.contact.a, i.contact.b) == pair]
+            contacts = [i.contact for i in answer.impulses if (i.contact.a, i.contact.b) == pair]
             if contacts:
                 self._episodes.touch(t, contacts, shadows)
-        return passive(impulses, shadows) if impulses else impulses
+        self._residual, self._sweeps = max(self._residual, answer.residual), max(self._sweeps, answer.sweeps)
+        self._unconverged += answer.residual > CONVERGED
+        impulses, scaled = passive(answer.impulses, shadows)
+        self._scaled += scaled
+        return impulses
 
     def _book(self, impulses: list[Impulse], shadows: list[Shadow], slots: list[Slot]) -> list[Slot]:
         """Impulses into both ships' twists and ledgers, the energy they cost, and the contact slots of the step."""
@@ -371,31 +315,29 @@ class ShipCollision:
         colliding = self._episodes.open_ships()
         for i, shadow in enumerate(shadows[: len(self.names)]):
             out, state = self.outputs.ships[i], self.inputs.ships[i]
-            if shadow is self._absent:
-                place, attitude = pose_ahead(state.position, state.attitude, state.velocity, state.rate, H)
-                out.position[:], out.attitude[:] = place, attitude
-                out.velocity[:], out.rate[:] = state.velocity, state.rate
+            if shadow is _ABSENT:
+                out.position[:], out.attitude[:], out.velocity[:] = state_ahead(
+                    state.position, state.attitude, state.velocity, state.rate, self._centres[i], H
+                )
+                out.rate[:] = state.rate
                 out.force[:] = _NO_FORCE
                 continue
-            self._last[i] = shadow.issued
-            self._nu_sent[i] = shadow.nu_received
-            self._busy[i] = bool(shadow.issued.any())
-            if self._busy[i]:
-                self._issued[i] = self._issued[i] + shadow.issued
-                out.force[:] = (shadow.issued / H).tolist()
-            else:
-                out.force[:] = _NO_FORCE
+            books, reading = self._books[i], self._readings[i]
+            begun = reading.nu if not reading.pending.any() else reading.nu + shadow.M_inverse @ reading.pending
+            books.close(reading, shadow.issued, shadow.nu_received, shadow.ahead(begun, H))
+            out.impulse[:] = books.issued.tolist()
+            out.force[:] = (shadow.issued / H).tolist() if shadow.issued.any() else _NO_FORCE
             self._seen[i] = _seen(t - H, H, state) if i in colliding else None
-            nu = shadow.nu.tolist()
+            nu = shadow.nu_predicted.tolist()
             out.position[:] = shadow.x.tolist()
             out.attitude[:] = attitude_unwrapped(attitude_from_rotation(shadow.R), state.attitude[2]).tolist()
             out.velocity[:], out.rate[:] = nu[:3], nu[3:]
-            out.impulse[:] = self._issued[i].tolist()
-            self._echo[i] = list(out.impulse)
         self._publish_contacts(t, slots)
         self.outputs.energy[:] = self._energy.tolist()
         self.outputs.fender[:] = [sum(self._fenders.values()), self._fender_dissipated]
-        self.outputs.clearance[0] = self._clearance(candidates, shadows)
+        self.outputs.clearance[0] = self._neighbours.clearance(candidates, shadows)
+        self.outputs.solver[0], self.outputs.solver_sweeps = self._residual, self._sweeps
+        self.outputs.solver_unconverged, self.outputs.solver_scaled = self._unconverged, self._scaled
 
     def _publish_contacts(self, t: float, slots: list[Slot]) -> None:
         out, latest = self.outputs, self._episodes.latest
@@ -411,68 +353,34 @@ class ShipCollision:
         out.impact[:] = [latest.time, latest.closing_speed, latest.angle]
         out.impact_point[:] = latest.point
 
-    def _clearance(self, candidates: Sequence[Pair], shadows: Sequence[Shadow]) -> float:
-        """Least distance between hulls [m], capped. The nearest bounds first: they soon rule out the others."""
-        least = self.parameters.clearance_range
-        bounds = [(self._bounds_apart(a, b, shadows), a, b) for a, b in candidates]
-        for bound, a, b in sorted(bounds) if len(bounds) > 1 else bounds:
-            if bound >= least:
-                break
-            least = min(least, self._gap(a, b, shadows, least))
-        return least
-
     # -- state --------------------------------------------------------------------------------------
 
     def get_state(self) -> dict[str, Any]:
-        """What the outputs do not show: ledger of the last step, energy in fenders, kept normals, episodes."""
+        """What the outputs do not show: the ships' books, energy in fenders, kept normals, warm starts, episodes."""
         return {
-            "issued": [v.tolist() for v in self._issued],
-            "last": [v.tolist() for v in self._last],
-            "nu_sent": [v.tolist() for v in self._nu_sent],
+            "books": [books.get_state() for books in self._books],
             "energy": self._energy.tolist(),
             "seen": [None if s is None else list(s) for s in self._seen],
             "fenders": [[a, b, stored] for (a, b), stored in self._fenders.items()],
             "fender_dissipated": self._fender_dissipated,
             "kept": [[a, b, carrier, list(normal)] for (a, b), (carrier, normal) in self._kept.items()],
+            "warm": [[a, b, [[*row] for row in rows]] for (a, b), rows in self._warm.items()],
+            "solver": [self._unconverged, self._scaled],
             "episodes": self._episodes.get_state(),
         }
 
     def set_state(self, state: dict[str, Any]) -> None:
         """Back to a state of get_state, exact to the bit."""
-        self._issued = [np.array(v) for v in state["issued"]]
-        self._echo = [list(v) for v in state["issued"]]
-        self._last = [np.array(v) for v in state["last"]]
-        self._busy = [bool(last.any()) for last in self._last]
-        self._nu_sent = [np.array(v) for v in state["nu_sent"]]
+        for books, saved in zip(self._books, state["books"], strict=True):
+            books.set_state(saved)
         self._energy = np.array(state["energy"])
         self._seen = [None if s is None else Seen(*s) for s in state["seen"]]
         self._fenders = {(a, b): stored for a, b, stored in state["fenders"]}
         self._fender_dissipated = state["fender_dissipated"]
         self._kept = {(a, b): (carrier, list(normal)) for a, b, carrier, normal in state["kept"]}
+        self._warm = {(a, b): [(place, impulse) for place, impulse in rows] for a, b, rows in state["warm"]}
+        self._unconverged, self._scaled = state["solver"]
         self._episodes.set_state(state["episodes"])
-
-    # -- refusals -----------------------------------------------------------------------------------
-
-    def _check_inputs(self, t: float, H: float) -> None:
-        if not (isfinite(t) and isfinite(H) and H > 0.0):
-            raise StepError(f"a step from t = {t} s by {H} s cannot be made: both must be finite and the step positive")
-        for body, state in zip(self._bodies, self.inputs.ships, strict=False):
-            if not isfinite(
-                sum(state.position) + sum(state.attitude) + sum(state.velocity) + sum(state.rate)
-                + sum(state.impulse_applied)
-            ):  # fmt: skip
-                _refuse_not_finite(body.name, state, t)
-            speed, tip, place = hypot(*state.velocity), hypot(*state.rate) * body.reach, hypot(*state.position)
-            if speed > ABSURD_SPEED or tip > ABSURD_SPEED or place > ABSURD_PLACE:
-                quantity, value, unit, limit = (
-                    ("velocity", speed, "m/s", ABSURD_SPEED) if speed > ABSURD_SPEED
-                    else ("rate", tip, "m/s at the ship's ends", ABSURD_SPEED) if tip > ABSURD_SPEED
-                    else ("position", place, "m from the origin", ABSURD_PLACE)
-                )  # fmt: skip
-                raise StepError(
-                    f"{body.name}.{quantity} is {value:g} {unit} at t = {t} s, above {limit:g} {unit}: check the "
-                    "signal and its unit"
-                )
 
 
 def _substeps(H: float, substep: float) -> tuple[int, float]:
@@ -487,13 +395,6 @@ def _substeps(H: float, substep: float) -> tuple[int, float]:
     return n, H / n
 
 
-def _refuse_not_finite(name: str, state: ShipState, t: float) -> None:
-    for quantity in ("position", "attitude", "velocity", "rate", "impulse_applied"):
-        values = getattr(state, quantity)
-        if not all(map(isfinite, values)):
-            raise StepError(f"{name}.{quantity} = {values} at t = {t} s is not finite: check the ship model's output")
-
-
 def _seen(t: float, H: float, state: ShipState) -> Seen:
     return Seen(
         t, H, list(state.position), list(state.attitude), state.velocity + state.rate, list(state.impulse_applied)
@@ -506,25 +407,3 @@ def _take(impulse: Impulse, shadows: Sequence[Shadow]) -> None:
     for i, G, sign in ((c.a, c.G_a, -1.0), (c.b, c.G_b, 1.0)):
         if not shadows[i].fixed:
             shadows[i].book(sign * P @ G)
-
-
-def _mobility(c: Contact, shadows: Sequence[Shadow]) -> Array:
-    """What a unit impulse at a contact does to its relative velocity, in n; (3, 3) [1/kg]."""
-    W: Array = c.G_a @ shadows[c.a].M_inverse @ c.G_a.T + c.G_b @ shadows[c.b].M_inverse @ c.G_b.T
-    return W
-
-
-def _check(p: CollisionParameters) -> None:
-    """Raises InputError on a parameter out of its range."""
-    bounds = (("friction", p.friction, 0.0, 10.0), ("restitution", p.restitution, 0.0, 1.0))
-    for name, value, low, high in bounds:
-        if not low <= value <= high:
-            raise InputError(f"{name} = {value} is outside {low:g} to {high:g}")
-    for name, value in (("substep", p.substep), ("minimum_separation_time", p.minimum_separation_time),
-                        ("clearance_range", p.clearance_range)):  # fmt: skip
-        if not (isfinite(value) and value > 0.0):
-            raise InputError(f"{name} = {value} must be a positive number")
-    if p.response not in RESPONSES:
-        raise InputError(f"response = {p.response!r} is not known: choose one of {', '.join(RESPONSES)}")
-    if p.feedback not in FEEDBACKS:
-        raise InputError(f"feedback = {p.feedback!r} is not known: choose one of {', '.join(FEEDBACKS)}")

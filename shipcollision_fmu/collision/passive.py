@@ -22,13 +22,15 @@ ROUNDING = 1e-9
 """Gain, as a share of the work of the impulses, that is rounding."""
 
 
-def passive(impulses: Sequence[Impulse], shadows: Sequence[Shadow]) -> list[Impulse]:
-    """The impulses, scaled where they would add energy."""
+def passive(impulses: Sequence[Impulse], shadows: Sequence[Shadow]) -> tuple[list[Impulse], bool]:
+    """The impulses, scaled where they would add energy; and whether any were."""
     answer: list[Impulse] = []
-    for group in _groups(impulses, shadows):
+    scaled = False
+    for group in _groups(impulses, shadows) if impulses else ():
         s = _scale(group, shadows)
+        scaled |= s != 1.0
         answer += group if s == 1.0 else [Impulse(i.contact, s * i.P) for i in group]
-    return answer
+    return answer, scaled
 
 
 def _scale(group: Sequence[Impulse], shadows: Sequence[Shadow]) -> float:

@@ -1,6 +1,6 @@
 """The rival responses: how two ships answer a contact. One signature, one table.
 
-    respond(encounter) -> impulses        what ship b takes at each contact point in this substep, in n
+    respond(encounter) -> answer          what ship b takes at each contact point in this substep, in n
 
 pgs          Projected Gauss-Seidel on the 6x6 masses: cleaned contacts, friction cone, iterated to a residual
 closed_form  one resultant contact per pair, its impact followed along the slip: Keller, Stronge (slip_path.py)
@@ -23,8 +23,9 @@ from .restitution import solve_impact
 from .resultant import resultant_contact
 from .shadow import Shadow
 from .slip_path import solve_slip_path
+from .warm_start import WarmStarts, expected, remember
 
-__all__ = ["RESPONSES", "Encounter", "respond_bullet", "respond_closed_form", "respond_pgs"]
+__all__ = ["RESPONSES", "Answer", "Encounter", "respond_bullet", "respond_closed_form", "respond_pgs"]
 
 
 AT_REST = 1e-12
@@ -37,37 +38,53 @@ class Encounter:
     """What a response is given: ships within reach of each other, at one substep.
 
     pairs: indices (a, b) of ships near each other; shadows: of all ships, hulls already placed there; kept: normals of
-    the last shallow contacts; bodies: the ships as Bullet knows them; friction, restitution: of every pair; h: length
-    of the substep [s].
+    the last shallow contacts; warm: impulses of the substep before; bodies: the ships as Bullet knows them; friction,
+    restitution: of every pair; h: length of the substep [s].
     """
 
     pairs: Sequence[tuple[int, int]]
     shadows: Sequence[Shadow]
     detector: Detector
     kept: KeptNormals
+    warm: WarmStarts
     bodies: Sequence[BulletBody]
     friction: float
     restitution: float
     h: float
 
 
-def respond_pgs(encounter: Encounter) -> list[Impulse]:
+@dataclass(frozen=True)
+class Answer:
+    """Impulses of a substep; by how much the law of contact is missed, as a share of the approach, and the sweeps."""
+
+    impulses: list[Impulse]
+    residual: float = 0.0
+    sweeps: int = 0
+
+
+def respond_pgs(encounter: Encounter) -> Answer:
     """All contacts of all pairs solved together by block Projected Gauss-Seidel (pgs.py)."""
     shadows = encounter.shadows
     contacts = [c for a, b in encounter.pairs for c in encounter.detector.contacts(a, b, shadows, encounter.kept)]
     if not contacts:
-        return []
+        remember(encounter.pairs, [], encounter.warm)
+        return Answer([])
     G, ships = contact_jacobian(contacts)
     axes = [contact_axes(c.normal) for c in contacts]
     velocity = np.concatenate([axis @ contact_velocity(c, shadows) for axis, c in zip(axes, contacts, strict=True)])
     if velocity[0::3].min() >= -AT_REST:  # touching, but parting, or stopped in the substep before
-        return [Impulse(c, np.zeros(3)) for c in contacts]
+        return Answer([Impulse(c, np.zeros(3)) for c in contacts])
     local = np.vstack([axis @ G[3 * i : 3 * i + 3] for i, axis in enumerate(axes)])
-    solution = solve_impact(delassus(local, ships, shadows), velocity, encounter.friction, encounter.restitution)
-    return [Impulse(c, axis.T @ P) for c, axis, P in zip(contacts, axes, solution.P, strict=True)]
+    solution = solve_impact(
+        delassus(local, ships, shadows), velocity, encounter.friction, encounter.restitution,
+        expected(contacts, axes, encounter.warm),
+    )  # fmt: skip
+    impulses = [Impulse(c, axis.T @ P) for c, axis, P in zip(contacts, axes, solution.P, strict=True)]
+    remember(encounter.pairs, impulses, encounter.warm)
+    return Answer(impulses, solution.residual, solution.sweeps)
 
 
-def respond_closed_form(encounter: Encounter) -> list[Impulse]:
+def respond_closed_form(encounter: Encounter) -> Answer:
     """One pair after the other, each as one impact at its resultant contact (resultant.py, slip_path.py).
 
     A pair sees what the pairs before it did to its ships. What is not answered exactly in a substep, contacts that the
@@ -88,10 +105,10 @@ def respond_closed_form(encounter: Encounter) -> list[Impulse]:
         shadows[a] = replace(shadows[a], nu=shadows[a].nu - shadows[a].M_inverse @ (P @ contact.G_a))
         shadows[b] = replace(shadows[b], nu=shadows[b].nu + shadows[b].M_inverse @ (P @ contact.G_b))
         impulses.append(Impulse(contact, P))
-    return impulses
+    return Answer(impulses)
 
 
-def respond_bullet(encounter: Encounter) -> list[Impulse]:
+def respond_bullet(encounter: Encounter) -> Answer:
     """One step of Bullet's own dynamics for every pair that touches; its contact impulses are taken over as they are.
 
     Bullet would act one step before touch, and so lose the restitution or not, by chance of the step: hence the wait.
@@ -111,10 +128,10 @@ def respond_bullet(encounter: Encounter) -> list[Impulse]:
         )
         for on_a, on_b, normal, gap, P in rows:
             impulses.append(Impulse(make_contact(a, b, shadows, 0.5 * (on_a + on_b), normal, gap), P))
-    return impulses
+    return Answer(impulses)
 
 
-RESPONSES: dict[str, Callable[[Encounter], list[Impulse]]] = {
+RESPONSES: dict[str, Callable[[Encounter], Answer]] = {
     "pgs": respond_pgs,
     "closed_form": respond_closed_form,
     "bullet": respond_bullet,

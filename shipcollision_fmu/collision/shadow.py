@@ -4,11 +4,14 @@ A shadow has two poses. The *received* pose is where the ship is at the start of
 model will apply the impulse, so there it is booked, and momentum balances to rounding. The *predicted* pose moves on
 with the substeps and is where contact is looked for.
 
-    nu      twist in b about CO, changed by impulses only
+    nu      twist about CO in b of the received pose, changed by impulses only
     drift   what other forces are expected to add to it, in the mean over the step (drift.py); None: nothing
     G       = [R, -R skew(r)]              velocity of the point r (in b) in n is G nu;  (3, 6)
     J       = G^T P                        impulse P (in n) at that point, as the ship books it, in b about CO
     nu     += M^-1 J
+
+Between impulses the velocity of CG and the angular velocity stay constant in n, as a coasting ship's do: from the
+received pose on, twists turn with the hull, seen in b.
 """
 
 from __future__ import annotations
@@ -32,7 +35,8 @@ def point_jacobian(R_nb: Array, r_b: Array) -> Array:
 
 @dataclass
 class Shadow:
-    """A ship during a communication step. Arrays: x (3,) in n [m], R (3, 3) = R_nb, nu (6,) in b about CO.
+    """A ship during a communication step. Arrays: x (3,) in n [m], R (3, 3) = R_nb, nu (6,) in b about CO, r_bg (3,)
+    CG in b [m].
 
     M_inverse (6, 6) has zeros in the degrees of freedom that the ship does not have.
     """
@@ -44,15 +48,16 @@ class Shadow:
     nu: Array
     nu_received: Array  # (6,) the twist at the start, what was pending taken in
     M_inverse: Array
+    r_bg: Array
     issued: Array  # (6,) impulse booked in this communication step, in b about CO at the received pose
     drift: Array | None = None  # (6,)
     fixed: bool = False  # an obstacle: M_inverse is zero, and it never moves
 
     @classmethod
-    def at(cls, position: Array, attitude: Array, nu: Array, M_inverse: Array) -> Shadow:
-        """Shadow at a pose (n [m], rad) with the twist nu (b about CO)."""
+    def at(cls, position: Array, attitude: Array, nu: Array, M_inverse: Array, r_bg: Array | None = None) -> Shadow:
+        """Shadow at a pose (n [m], rad) with the twist nu (b about CO); CG is CO unless r_bg tells."""
         R = rotation(attitude)
-        return cls(position, R, position, R, nu, nu, M_inverse, np.zeros(6))
+        return cls(position, R, position, R, nu, nu, M_inverse, np.zeros(3) if r_bg is None else r_bg, np.zeros(6))
 
     @classmethod
     def wall(cls, position: Array, heading: float) -> Shadow:
@@ -63,9 +68,29 @@ class Shadow:
 
     def advance(self, h: float) -> None:
         """Move the predicted pose on by h [s] with the twist expected over the step."""
-        nu = self.expected
-        self.x = self.x + self.R @ nu[:3] * h
-        self.R = self.R @ rotation_vector(nu[3:] * h)
+        self.x, self.R = self._moved(self.x, self.R, self.expected, h)
+
+    def _moved(self, x: Array, R: Array, nu: Array, h: float) -> tuple[Array, Array]:
+        v, omega = nu[:3], nu[3:]
+        if not omega.any():
+            return x + self.R_received @ v * h, R
+        v_g = self.R_received @ (v + skew(omega) @ self.r_bg)
+        R_new = rotation_vector(self.R_received @ omega * h) @ R
+        return x + v_g * h + (R - R_new) @ self.r_bg, R_new
+
+    def ahead(self, nu: Array, h: float) -> tuple[Array, Array]:
+        """Pose (x, R) after h [s] from the received one, with the twist nu (6,) at its start."""
+        return self._moved(self.x_received, self.R_received, nu if self.drift is None else nu + self.drift, h)
+
+    @property
+    def nu_predicted(self) -> Array:
+        """The twist (6,) in b of the predicted pose."""
+        v, omega = self.nu[:3], self.nu[3:]
+        if not omega.any():
+            return self.nu
+        back = self.R.T @ self.R_received
+        omega_now = back @ omega
+        return np.concatenate([back @ (v + skew(omega) @ self.r_bg) - skew(omega_now) @ self.r_bg, omega_now])
 
     @property
     def expected(self) -> Array:

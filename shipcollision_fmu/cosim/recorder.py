@@ -52,6 +52,7 @@ class Record:
     energy     dissipated, normal, tangential [J] at the end
     applied    what the ships say they applied at the end (ships, 6); the final `issued` is `issued_finally`
     clearance  least distance between hulls at any communication point [m], capped
+    solver     answers that did not meet the law of contact to 1e-9, and answers scaled back so as not to add energy
     fender     stored in fenders, dissipated in them [J] at the end
     """
 
@@ -64,6 +65,7 @@ class Record:
     applied: Array
     clearance: float
     fender: tuple[float, float] = (0.0, 0.0)
+    solver: tuple[int, int] = (0, 0)
 
 
 @dataclass
@@ -92,6 +94,7 @@ class Recorder:
         self._issued = collision.reals([variable for name in names for variable in named(name, IMPULSE)])
         self._energy = collision.reals(named("energy", ("dissipated", "normal", "tangential")))
         self._fender = collision.reals(named("fender", ("stored", "dissipated")))
+        self._solver = collision.integers(["solver.unconverged", "solver.scaled"])
         self._clearance = collision.reals(["clearance"])
         self._least_clearance = float("inf")
         self._seen = _Contacts()
@@ -125,6 +128,7 @@ class Recorder:
         ]  # fmt: skip
         dissipated, normal, tangential = _read(self._energy)
         stored, lost = _read(self._fender)
+        unconverged, scaled = _read(self._solver)
         return Record(
             states=states,
             contacts=np.array(self._seen.rows, dtype=contact_type),
@@ -132,6 +136,7 @@ class Recorder:
             impacts=self._seen.impacts,
             energy=(dissipated, normal, tangential),
             fender=(stored, lost),
+            solver=(unconverged, scaled),
             issued_finally=np.array(_read(self._issued)).reshape(-1, 6),
             applied=np.array([buffer[len(STATE) :] for buffer in self._buffers]),
             clearance=self._least_clearance,

@@ -54,6 +54,8 @@ def lines(run: Run) -> Iterator[str]:
     before, after, lost = (x / 1e6 for x in (energy["before"]["total"], energy["after"]["total"], energy["dissipated"]))
     yield f"kinetic energy {before:.1f} MJ before, {after:.1f} MJ after:"
     yield f"  {lost:.1f} MJ dissipated in contact, {after + lost - before:+.1f} MJ from sailing between contacts"
+    if summary["solver"]["unconverged"]:
+        yield f"  the contact solver missed its residual {summary['solver']['unconverged']} times: see solver.residual"
     yield (
         f"{summary['steps']} steps of {summary['step']:.6g} s, {summary['algorithm']}, {run.timing['mode']}: "
         f"{run.timing['wall_time']:.2f} s, {run.timing['real_time_factor']:.0f} times real time"

@@ -27,7 +27,7 @@ __all__ = [
 
 RESERVED = frozenset({
     "clearance", "clearance_range", "contact", "energy", "feedback", "fender", "friction", "impact",
-    "minimum_separation_time", "obstacles", "response", "restitution", "scratch", "substep", "time",
+    "minimum_separation_time", "obstacles", "response", "restitution", "scratch", "solver", "substep", "time",
 })  # fmt: skip
 """Names that no ship may have: the collision FMU's own variables, and the column `time` of states.csv."""
 

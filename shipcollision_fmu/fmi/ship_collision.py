@@ -203,6 +203,22 @@ def _events() -> Table:
             "Kinetic energy lost in fenders since the start; not part of energy.*", depends_on=(),
         ),
         real(
+            "output", "solver.residual", "1", "outputs.solver", 0,
+            "By how much the law of contact was missed in this step, as a share of the approach speed", depends_on=(),
+        ),
+        integer(
+            "output", "solver.sweeps", "outputs.solver_sweeps", "Most sweeps of an answer in this step", minimum=0,
+            depends_on=(),
+        ),
+        integer(
+            "output", "solver.unconverged", "outputs.solver_unconverged",
+            "Answers so far whose residual was above 1e-9", minimum=0, depends_on=(),
+        ),
+        integer(
+            "output", "solver.scaled", "outputs.solver_scaled",
+            "Answers so far that were scaled back so as not to add energy", minimum=0, depends_on=(),
+        ),
+        real(
             "output", "clearance", "m", "outputs.clearance", 0,
             "Least distance between hulls, and between hulls and obstacles, at most clearance_range",
         ),

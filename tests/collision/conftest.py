@@ -64,7 +64,7 @@ class World:
         self.work: list[float] = []  # change of kinetic energy by impulses, per step
         self.increments: list[
             list[tuple[np.ndarray, np.ndarray, np.ndarray]]
-        ] = []  # (x, R, new impulse) per ship and step
+        ] = []  # (x, R, impulse taken) per ship and step
         self.send()
         self.model.initialise()
 
@@ -77,16 +77,15 @@ class World:
 
     def step(self, H: float) -> None:
         self.send()
-        before = [np.array(o.impulse) for o in self.model.outputs.ships]
         poses = [(x.copy(), rotation(attitude_from_rotation(R))) for x, R in zip(self.x, self.R, strict=True)]
         self.model.step(self.t, H)
         work, rows = 0.0, []
         for i, outputs in enumerate(self.model.outputs.ships):
             issued = np.array(outputs.impulse)
-            rows.append((*poses[i], issued - before[i]))
             if self.algorithm == "jacobi":
                 issued, self.waiting[i] = self.waiting[i], issued
             new = issued - self.applied[i]
+            rows.append((*poses[i], new))
             after = self.nu[i] + self.M_inverse[i] @ new
             work += 0.5 * (after @ self.M[i] @ after - self.nu[i] @ self.M[i] @ self.nu[i])
             self.nu[i], self.applied[i] = after, issued

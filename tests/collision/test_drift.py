@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from shipcollision_fmu.collision.ahead import pose_ahead
+from shipcollision_fmu.collision.ahead import state_ahead
 from shipcollision_fmu.collision.contact import Impulse, actual_velocity, make_contact
 from shipcollision_fmu.collision.drift import Seen, drift
 from shipcollision_fmu.collision.passive import passive
@@ -56,11 +56,14 @@ def test_a_jump_in_time_or_place_is_no_drift(t: float, x: float) -> None:
 @given(st.tuples(ANGLE, ANGLE, st.floats(-9, 9)), st.tuples(RATE, RATE, RATE))
 def test_the_short_way_ahead_is_the_shadows(attitude: tuple[float, ...], rate: tuple[float, ...]) -> None:
     position, velocity = np.array([100.0, -50.0, 1.0]), [4.0, 0.5, -0.1]
-    shadow = Shadow.at(position, np.array(attitude), np.array([*velocity, *rate]), M_INVERSE)
-    shadow.advance(0.5)
-    place, angles = pose_ahead(position.tolist(), attitude, velocity, rate, 0.5)
+    r_bg = np.array([-3.0, 0.5, 2.0])
+    shadow = Shadow.at(position, np.array(attitude), np.array([*velocity, *rate]), M_INVERSE, r_bg)
+    shadow.advance(0.2)
+    shadow.advance(0.3)
+    place, angles, turned = state_ahead(position.tolist(), attitude, velocity, rate, r_bg.tolist(), 0.5)
     np.testing.assert_allclose(place, shadow.x, atol=1e-12)
     np.testing.assert_allclose(rotation(angles), shadow.R, atol=1e-12)
+    np.testing.assert_allclose([*turned, *rate], shadow.nu_predicted, atol=1e-12)
     assert abs(angles[2] - attitude[2]) < 0.1
 
 
@@ -71,6 +74,7 @@ def test_an_answer_that_would_add_energy_becomes_elastic(size: float, sway: floa
     ship = Shadow.at(np.zeros(3), np.zeros(3), np.array([1.0, sway, 0, 0, 0, 0]), M_INVERSE)
     shadows = [ship, wall]
     contact = make_contact(0, 1, shadows, np.array([50.0, 0.0, 0.0]), np.array([1.0, 0.0, 0.0]), 0.0)
-    (answer,) = passive([Impulse(contact, np.array([size * 1e7, 0.0, 0.0]))], shadows)
+    (answer,), scaled = passive([Impulse(contact, np.array([size * 1e7, 0.0, 0.0]))], shadows)
     assert answer.P[0] == pytest.approx(min(size, 2.0) * 1e7)
+    assert scaled == (answer.P[0] < size * 1e7 * (1.0 - 1e-9))
     np.testing.assert_allclose(actual_velocity(contact, shadows), [-1.0, -sway, 0.0])

@@ -1,0 +1,66 @@
+"""What the collision model refuses: parameters out of range, and inputs that are broken signals."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import hypot, isfinite
+
+from ..errors import InputError, StepError
+from .bodies import Body
+from .ledger import FEEDBACKS
+from .ports import CollisionParameters, ShipState
+from .responses import RESPONSES
+
+__all__ = ["check_parameters", "check_step"]
+
+ABSURD_SPEED = 1e3
+"""Speeds [m/s] from here on are refused: a broken signal, not a ship."""
+
+ABSURD_PLACE = 1e9
+"""Distances from the origin [m] from here on are refused: the Earth is not that large."""
+
+
+def check_parameters(p: CollisionParameters) -> None:
+    """Raises InputError on a parameter out of its range."""
+    bounds = (("friction", p.friction, 0.0, 10.0), ("restitution", p.restitution, 0.0, 1.0))
+    for name, value, low, high in bounds:
+        if not low <= value <= high:
+            raise InputError(f"{name} = {value} is outside {low:g} to {high:g}")
+    for name, value in (("substep", p.substep), ("minimum_separation_time", p.minimum_separation_time),
+                        ("clearance_range", p.clearance_range)):  # fmt: skip
+        if not (isfinite(value) and value > 0.0):
+            raise InputError(f"{name} = {value} must be a positive number")
+    if p.response not in RESPONSES:
+        raise InputError(f"response = {p.response!r} is not known: choose one of {', '.join(RESPONSES)}")
+    if p.feedback not in FEEDBACKS:
+        raise InputError(f"feedback = {p.feedback!r} is not known: choose one of {', '.join(FEEDBACKS)}")
+
+
+def check_step(t: float, H: float, bodies: Sequence[Body], states: Sequence[ShipState]) -> None:
+    """Raises StepError on a time, a step or a ship's state that is not finite, or absurd."""
+    if not (isfinite(t) and isfinite(H) and H > 0.0):
+        raise StepError(f"a step from t = {t} s by {H} s cannot be made: both must be finite and the step positive")
+    for body, state in zip(bodies, states, strict=False):
+        if not isfinite(
+            sum(state.position) + sum(state.attitude) + sum(state.velocity) + sum(state.rate)
+            + sum(state.impulse_applied)
+        ):  # fmt: skip
+            _refuse_not_finite(body.name, state, t)
+        speed, tip, place = hypot(*state.velocity), hypot(*state.rate) * body.reach, hypot(*state.position)
+        if speed > ABSURD_SPEED or tip > ABSURD_SPEED or place > ABSURD_PLACE:
+            quantity, value, unit, limit = (
+                ("velocity", speed, "m/s", ABSURD_SPEED) if speed > ABSURD_SPEED
+                else ("rate", tip, "m/s at the ship's ends", ABSURD_SPEED) if tip > ABSURD_SPEED
+                else ("position", place, "m from the origin", ABSURD_PLACE)
+            )  # fmt: skip
+            raise StepError(
+                f"{body.name}.{quantity} is {value:g} {unit} at t = {t} s, above {limit:g} {unit}: check the "
+                "signal and its unit"
+            )
+
+
+def _refuse_not_finite(name: str, state: ShipState, t: float) -> None:
+    for quantity in ("position", "attitude", "velocity", "rate", "impulse_applied"):
+        values = getattr(state, quantity)
+        if not all(map(isfinite, values)):
+            raise StepError(f"{name}.{quantity} = {values} at t = {t} s is not finite: check the ship model's output")
