@@ -5,7 +5,7 @@
     momentum   M nu of every ship, summed: linear in n [N s], angular in n about the scenario's origin [N m s]
     energy     1/2 nu' M nu of every ship [J]; what contact dissipated, along the normals and across them; what fenders
                hold and dissipated, which is counted apart
-    solver     answers of the contact solver that missed the law of contact by more than 1e-9 of the approach, and answers
+    solver     answers of the contact solver that missed the law by more than 1e-9 of the approach, and answers
                that were scaled back because they would have added energy
     obstacles  by name: impulse that it took, in n [N s]. It has no momentum of its own, so the ships' is not kept
                where one takes part: `closed` says whether momentum holds among the ships alone
