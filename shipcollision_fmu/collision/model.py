@@ -341,6 +341,8 @@ class ShipCollision:
 
     def _publish_contacts(self, t: float, slots: list[Slot]) -> None:
         out, latest = self.outputs, self._episodes.latest
+        if not slots and not out.contact_count and out.impact_count == self._episodes.impacts:
+            return  # nothing to show, and nothing shown: most steps
         slots = sorted(slots, key=lambda s: -float(np.linalg.norm(s.P)))[:SLOTS] if len(slots) > SLOTS else slots
         for k, place in enumerate(out.contacts):
             if k < len(slots):
