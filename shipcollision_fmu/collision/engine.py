@@ -24,6 +24,9 @@ from ..ship.hull import HullMesh
 __all__ = ["MARGIN", "BulletBody", "Closest", "Engine", "bullet_module"]
 
 
+Place = tuple[float, float, float]
+Quaternion = tuple[float, float, float, float]
+
 MARGIN = 0.001
 """PyBullet's collision margin [m], which it adds to every hull and which is taken off again here. It cannot be zero:
 without it Bullet returns wrong normals for faces that lie flat on each other."""
@@ -139,16 +142,18 @@ class Engine:
         p.setPhysicsEngineParameter(
             fixedTimeStep=h, numSolverIterations=50, erp=0.0, contactERP=0.0, frictionERP=0.0, physicsClientId=client
         )
-        made = []
-        for ship, body, (x, R_nb), nu in zip(ships, bodies, poses, twists, strict=True):
-            handle = self._dynamic_body(ship, body, friction, restitution)
-            made.append(handle)
-            velocity = R_nb @ (nu[:3] + np.cross(nu[3:], body.r_bg))
-            p.resetBasePositionAndOrientation(
-                handle, swapped(x + R_nb @ body.r_bg), quaternion_w(R_nb), physicsClientId=client
-            )
-            p.resetBaseVelocity(handle, swapped(velocity), swapped(R_nb @ nu[3:]), physicsClientId=client)
+        made = [
+            self._dynamic_body(ship, body, friction, restitution, swapped(x + R_nb @ body.r_bg), quaternion_w(R_nb))
+            for ship, body, (x, R_nb) in zip(ships, bodies, poses, strict=True)
+        ]
+        # A step at rest, blind to each other: until a body has made one, Bullet solves with the inertia of its shape at
+        # the attitude of its making, whatever it was told since.
+        p.setCollisionFilterPair(made[0], made[1], -1, -1, 0, physicsClientId=client)
+        p.stepSimulation(physicsClientId=client)
         p.setCollisionFilterPair(made[0], made[1], -1, -1, 1, physicsClientId=client)
+        for handle, body, (_, R_nb), nu in zip(made, bodies, poses, twists, strict=True):
+            velocity = R_nb @ (nu[:3] + np.cross(nu[3:], body.r_bg))
+            p.resetBaseVelocity(handle, swapped(velocity), swapped(R_nb @ nu[3:]), physicsClientId=client)
         p.stepSimulation(physicsClientId=client)
         rows = p.getContactPoints(made[0], made[1], physicsClientId=client)
         for handle in made:
@@ -168,14 +173,17 @@ class Engine:
         p.setCollisionFilterGroupMask(body, -1, 0, 0, physicsClientId=client)  # asked for by name only
         return body
 
-    def _dynamic_body(self, ship: int, body: BulletBody, friction: float, restitution: float) -> int:
+    def _dynamic_body(
+        self, ship: int, body: BulletBody, friction: float, restitution: float, position: Place, orientation: Quaternion
+    ) -> int:
         p, client = self._p, self._client
         key = (ship, body.r_bg.tobytes())
         if key not in self._dynamic_shapes:
             self._dynamic_shapes[key] = self._shape(np.vstack(self._hulls[ship].parts), body.r_bg)
         handle: int = p.createMultiBody(
-            body.mass, self._dynamic_shapes[key], useMaximalCoordinates=1, physicsClientId=client
-        )
+            body.mass, self._dynamic_shapes[key], basePosition=position, baseOrientation=orientation,
+            useMaximalCoordinates=1, physicsClientId=client,
+        )  # fmt: skip
         # The mass once more: with an inertia and without a mass, changeDynamics sets the mass to zero.
         p.changeDynamics(
             handle, -1, mass=body.mass, linearDamping=0.0, angularDamping=0.0, lateralFriction=friction**0.5,
