@@ -98,7 +98,7 @@ class ShipCollision:
         self._unconverged = self._scaled = 0
         self._residual, self._sweeps = 0.0, 0
         self._readings: dict[int, Reading] = {}
-        shadows = [self._received(i, 0.0) for i in range(n)] + self._walls
+        shadows = [self._received(i, 0.0, 0.0) for i in range(n)] + self._walls
         candidates = self._neighbours.candidates(shadows, self.inputs.ships, 0.0)
         self._publish(0.0, 0.0, shadows, [], candidates)
 
@@ -142,31 +142,30 @@ class ShipCollision:
         known = [
             None
             if self._seen[i] is None and self._books[i].is_quiet(feedback, state.impulse_applied)
-            else self._received(i, t)
+            else self._received(i, t, H)
             for i, state in enumerate(ships)
         ]
         candidates = self._neighbours.candidates(known, ships, H)
         met = {i for pair in candidates for i in pair}
         shadows = [
-            shadow if shadow is not None else self._received(i, t) if i in met else _ABSENT
+            shadow if shadow is not None else self._received(i, t, H) if i in met else _ABSENT
             for i, shadow in enumerate(known)
         ]
         return shadows + self._walls, candidates
 
-    def _received(self, i: int, t: float) -> Shadow:
+    def _received(self, i: int, t: float, H: float) -> Shadow:
         """Shadow of a ship at the received pose, with what is pending, and expected of other forces, in its twist."""
         state, body, feedback = self.inputs.ships[i], self._bodies[i], self.parameters.feedback
         nu, x = np.array(state.velocity + state.rate), np.array(state.position)
         shadow = Shadow.at(x, np.array(state.attitude), nu, body.M_inverse, body.bullet.r_bg)
-        reading = self._books[i].read(feedback, x, shadow.R, nu, np.array(state.impulse_applied), body.M)
-        late = reading.pending.any()
-        if late or reading.owed.any():
-            shadow.nu = nu + body.M_inverse @ (reading.pending + reading.owed)
+        applied = np.array(state.impulse_applied)
+        reading = self._books[i].read(feedback, x, shadow.R, nu, applied, body.M, body.M_inverse, H)
+        shadow.nu = reading.nu + body.M_inverse @ reading.owed if reading.owed.any() else reading.nu
         if (before := self._seen[i]) is not None and feedback == "ledger":
             found = drift(before, _seen(t, 0.0, state), body.M_inverse, body.bullet.r_bg, body.reach)
             if found is not None:
                 shadow.drift = found.mean
-                if late:  # a parallel master: what is issued now is applied to a ship that has gone on
+                if reading.pending.any():  # a parallel master: what is issued now is applied to a ship that has gone on
                     shadow.nu = shadow.nu + found.gain
         shadow.nu_received = shadow.nu
         self._readings[i] = reading
@@ -323,8 +322,7 @@ class ShipCollision:
                 out.force[:] = _NO_FORCE
                 continue
             books, reading = self._books[i], self._readings[i]
-            begun = reading.nu if not reading.pending.any() else reading.nu + shadow.M_inverse @ reading.pending
-            books.close(reading, shadow.issued, shadow.nu_received, shadow.ahead(begun, H))
+            books.close(reading, shadow.issued, shadow.nu_received, shadow.ahead(reading.nu, H))
             out.impulse[:] = books.issued.tolist()
             out.force[:] = (shadow.issued / H).tolist() if shadow.issued.any() else _NO_FORCE
             self._seen[i] = _seen(t - H, H, state) if i in colliding else None
