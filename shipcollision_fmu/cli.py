@@ -42,6 +42,7 @@ class _Path(click.Path):
 
 
 _PATH = _Path(path_type=Path)
+_FMI = click.Choice(["2", "3"])
 
 
 class _Commands(click.Group):
@@ -94,7 +95,8 @@ def main(ctx: click.Context) -> None:
 @click.option("--algorithm", type=click.Choice(["gauss-seidel", "jacobi"]), help="Instead of the scenario's.")
 @click.option("--step", type=float, metavar="S", help="Communication step in seconds, instead of the scenario's.")
 @click.option("--in-process", is_flag=True, help="Drive the models without FMI; gives the same bits.")
-def run(scenario: str, out: Path | None, algorithm: str | None, step: float | None, in_process: bool) -> None:
+@click.option("--fmi", type=_FMI, default="2", show_default=True, help="Version of the FMUs; gives the same bits.")
+def run(scenario: str, out: Path | None, algorithm: str | None, step: float | None, in_process: bool, fmi: str) -> None:
     """Co-simulate SCENARIO and store what happened.
 
     SCENARIO is a name that `shipcollision scenarios` lists, or the path of a TOML file. Without one it is guan2014, the
@@ -105,12 +107,14 @@ def run(scenario: str, out: Path | None, algorithm: str | None, step: float | No
     from .cosim.scenario import load_scenario
     from .cosim.simulate import simulate
 
+    if in_process and fmi != "2":
+        raise click.UsageError("--in-process runs without FMI: leave out --fmi")
     require_pybullet()
     loaded = load_scenario(scenario)
     folder = out if out is not None else Path("runs") / loaded.name
     with _progress(loaded.name) as progress:
         finished = simulate(
-            loaded, algorithm=algorithm, step=step, in_process=in_process, out=folder, progress=progress
+            loaded, algorithm=algorithm, step=step, in_process=in_process, fmi=int(fmi), out=folder, progress=progress
         )
     console = _console()
     for table in tables(finished):
@@ -122,13 +126,18 @@ def run(scenario: str, out: Path | None, algorithm: str | None, step: float | No
 
 @main.command()
 @click.option("--out", type=_PATH, default=Path("build"), show_default=True, help="Folder.")
-def build(out: Path) -> None:
-    """Build ShipCollision.fmu and ShipManoeuvring.fmu."""
+@click.option("--fmi", type=_FMI, default="2", show_default=True, help="Version of FMI.")
+def build(out: Path, fmi: str) -> None:
+    """Build ShipCollision.fmu and ShipManoeuvring.fmu.
+
+    With --fmi 3 they are called ShipCollision.fmi3.fmu and ShipManoeuvring.fmi3.fmu, so that both versions may lie in
+    one folder. FMI 3.0 needs `pip install 'shipcollision-fmu[fmi3]'`.
+    """
     from .cosim.fmu_files import require_pybullet
     from .fmi.package import build_fmus
 
     require_pybullet()
-    for path in build_fmus(out).values():
+    for path in build_fmus(out, fmi=int(fmi)).values():
         click.echo(path)
 
 
