@@ -70,9 +70,9 @@ def to_bytes(description: Element) -> bytes:
     return f'<?xml version="1.0" encoding="UTF-8"?>\n{text}\n'.encode()
 
 
-def add_units(root: Element, table: Table) -> None:
-    """UnitDefinitions of the units in use; the same in FMI 2.0 and 3.0."""
-    used = sorted({variable.unit for variable in table if variable.unit is not None})
+def add_units(root: Element, table: Table, *others: str) -> None:
+    """UnitDefinitions of the units in use, and of `others`; the same in FMI 2.0 and 3.0."""
+    used = sorted({variable.unit for variable in table if variable.unit is not None} | set(others))
     if not used:
         return
     definitions = SubElement(root, "UnitDefinitions")

@@ -26,6 +26,7 @@ TYPES: dict[Kind, str] = {
 }  # fmt: skip
 """What a kind of variable is called in FMI 3.0."""
 
+_SECOND = "s"  # the unit of the time, which is not in the table
 _CAPABILITIES = {
     "needsExecutionTool": True,  # a Python interpreter with the packages of resources/requirements.txt
     "canBeInstantiatedOnlyOncePerProcess": False,
@@ -59,7 +60,7 @@ def model_description(interface: Interface, ships: tuple[str, ...], token: str) 
     })  # fmt: skip
     capabilities = {name: str(able).lower() for name, able in _CAPABILITIES.items()}
     SubElement(root, "CoSimulation", {"modelIdentifier": interface.name, **capabilities})
-    add_units(root, table)
+    add_units(root, table, _SECOND)
     add_types(root, table, _enumeration)
     add_categories(root)
     SubElement(root, "DefaultExperiment", {"startTime": "0", "stepSize": number(interface.step_size)})
@@ -70,7 +71,7 @@ def model_description(interface: Interface, ships: tuple[str, ...], token: str) 
         "description": "End of the last step; 0 before the first",
         "causality": "independent",
         "variability": "continuous",
-        "unit": "s",
+        "unit": _SECOND,
     })  # fmt: skip
     for reference, array in enumerate(gathered, TIME + 1):
         _variable(variables, reference, array, ports)

@@ -24,8 +24,9 @@ from pythonfmu3.fmi3slave import Fmi3Slave, Fmi3StepResult
 from shipcollision_fmu.errors import InputError
 from shipcollision_fmu.fmi.arrays import TIME, ArrayVariable, arrays
 from shipcollision_fmu.fmi.model_description import LOG_CATEGORIES
-from shipcollision_fmu.fmi.model_description_fmi3 import model_description
+from shipcollision_fmu.fmi.model_description_fmi3 import TYPES, model_description
 from shipcollision_fmu.fmi.slave_base import SlaveBase
+from shipcollision_fmu.fmi.variables import Kind
 
 __all__ = ["ModelSlave3"]
 
@@ -44,7 +45,7 @@ class ModelSlave3(SlaveBase, Fmi3Slave):  # type: ignore[misc]  # pythonfmu3 has
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self._arrays = arrays(self.ports.table)
-        self._plans: dict[tuple[int, ...], list[int]] = {}
+        self._plans: dict[tuple[str | int, ...], list[int]] = {}
         self._time = 0.0
 
     def to_xml(self, model_options: Any = None) -> Element:
@@ -77,12 +78,12 @@ class ModelSlave3(SlaveBase, Fmi3Slave):  # type: ignore[misc]  # pythonfmu3 has
 
     def get_boolean(self, vrs: list[int]) -> list[bool]:
         """Values of Booleans; false when refused."""
-        values = self.answered(lambda vrs: self.ports.get_boolean(self._scalars(vrs)), vrs)
+        values = self.answered(lambda vrs: self.ports.get_boolean(self._scalars(vrs, "Boolean")), vrs)
         return (values or []) + [False] * self._spare(values)
 
     def get_string(self, vrs: list[int]) -> list[str]:
         """Values of Strings; empty when refused."""
-        values = self.answered(lambda vrs: self.ports.get_string(self._scalars(vrs)), vrs)
+        values = self.answered(lambda vrs: self.ports.get_string(self._scalars(vrs, "String")), vrs)
         return (values or []) + [""] * self._spare(values)
 
     def get_uint64(self, vrs: list[int]) -> list[Any]:
@@ -92,23 +93,23 @@ class ModelSlave3(SlaveBase, Fmi3Slave):  # type: ignore[misc]  # pythonfmu3 has
 
     def set_float64(self, vrs: list[int], values: list[float]) -> None:
         """Set Float64."""
-        self.given(lambda vrs, values: self.ports.set_real(self._settable(vrs), values), vrs, values)
+        self.given(lambda vrs, values: self.ports.set_real(self._scalars(vrs, "Real"), values), vrs, values)
 
     def set_int32(self, vrs: list[int], values: list[int]) -> None:
         """Set Int32."""
-        self.given(lambda vrs, values: self.ports.set_integer(self._of(vrs, "Integer"), values), vrs, values)
+        self.given(lambda vrs, values: self.ports.set_integer(self._scalars(vrs, "Integer"), values), vrs, values)
 
     def set_int64(self, vrs: list[int], values: list[int]) -> None:
         """Set Enumerations."""
-        self.given(lambda vrs, values: self.ports.set_integer(self._of(vrs, "Enumeration"), values), vrs, values)
+        self.given(lambda vrs, values: self.ports.set_integer(self._scalars(vrs, "Enumeration"), values), vrs, values)
 
     def set_boolean(self, vrs: list[int], values: list[bool]) -> None:
         """Set Booleans."""
-        self.given(lambda vrs, values: self.ports.set_boolean(self._settable(vrs), values), vrs, values)
+        self.given(lambda vrs, values: self.ports.set_boolean(self._scalars(vrs, "Boolean"), values), vrs, values)
 
     def set_string(self, vrs: list[int], values: list[str]) -> None:
         """Set Strings."""
-        self.given(lambda vrs, values: self.ports.set_string(self._settable(vrs), values), vrs, values)
+        self.given(lambda vrs, values: self.ports.set_string(self._scalars(vrs, "String"), values), vrs, values)
 
     def set_uint64(self, vrs: list[int], values: list[int]) -> None:
         """There are none."""
@@ -161,48 +162,39 @@ class ModelSlave3(SlaveBase, Fmi3Slave):  # type: ignore[misc]  # pythonfmu3 has
         self.log(line, Fmi3Status.error)
 
     def _float64(self, vrs: Sequence[int]) -> list[float]:
-        values = self.answered(lambda vrs: self.ports.get_real(self._scalars(vrs)), vrs)
+        values = self.answered(lambda vrs: self.ports.get_real(self._scalars(vrs, "Real")), vrs)
         return [math.nan] * self._spare(None) if values is None else values
 
-    def _numbers(self, vrs: list[int], kind: str) -> list[int]:
-        values = self.answered(lambda vrs: self.ports.get_integer(self._of(vrs, kind)), vrs)
+    def _numbers(self, vrs: list[int], kind: Kind) -> list[int]:
+        values = self.answered(lambda vrs: self.ports.get_integer(self._scalars(vrs, kind)), vrs)
         return [0] * self._spare(None) if values is None else values
 
     def _spare(self, values: Sequence[Any] | None) -> int:
         """Values to add to an answer; nobody knows how many the host waits for when it is refused."""
         return _SPARE if values is not None else _SPARE + len(self.ports.table)
 
-    def _settable(self, vrs: Sequence[int]) -> list[int]:
-        if TIME in vrs:
-            raise InputError(f"{self._made_from.name}: time is the independent variable and cannot be set")
-        return self._scalars(vrs)
-
-    def _of(self, vrs: Sequence[int], kind: str) -> list[int]:
-        """As _scalars, of Int32 or of Enumerations alone: the ports know both as integers."""
-        for vr in vrs:
-            found = self._array(vr).line
-            if found.kind != kind:
-                raise InputError(f"{self._made_from.name}: {found.name} (value reference {vr}) is not {kind}")
-        return self._scalars(vrs)
-
-    def _scalars(self, vrs: Sequence[int]) -> list[int]:
-        """References in the table of all elements, one after the other."""
-        wanted = tuple(vrs)
+    def _scalars(self, vrs: Sequence[int], kind: Kind) -> list[int]:
+        """References in the table of all elements, one after the other. Raises InputError for one of another kind."""
+        wanted = (kind, *vrs)
         plan = self._plans.get(wanted)
         if plan is None:
-            plan = [scalar for vr in wanted for scalar in self._array(vr).references]
+            plan = [scalar for vr in vrs for scalar in self._array(vr, kind).references]
             if len(self._plans) >= _PLANS:
                 self._plans.clear()
             self._plans[wanted] = plan
         return plan
 
-    def _array(self, vr: int) -> ArrayVariable:
+    def _array(self, vr: int, kind: Kind) -> ArrayVariable:
+        name = self._made_from.name
         if vr == TIME:
-            raise InputError(f"{self._made_from.name}: time (value reference {TIME}) is Float64")
+            raise InputError(f"{name}: time (value reference {TIME}) is the independent variable: it is only read")
         if not 1 <= vr <= len(self._arrays):
-            last = len(self._arrays)
-            raise InputError(f"{self._made_from.name}: value reference {vr} is unknown; it has 0 to {last}")
-        return self._arrays[vr - TIME - 1]
+            raise InputError(f"{name}: value reference {vr} is unknown; it has 0 to {len(self._arrays)}")
+        array = self._arrays[vr - TIME - 1]
+        if array.line.kind != kind:
+            is_, called = TYPES[array.line.kind], TYPES[kind]
+            raise InputError(f"{name}: {array.name} (value reference {vr}) is {is_}, not {called}")
+        return array
 
     def _no(self, what: str, number: int = _SPARE) -> list[float]:
         self._refuse(InputError(f"{self._made_from.name} is for co-simulation and has no {what}"))

@@ -48,6 +48,17 @@ def dummy_fmu(dummy: ModuleType, tmp_path_factory: pytest.TempPathFactory) -> Pa
 
 
 @pytest.fixture(scope="session")
+def unpacked3(dummy: ModuleType, tmp_path_factory: pytest.TempPathFactory, _tidy_path: None) -> Path:
+    """The dummy for FMI 3.0: the same text with the other base."""
+    text = DUMMY.read_text(encoding="utf-8")
+    text = text.replace("fmi.slave import ModelSlave", "fmi.slave_fmi3 import Fmi3Slave, ModelSlave3")
+    text = text.replace("class Dummy(ModelSlave)", "class Dummy(ModelSlave3, Fmi3Slave)")
+    path = tmp_path_factory.mktemp("fmu3") / "Dummy.fmi3.fmu"
+    path.write_bytes(fmu_bytes(dummy.INTERFACE, text.encode(), fmi=3))
+    return Path(extract(path, tmp_path_factory.mktemp("unpacked3")))
+
+
+@pytest.fixture(scope="session")
 def _tidy_path() -> Iterator[None]:
     """The wrapper leaves the resources of every FMU on sys.path."""
     before = list(sys.path)
