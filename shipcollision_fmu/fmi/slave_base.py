@@ -18,8 +18,9 @@ from __future__ import annotations
 
 import ctypes
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
+from hashlib import sha256
 from importlib import import_module
 from typing import Any, ClassVar, TypeVar
 
@@ -27,10 +28,14 @@ from shipcollision_fmu.errors import InputError, ShipCollisionError, StepError
 from shipcollision_fmu.fmi.build_record import confirmed
 from shipcollision_fmu.fmi.interface import SHIPS, Interface
 from shipcollision_fmu.fmi.ports import Ports
+from shipcollision_fmu.fmi.wrapper_library import let_go
 
-__all__ = ["SlaveBase", "keep"]
+__all__ = ["SlaveBase", "keep", "state_from_bytes", "state_to_bytes"]
 
 T = TypeVar("T")
+
+_DIGEST = 64
+"""Characters of a digest."""
 
 INSTANTIATED, INITIALISING, RUNNING, TERMINATED = "instantiated", "initialising", "running", "terminated"
 """Phases of an instance, between which FMI has one way: reset or a restored state lead back."""
@@ -64,6 +69,7 @@ class SlaveBase:
         if self.resources is not None:
             record = confirmed(str(self.resources), self.wrapper)
             self._ships, self.guid = record.ships, record.guid
+            let_go(str(self.resources))
         made_from = self.interface
         self._made_from: Interface = import_module(made_from).INTERFACE if isinstance(made_from, str) else made_from
         self.ports = self._made_from.ports(self._ships)
@@ -160,15 +166,14 @@ class SlaveBase:
 
     @staticmethod
     def _fmu_state_to_bytes(state: dict[str, Any]) -> bytes:
-        return json.dumps(state, separators=(",", ":")).encode()  # floats as repr: exact
+        return state_to_bytes(state)
 
     @staticmethod
     def _fmu_state_from_bytes(state: bytes) -> dict[str, Any]:
         try:
-            read = json.loads(state)
-        except (ValueError, RecursionError) as error:
-            return {"of": f"bytes that are no state: {error}"}  # refused by whoever restores it
-        return read if isinstance(read, dict) else {"of": "bytes that are no state"}
+            return state_from_bytes(state)
+        except InputError as error:
+            return {"of": str(error)}  # refused by whoever restores it
 
     def __del__(self) -> None:
         """The host has freed the instance."""
@@ -185,6 +190,23 @@ class SlaveBase:
     def _text(line: str) -> str:
         """A line as the host's logger takes it."""
         return line
+
+
+def state_to_bytes(state: Mapping[str, Any]) -> bytes:
+    """A saved state as bytes: a digest and JSON, with floats as repr, which is exact."""
+    text = json.dumps(state, separators=(",", ":")).encode()
+    return sha256(text).hexdigest().encode() + text
+
+
+def state_from_bytes(data: bytes) -> dict[str, Any]:
+    """The state that the bytes are of. Raises InputError for damaged bytes, and for what was never a state."""
+    digest, text = data[:_DIGEST], data[_DIGEST:]
+    if sha256(text).hexdigest().encode() != digest:
+        raise InputError("bytes that are no state, or damaged ones")
+    read = json.loads(text)
+    if not isinstance(read, dict):
+        raise InputError("bytes that are no state")
+    return read
 
 
 def keep(lost: object) -> None:

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from ctypes import c_uint64
 from typing import Any
 from xml.etree.ElementTree import Element
 
@@ -86,10 +87,10 @@ class ModelSlave3(SlaveBase, Fmi3Slave):  # type: ignore[misc]  # pythonfmu3 has
         values = self.answered(lambda vrs: self.ports.get_string(self._scalars(vrs, "String")), vrs)
         return (values or []) + [""] * self._spare(values)
 
-    def get_uint64(self, vrs: list[int]) -> list[Any]:
+    def get_uint64(self, vrs: list[int]) -> list[c_uint64]:
         """There are none."""
         self.answered(lambda vrs: self._no_uint64(), vrs)
-        return []
+        return [c_uint64(0)] * self._spare(None)
 
     def set_float64(self, vrs: list[int], values: list[float]) -> None:
         """Set Float64."""
