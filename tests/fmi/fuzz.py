@@ -1,9 +1,10 @@
+# ruff: noqa: T201 - a program that prints
 """Random calls with random values on an FMU, through its C interface.
 
     python tests/fmi/fuzz.py FOLDER STATES.json --seed 17 --count 1 --trace
 
 FOLDER is an unpacked FMU of FMI 2.0 or 3.0 for co-simulation, STATES.json a list of its states, serialised, as
-base64. A sequence, made by its seed alone:
+base64. The calls of a sequence follow from its seed alone; the instance is mostly that of the sequence before:
 
     restore one of the states;  random calls;  restore the state again (from the handle, from bytes, after reset, or in
     a new instance);  one step, after which every value must be what it was without the calls, to the bit
@@ -44,7 +45,7 @@ STRINGS = [
 STEPS = [0.05, 0.05, 0.05, 0.01, 0.0, -0.05, math.nan, math.inf, 1e-300, 1e300]
 
 
-class Wrong(Exception):
+class Wrong(Exception):  # noqa: N818 - what the line that is printed says
     """A sequence that did not end as it must."""
 
 
@@ -192,13 +193,16 @@ class Fuzzer:
     def __init__(self, fmu: Fmu, states: list[bytes], trace: bool) -> None:
         self.fmu, self.states, self.trace = fmu, states, trace
         self.refused = self.steps = 0
+        self.component: Any = None
+        self.handles: list[pointer] = []
         self.expected = [self._continued(state) for state in states]
 
     def sequence(self, seed: int) -> None:
-        """One sequence. Raises Wrong."""
+        """One sequence, mostly on the instance of the one before. Raises Wrong."""
         self.random = random.Random(seed)
-        self.component = self.fmu.instantiate(self.random.random() < 0.8)
-        self.handles: list[pointer] = []
+        if self.component is None or self.random.random() < 0.1:
+            self.close()
+            self.component = self.fmu.instantiate(self.random.random() < 0.8)
         try:
             which = self.random.randrange(len(self.states))
             self._restore(self.states[which])
@@ -208,10 +212,19 @@ class Fuzzer:
                 self._anything()
             self._recover(which, kept)
         finally:
-            for handle in self.handles:
-                self.fmu.freed(self.component, handle)
-            self.fmu.free(self.component)
+            self._forget()
             self.fmu.said.clear()
+
+    def close(self) -> None:
+        """Free the instance."""
+        if self.component is not None:
+            self.fmu.free(self.component)
+            self.component = None
+
+    def _forget(self) -> None:
+        for handle in self.handles:
+            self.fmu.freed(self.component, handle)
+        self.handles.clear()
 
     def _recover(self, which: int, kept: pointer) -> None:
         """Back to the state in one of the ways that FMI has; then the step must be the one that was not disturbed."""
@@ -229,10 +242,8 @@ class Fuzzer:
         else:
             data = self.fmu.to_bytes(self.component, kept)
             if way == "new instance":
-                for handle in self.handles:
-                    self.fmu.freed(self.component, handle)
-                self.handles.clear()
-                self.fmu.free(self.component)
+                self._forget()
+                self.close()
                 self.component = self.fmu.instantiate(True)
             self._restore(data)
         if self._stepped() != self.expected[which]:
@@ -240,12 +251,11 @@ class Fuzzer:
 
     def _continued(self, state: bytes) -> str:
         """Everything after one step from a state in a fresh instance."""
-        self.component, self.handles = self.fmu.instantiate(True), []
+        self.close()
+        self.component = self.fmu.instantiate(True)
         self._restore(state)
         values = self._stepped()
-        for handle in self.handles:
-            self.fmu.freed(self.component, handle)
-        self.fmu.free(self.component)
+        self._forget()
         return values
 
     def _stepped(self) -> str:
@@ -360,16 +370,16 @@ class Fuzzer:
     def _unsupported(self) -> None:
         one, none = (c_uint * 1)(0), c_size_t(0)
         if self.fmu.fmi == 2:
+            two, many = (c_double * 1)(), c_size_t(1)
             calls = [
                 lambda: self.fmu.call("CancelStep")(self.component),
-                lambda: self.fmu.call("GetRealOutputDerivatives")(self.component, one, c_size_t(1), one, (c_double * 1)()),
-                lambda: self.fmu.call("SetRealInputDerivatives")(self.component, one, c_size_t(1), one, (c_double * 1)()),
-                lambda: self.fmu.call("GetDirectionalDerivative")(
-                    self.component, one, c_size_t(1), one, c_size_t(1), (c_double * 1)(), (c_double * 1)()
+                lambda: self.fmu.call("GetRealOutputDerivatives")(self.component, one, many, one, two),
+                lambda: self.fmu.call("SetRealInputDerivatives")(self.component, one, many, one, two),
+                lambda: self.fmu.call("GetDirectionalDerivative")(self.component, one, many, one, many, two, two),
+                lambda: self.fmu.call(f"Get{self.random.choice(['', 'Real', 'Integer', 'Boolean'])}Status")(
+                    self.component, self.random.choice([0, 2, 3, 9]), byref(two)
                 ),
-                *(lambda kind=kind, what=what: self.fmu.call(f"Get{kind}Status")(self.component, what, byref(c_double()))
-                  for kind in ("", "Real", "Integer", "Boolean") for what in (0, 2, 3, 9)),
-            ]  # fmt: skip
+            ]
         else:
             calls = [
                 lambda: self.fmu.call("GetDirectionalDerivative")(
@@ -412,6 +422,7 @@ def main() -> None:
         except Wrong as error:
             print(f"wrong at seed {seed}: {error}")
             sys.exit(1)
+    fuzzer.close()
     print(f"done: {options.count} sequences, {fuzzer.steps} random steps made, {fuzzer.refused} refused")
     print(f"slowest: {slowest[0]:.3f} s with seed {slowest[1]}")
 
