@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import json
 import sys
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, fields
 from functools import cache
 from hashlib import sha256
 from pathlib import Path
@@ -51,9 +51,14 @@ class BuildRecord:
 
     @classmethod
     def from_json(cls, text: str | bytes) -> BuildRecord:
-        """Raises ValueError, KeyError or TypeError for anything else than a record."""
+        """Raises ValueError, KeyError or TypeError for anything else than a record.
+
+        What another version of the package records besides is left out, and what it does not is empty: it is read to
+        say which version that is.
+        """
         data = json.loads(text)
-        return cls(**{**data, "ships": tuple(data["ships"])})
+        known = {"inputs": "", "wrapper": "", **{f.name: data[f.name] for f in fields(cls) if f.name in data}}
+        return cls(**{**known, "ships": tuple(data["ships"])})
 
 
 def package_directory() -> Path:

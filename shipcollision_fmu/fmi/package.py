@@ -8,7 +8,7 @@ digest of everything else.
     modelDescription.xml
     binaries/linux64|win64/NAME.*           pythonfmu's wrapper (FMI 3.0: x86_64-linux|windows, pythonfmu3's)
     documentation/                          a page for people, licences
-    resources/slavemodule.txt, NAME.py      where the wrapper starts (FMI 3.0: NAME_DIGEST.py)
+    resources/slavemodule.txt, NAME_*.py    where the wrapper starts; * is a digest
     resources/pythonfmu/, shipcollision_fmu/, models/
     resources/build.json                    what it was built from (build_record)
     resources/requirements.txt              what the host's Python must have
@@ -99,7 +99,7 @@ def fmu_bytes(interface: Interface, slave: bytes, ships: tuple[str, ...] = SHIPS
     version, name = VERSIONS[fmi], interface.name
     contents = build_record.contents_digest(package_directory())
     inputs = _inputs(contents, slave, ships, version)
-    module = name if fmi == 2 else f"{name}_{inputs[:12]}"
+    module = f"{name}_{inputs[:12]}"  # of its own: another FMU's module of the same name would run in its place
     files = {
         **_sources(),
         **_wrapper(version.wrapper, name),

@@ -67,9 +67,9 @@ class SlaveBase:
         self._ships: tuple[str, ...] = SHIPS
         self.guid = ""
         if self.resources is not None:
+            let_go(str(self.resources))
             record = confirmed(str(self.resources), self.wrapper)
             self._ships, self.guid = record.ships, record.guid
-            let_go(str(self.resources))
         made_from = self.interface
         self._made_from: Interface = import_module(made_from).INTERFACE if isinstance(made_from, str) else made_from
         self.ports = self._made_from.ports(self._ships)
