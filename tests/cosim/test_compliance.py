@@ -79,9 +79,8 @@ def renamed(folder: Path) -> Path:
     return path
 
 
-TYPES = (
-    '<SimpleType name="T"><Enumeration><Item name="a" value="1"/><Item name="b" value="1"/></Enumeration></SimpleType>'
-)
+ITEMS = '<Item name="a" value="1"/><Item name="b" value="1"/>'
+TYPES = f'<SimpleType name="T"><Enumeration>{ITEMS}</Enumeration></SimpleType>'
 BROKEN = {
     "units": [(2, ('unit="m/s" ', ""), "without a unit: velocity.surge, velocity.sway, velocity.heave"),
               (3, ('unit="m/s"', ""), "without a unit: velocity, current, wind.speed, initial.velocity")],
