@@ -11,7 +11,9 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from ctypes import CDLL
 from dataclasses import dataclass
+from functools import lru_cache
 from types import ModuleType
 from typing import Any
 
@@ -99,6 +101,7 @@ class Engine:
         """Leave the Bullet world; safe to call twice."""
         if self._client >= 0 and self._p.isConnected(self._client):
             self._p.disconnect(self._client)
+            _give_back_memory()
         self._client = -1
 
     def place(self, ship: int, x: Array, R_nb: Array) -> None:
@@ -162,8 +165,9 @@ class Engine:
 
     def _shape(self, vertices: Array, r_origin: Array | float = 0.0) -> int:
         """Collision shape of a vertex set (n, 3) in b, seen from the point r_origin [m] in b."""
+        seen = (vertices - r_origin) @ SWAP
         shape: int = self._p.createCollisionShape(
-            self._p.GEOM_MESH, vertices=((vertices - r_origin) @ SWAP).tolist(), physicsClientId=self._client
+            self._p.GEOM_MESH, vertices=_listed(seen.tobytes()), physicsClientId=self._client
         )
         return shape
 
@@ -191,6 +195,22 @@ class Engine:
             localInertiaDiagonal=np.abs(swapped(body.inertia)).tolist(), physicsClientId=client,
         )  # fmt: skip
         return handle
+
+
+def _give_back_memory() -> None:
+    """Return freed memory to the system: a world has 30 MB of buffers, and glibc keeps them for the process. Takes
+    some milliseconds; where the C library is another, nothing is done."""
+    trim = getattr(CDLL(None), "malloc_trim", None)
+    if trim is not None:
+        trim(0)
+
+
+@lru_cache(maxsize=512)
+def _listed(vertices: bytes) -> list[list[float]]:
+    """Vertices (n, 3) as lists, the same object for the same hull: pybullet 3.2 never gives back the references that it
+    takes to the numbers, and would keep a copy of every hull of every world."""
+    listed: list[list[float]] = np.frombuffer(vertices).reshape(-1, 3).tolist()
+    return listed
 
 
 def _contact_row(row: Sequence[Any], h: float) -> tuple[Array, Array, Array, float, Array]:

@@ -56,6 +56,9 @@ __all__ = ["ShipCollision"]
 CONVERGED = 1e-9
 """Residual of the solver, as a share of the approach, above which an answer counts as not converged."""
 
+MAXIMUM_SUBSTEPS = 10_000
+"""Of one communication step in which hulls are near each other: 100 s at 0.01 s. More is a mistake in a unit."""
+
 _NO_FORCE = (0.0,) * 6
 _ABSENT = Shadow.wall(np.zeros(3), 0.0)  # stands for a ship that is far from all others
 
@@ -356,7 +359,10 @@ class ShipCollision:
     # -- state --------------------------------------------------------------------------------------
 
     def get_state(self) -> dict[str, Any]:
-        """What the outputs do not show: the ships' books, energy in fenders, kept normals, warm starts, episodes."""
+        """What the outputs do not show: the ships' books, energy in fenders, kept normals, warm starts, episodes. Empty
+        before initialise()."""
+        if self._detector is None:
+            return {}
         return {
             "books": [books.get_state() for books in self._books],
             "energy": self._energy.tolist(),
@@ -371,6 +377,9 @@ class ShipCollision:
 
     def set_state(self, state: dict[str, Any]) -> None:
         """Back to a state of get_state, exact to the bit."""
+        if not state:
+            self.close()
+            return
         for books, saved in zip(self._books, state["books"], strict=True):
             books.set_state(saved)
         self._energy = np.array(state["energy"])
@@ -386,8 +395,13 @@ class ShipCollision:
 def _substeps(H: float, substep: float) -> tuple[int, float]:
     """Number and length of the substeps of H [s]: of `substep` exactly where H is a multiple of it, else of H / n.
 
-    A master's step has jitter in its last bits; it must not reach the contact solver.
+    A master's step has jitter in its last bits; it must not reach the contact solver. Raises StepError for too many.
     """
+    if not H / substep <= MAXIMUM_SUBSTEPS:
+        raise StepError(
+            f"a step of {H:g} s takes {H / substep:.3g} substeps of {substep:g} s, at most {MAXIMUM_SUBSTEPS} where "
+            "hulls are near: take shorter steps, or a longer substep"
+        )
     n = max(1, round(H / substep))
     if abs(H - n * substep) <= 1e-6 * substep:
         return n, substep

@@ -32,9 +32,9 @@ from fmpy.fmi2 import (
 from ..errors import HostError, StepError
 from .component import Buffer, Group, Value, item_number
 
-__all__ = ["FmuComponent", "UnpackedFmu"]
+__all__ = ["REMEDY", "FmuComponent", "UnpackedFmu", "told"]
 
-_REMEDY = "build it again with `shipcollision build`"
+REMEDY = "build it again with `shipcollision build`"
 _WRAPPER = re.compile(r"^Fatal py exception encountered: \[\w+\] (PyObject_CallMethod )?")
 _SILENT = {2: "discarded", 3: "error", 4: "fatal error", 5: "pending"}
 
@@ -50,7 +50,7 @@ class UnpackedFmu:
             self.description = read_model_description(str(self.directory), validate=False)
         except Exception as error:  # fmpy and zipfile raise many kinds; all mean the same to a user
             self.close()
-            raise HostError(f"{file} cannot be read as an FMU: {error}; {_REMEDY}") from None
+            raise HostError(f"{file} cannot be read as an FMU: {error}; {REMEDY}") from None
         self.variables = {variable.name: variable for variable in self.description.modelVariables}
 
     def close(self) -> None:
@@ -131,7 +131,7 @@ class FmuComponent:
 
     def _set(self, name: str, value: Value) -> None:
         if name not in self._variables:
-            raise HostError(f"{self.name}: the FMU has no variable {name!r}; {_REMEDY}")
+            raise HostError(f"{self.name}: the FMU has no variable {name!r}; {REMEDY}")
         variable = self._variables[name]
         reference = (c_uint * 1)(variable.valueReference)
         dll, component = self._fmu.dll, self._component
@@ -153,7 +153,7 @@ class FmuComponent:
             variable = self._variables.get(name)
             if variable is None or variable.type not in types:
                 kind = " or ".join(sorted(types))
-                raise HostError(f"{self.name}: the FMU has no {kind} {name!r}; {_REMEDY}")
+                raise HostError(f"{self.name}: the FMU has no {kind} {name!r}; {REMEDY}")
             references[i] = variable.valueReference
         return references
 
@@ -174,10 +174,14 @@ class FmuComponent:
         return callbacks
 
     def _said(self, status: int, doing: str = "") -> str:
-        """The FMU's last message, in one line, without what pythonfmu's wrapper puts before it."""
-        if not self._messages:
-            return f"{doing}{_SILENT[status]}, without a message"
-        return _WRAPPER.sub("", " ".join(self._messages[-1].split()))
+        return told(self._messages, status, doing)
+
+
+def told(messages: Sequence[str], status: int, doing: str = "") -> str:
+    """An FMU's last message, in one line, without what the wrapper puts before it."""
+    if not messages:
+        return f"{doing}{_SILENT[status]}, without a message"
+    return _WRAPPER.sub("", " ".join(messages[-1].split()))
 
 
 class _FmuGroup:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from ..errors import HostError
 from ..fmi.interface import SHIPS
-from ..fmi.package import build_fmus, fmus_current
+from ..fmi.package import FMUS, build_fmus, fmu_file, fmus_current
 
 __all__ = ["fmu_directory", "ready_fmus", "require_pybullet"]
 
@@ -34,9 +34,9 @@ def fmu_directory(ships: tuple[str, ...] = SHIPS) -> Path:
     return home if ships == SHIPS else home / "-".join(ships)
 
 
-def ready_fmus(ships: tuple[str, ...] = SHIPS) -> dict[str, Path]:
-    """Both FMUs by name, up to date. Raises HostError when they cannot be built."""
+def ready_fmus(ships: tuple[str, ...] = SHIPS, fmi: int = 2) -> dict[str, Path]:
+    """Both FMUs by name, up to date, for FMI 2.0 or 3.0. Raises HostError when they cannot be built."""
     directory = fmu_directory(ships)
-    if not fmus_current(directory, ships=ships):
-        return build_fmus(directory, ships=ships)
-    return {name: directory / f"{name}.fmu" for name in ("ShipCollision", "ShipManoeuvring")}
+    if not fmus_current(directory, ships=ships, fmi=fmi):
+        return build_fmus(directory, ships=ships, fmi=fmi)
+    return {name: directory / fmu_file(name, fmi) for name in FMUS}

@@ -20,10 +20,14 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ..errors import ScenarioError
+from ..fmi.interface import SHIPS, Interface
+from ..fmi.package import VERSIONS
 from ..fmi.ship_collision import INTERFACE as COLLISION
 from ..fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
 from .component import Component, InProcessComponent
 from .events import events
+from .fmi3_component import Fmi3Component
 from .fmu_component import FmuComponent, UnpackedFmu
 from .fmu_files import ready_fmus, require_pybullet
 from .folder import check_writable, write_files
@@ -77,18 +81,22 @@ def simulate(
     algorithm: str | None = None,
     step: float | None = None,
     in_process: bool = False,
+    fmi: int = 2,
     out: str | Path | None = None,
     progress: Progress | None = None,
 ) -> Run:
     """Run a scenario (or the one of that name or path), through the FMUs or in process; write it to `out` if given.
 
-    `algorithm` ("gauss-seidel" or "jacobi") and `step` [s] replace those of the scenario. FMUs are built when they are
-    missing or older than the sources. Raises ScenarioError for options that do not fit, StepError when a model refuses
-    a step, HostError when the machine does not do what is needed; then nothing is written.
+    `algorithm` ("gauss-seidel" or "jacobi") and `step` [s] replace those of the scenario; `fmi` is the version of the
+    FMUs, 2 or 3, which give the same bits. FMUs are built when they are missing or older than the sources. Raises
+    ScenarioError for options that do not fit, StepError when a model refuses a step, HostError when the machine does
+    not do what is needed; then nothing is written.
     """
     if isinstance(scenario, str):
         scenario = load_scenario(scenario)
     scenario = scenario.changed(algorithm=algorithm, step=step)
+    if fmi not in VERSIONS or (in_process and fmi != 2):
+        raise ScenarioError(f"fmi = {fmi!r} with in_process = {in_process}: 2 or 3, and only for a run through FMUs")
     require_pybullet()
     if out is not None:
         check_writable(Path(out))
@@ -97,7 +105,7 @@ def simulate(
         if in_process:
             factories = _in_process(scenario, stack)
         else:
-            factories = through_fmus(ready_fmus(tuple(scenario.ships)), stack)
+            factories = through_fmus(ready_fmus(tuple(scenario.ships), fmi), stack, tuple(scenario.ships), fmi)
         record, wall_time = stepped(scenario, factories, progress)
     free = {name: start.free for name, start in scenario.ships.items()}
     found = events(record, ships, free, scenario.collision.damage)
@@ -108,7 +116,7 @@ def simulate(
         events=found,
         summary=summary(scenario, ships, record, found),
         timing={
-            "mode": "in process" if in_process else "FMU",
+            "mode": "in process" if in_process else "FMU" if fmi == 2 else f"FMU, FMI {fmi}.0",
             "wall_time": wall_time,
             "real_time_factor": duration / wall_time,
         },
@@ -147,17 +155,18 @@ def _in_process(scenario: Scenario, stack: ExitStack) -> Factories:
     return make_ship, make_collision
 
 
-def through_fmus(fmus: Mapping[str, Path], stack: ExitStack) -> Factories:
-    """Components from the files "ShipManoeuvring" and "ShipCollision", unpacked once each; `stack` closes all."""
+def through_fmus(fmus: Mapping[str, Path], stack: ExitStack, ships: tuple[str, ...] = SHIPS, fmi: int = 2) -> Factories:
+    """Components from the files "ShipManoeuvring" and "ShipCollision", unpacked once each; `stack` closes all. FMUs of
+    FMI 3.0 must have been built for `ships`."""
     unpacked = {name: stack.enter_context(closing(UnpackedFmu(path))) for name, path in fmus.items()}
 
-    def make_ship(name: str) -> Component:
-        return stack.enter_context(closing(FmuComponent(name, unpacked["ShipManoeuvring"])))
+    def made(name: str, made_from: Interface) -> Component:
+        fmu = unpacked[made_from.name]
+        if fmi == 3:
+            return stack.enter_context(closing(Fmi3Component(name, fmu, made_from.table(ships))))
+        return stack.enter_context(closing(FmuComponent(name, fmu)))
 
-    def make_collision() -> Component:
-        return stack.enter_context(closing(FmuComponent("collision", unpacked["ShipCollision"])))
-
-    return make_ship, make_collision
+    return lambda name: made(name, MANOEUVRING), lambda: made("collision", COLLISION)
 
 
 def _csv(rows: npt.NDArray[Any]) -> str:

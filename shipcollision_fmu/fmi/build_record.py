@@ -4,16 +4,17 @@ All FMUs in a process share one interpreter and its imported modules: the second
 name silently runs the first one's code, and a package that the host has imported before wins over both. So every FMU
 carries a record of the sources it was built from, and refuses to run on others.
 
-    resources/build.json    {"model", "version", "contents", "inputs", "ships", "guid"}
+    resources/build.json    {"model", "version", "contents", "inputs", "ships", "guid", "wrapper"}
 
-`contents` is a digest of the packed sources and ship data, `inputs` one of everything the file was made from.
+`contents` is a digest of the packed sources and ship data, `inputs` one of everything the file was made from, `wrapper`
+the package and version whose binaries call the slave: an FMU of somebody else may bring another version of it.
 """
 
 from __future__ import annotations
 
 import json
 import sys
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, fields
 from functools import cache
 from hashlib import sha256
 from pathlib import Path
@@ -42,6 +43,7 @@ class BuildRecord:
     inputs: str
     ships: tuple[str, ...]
     guid: str
+    wrapper: str
 
     def to_json(self) -> str:
         """As it is stored."""
@@ -49,9 +51,14 @@ class BuildRecord:
 
     @classmethod
     def from_json(cls, text: str | bytes) -> BuildRecord:
-        """Raises ValueError, KeyError or TypeError for anything else than a record."""
+        """Raises ValueError, KeyError or TypeError for anything else than a record.
+
+        What another version of the package records besides is left out, and what it does not is empty: it is read to
+        say which version that is.
+        """
         data = json.loads(text)
-        return cls(**{**data, "ships": tuple(data["ships"])})
+        known = {"inputs": "", "wrapper": "", **{f.name: data[f.name] for f in fields(cls) if f.name in data}}
+        return cls(**{**known, "ships": tuple(data["ships"])})
 
 
 def package_directory() -> Path:
@@ -93,9 +100,9 @@ def contents_digest(package: Path) -> str:
 
 
 @cache
-def confirmed(resources: str) -> BuildRecord:
+def confirmed(resources: str, wrapper: str) -> BuildRecord:
     """The record of the FMU unpacked at `resources`, once it is sure that the package which runs is the one it was
-    built from.
+    built from, and `wrapper`, the imported "package version" around the slave, one that it can work with.
 
     Raises HostError, which says what was imported instead and from where.
     """
@@ -111,9 +118,19 @@ def confirmed(resources: str) -> BuildRecord:
             f"this process has imported {version} ({running[:12]}) from {package_directory()}; build the FMU again "
             "from that package, or keep the host from importing it"
         )
+    if _series(wrapper) != _series(record.wrapper):
+        raise HostError(
+            f"{record.model}.fmu was built with {record.wrapper}, but this process has imported {wrapper}, perhaps "
+            "from another FMU: install the same version in the host, or run the two in processes of their own"
+        )
     if not package_directory().is_dir():
         _relocate(here)
     return record
+
+
+def _series(wrapper: str) -> str:
+    """Package and version without its last part: "pythonfmu 0.7.1" -> "pythonfmu 0.7"."""
+    return wrapper.rpartition(".")[0]
 
 
 @cache

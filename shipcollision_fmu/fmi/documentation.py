@@ -5,7 +5,9 @@ from __future__ import annotations
 from html import escape
 
 from shipcollision_fmu import __version__
+from shipcollision_fmu.fmi.arrays import ArrayVariable, arrays
 from shipcollision_fmu.fmi.interface import Interface
+from shipcollision_fmu.fmi.model_description_fmi3 import TYPES
 from shipcollision_fmu.fmi.variables import Variable
 
 __all__ = ["page"]
@@ -15,26 +17,33 @@ _STYLE = (
     "td,th{text-align:left;padding:.1em 1em .1em 0}"
 )
 
+_FMI3 = """<p>Arrays are given row by row. Do not call what the model description does not offer, not even for no
+variables: the wrapper ends the process at fmi3GetFloat32, fmi3SetFloat32, the same of Int8, UInt8, Int16, UInt16,
+UInt32, Binary and Clock, and at the functions of clocks, of dependencies and of adjoint derivatives.</p>
+"""
 
-def page(interface: Interface, ships: tuple[str, ...]) -> str:
+
+def page(interface: Interface, ships: tuple[str, ...], fmi: int = 2) -> str:
     """What the FMU does, what it needs, and its variables."""
-    rows = "\n".join(_row(variable) for variable in interface.table(ships))
+    table = interface.table(ships)
+    lines = map(_row, table) if fmi == 2 else map(_array_row, arrays(table))
+    rows = "\n".join(lines)
     return f"""<!DOCTYPE html>
 <html lang="en">
 <head><meta charset="utf-8"><title>{escape(interface.name)}</title><style>{_STYLE}</style></head>
 <body>
 <h1>{escape(interface.name)}</h1>
 <p>{escape(interface.description)}</p>
-<p>FMI 2.0 for co-simulation, made by shipcollision_fmu {escape(__version__)}. SI units and radians throughout.
+<p>FMI {fmi}.0 for co-simulation, made by shipcollision_fmu {escape(__version__)}. SI units and radians throughout.
 Frame n is north, east, down at the scenario's origin; frame b is forward, starboard, down at CO: midship, centreline,
 design waterline.</p>
 <p>It runs Python: the host process needs CPython with the packages of <code>resources/requirements.txt</code>. A host
 that is not itself Python finds the interpreter through <code>LD_PRELOAD=libpython3.11.so</code> and the packages
 through <code>PYTHONPATH</code>.</p>
-<p>A step that cannot be made answers fmi2Discard and leaves the state before it; the reason is logged. So does the
-step after a call that was refused, such as setting an output. Initialisation that fails answers fmi2Fatal, the only
+<p>A step that cannot be made answers fmi{fmi}Discard and leaves the state before it; the reason is logged. So does the
+step after a call that was refused, such as setting an output. Initialisation that fails answers fmi{fmi}Fatal, the only
 failure that the Python wrapper can report there; the instance may still be reset or freed.</p>
-<h2>Variables</h2>
+{_FMI3 if fmi == 3 else ""}<h2>Variables</h2>
 <table>
 <tr><th>Name</th><th>Causality</th><th>Type</th><th>Unit</th><th>Description</th></tr>
 {rows}
@@ -46,5 +55,15 @@ failure that the Python wrapper can report there; the instance may still be rese
 
 def _row(variable: Variable) -> str:
     kind = " | ".join(variable.items) if variable.items else variable.kind
-    cells = (variable.name, variable.causality, kind, variable.unit or "", variable.description)
+    return _cells(variable.name, variable.causality, kind, variable.unit or "", variable.description)
+
+
+def _array_row(array: ArrayVariable) -> str:
+    line = array.line
+    kind = " | ".join(line.items) if line.items else TYPES[line.kind]
+    shape = f"[{', '.join(map(str, array.shape))}]" if array.shape else ""
+    return _cells(array.name, line.causality, kind + shape, line.unit or "", array.description)
+
+
+def _cells(*cells: str) -> str:
     return "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in cells) + "</tr>"

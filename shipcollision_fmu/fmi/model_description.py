@@ -9,7 +9,7 @@ parameters: InitialUnknowns.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from shipcollision_fmu import __version__
@@ -18,7 +18,10 @@ from shipcollision_fmu.fmi.ports import Ports
 from shipcollision_fmu.fmi.units import UNITS
 from shipcollision_fmu.fmi.variables import Table, Variable
 
-__all__ = ["LOG_CATEGORIES", "model_description", "to_bytes"]
+__all__ = [
+    "LOG_CATEGORIES", "add_categories", "add_types", "add_units", "known", "limits", "model_description", "number",
+    "start", "to_bytes", "type_name",
+]  # fmt: skip
 
 LOG_CATEGORIES = {"logStatusError": "Calls that were refused and steps that could not be made, one line each."}
 
@@ -49,12 +52,10 @@ def model_description(interface: Interface, ships: tuple[str, ...], guid: str) -
     })  # fmt: skip
     capabilities = {name: str(able).lower() for name, able in _CAPABILITIES.items()}
     SubElement(root, "CoSimulation", {"modelIdentifier": interface.name, **capabilities})
-    _units(root, table)
-    _types(root, table)
-    categories = SubElement(root, "LogCategories")
-    for name, description in LOG_CATEGORIES.items():
-        SubElement(categories, "Category", {"name": name, "description": description})
-    SubElement(root, "DefaultExperiment", {"startTime": "0", "stepSize": _number(interface.step_size)})
+    add_units(root, table)
+    add_types(root, table, _enumeration)
+    add_categories(root)
+    SubElement(root, "DefaultExperiment", {"startTime": "0", "stepSize": number(interface.step_size)})
     variables = SubElement(root, "ModelVariables")
     for reference, variable in enumerate(table):
         _variable(variables, reference, variable, ports)
@@ -69,8 +70,9 @@ def to_bytes(description: Element) -> bytes:
     return f'<?xml version="1.0" encoding="UTF-8"?>\n{text}\n'.encode()
 
 
-def _units(root: Element, table: Table) -> None:
-    used = sorted({variable.unit for variable in table if variable.unit is not None})
+def add_units(root: Element, table: Table, *others: str) -> None:
+    """UnitDefinitions of the units in use, and of `others`; the same in FMI 2.0 and 3.0."""
+    used = sorted({variable.unit for variable in table if variable.unit is not None} | set(others))
     if not used:
         return
     definitions = SubElement(root, "UnitDefinitions")
@@ -78,24 +80,36 @@ def _units(root: Element, table: Table) -> None:
         unit = UNITS[name]
         node = SubElement(definitions, "Unit", {"name": name})
         base = {exponent: str(power) for exponent, power in unit.exponents.items()}
-        SubElement(node, "BaseUnit", base if unit.factor == 1.0 else {**base, "factor": _number(unit.factor)})
+        SubElement(node, "BaseUnit", base if unit.factor == 1.0 else {**base, "factor": number(unit.factor)})
         for display in unit.display:
-            SubElement(node, "DisplayUnit", {"name": display.name, "factor": _number(display.factor)})
+            SubElement(node, "DisplayUnit", {"name": display.name, "factor": number(display.factor)})
 
 
-def _types(root: Element, table: Table) -> None:
-    enumerations = {_type_name(variable): variable for variable in table if variable.items}
+def add_categories(root: Element) -> None:
+    """LogCategories; the same in FMI 2.0 and 3.0."""
+    categories = SubElement(root, "LogCategories")
+    for name, description in LOG_CATEGORIES.items():
+        SubElement(categories, "Category", {"name": name, "description": description})
+
+
+def add_types(root: Element, table: Table, enumeration: Callable[[Element, str, Variable], Element]) -> None:
+    """TypeDefinitions of the enumerations; `enumeration` adds one and returns the element that takes its items."""
+    enumerations = {type_name(variable): variable for variable in table if variable.items}
     if not enumerations:
         return
     definitions = SubElement(root, "TypeDefinitions")
     for name, variable in enumerations.items():
-        simple = SubElement(definitions, "SimpleType", {"name": name, "description": variable.description})
-        items = SubElement(simple, "Enumeration")
-        for number, item in enumerate(variable.items, 1):
-            SubElement(items, "Item", {"name": item, "value": str(number)})
+        items = enumeration(definitions, name, variable)
+        for value, item in enumerate(variable.items, 1):
+            SubElement(items, "Item", {"name": item, "value": str(value)})
 
 
-def _type_name(variable: Variable) -> str:
+def _enumeration(definitions: Element, name: str, variable: Variable) -> Element:
+    simple = SubElement(definitions, "SimpleType", {"name": name, "description": variable.description})
+    return SubElement(simple, "Enumeration")
+
+
+def type_name(variable: Variable) -> str:
     """`own.response` -> `OwnResponse`: a type may not be called like a variable."""
     return "".join(word[:1].upper() + word[1:] for word in variable.name.replace(".", "_").split("_"))
 
@@ -111,25 +125,31 @@ def _variable(variables: Element, reference: int, variable: Variable, ports: Por
     if variable.causality != "input":  # FMI 2.0.4, section 2.2.7: an input has no `initial`
         attributes["initial"] = "calculated" if variable.causality == "output" else "exact"
     node = SubElement(variables, "ScalarVariable", attributes)
+    value = limits(variable)
+    if variable.causality != "output":
+        value["start"] = start(variable, reference, ports)
+    SubElement(node, variable.kind, value)
+
+
+def limits(variable: Variable) -> dict[str, str]:
+    """Type, unit and limits of a variable as attributes; the same in FMI 2.0 and 3.0."""
     value: dict[str, str] = {}
     if variable.items:
-        value["declaredType"] = _type_name(variable)
+        value["declaredType"] = type_name(variable)
     if variable.unit is not None:
         value["unit"] = variable.unit
         if UNITS[variable.unit].display:
             value["displayUnit"] = UNITS[variable.unit].display[0].name
     for name, limit in (("min", variable.minimum), ("max", variable.maximum), ("nominal", variable.nominal)):
         if limit is not None:
-            value[name] = _number(limit) if variable.kind == "Real" else str(int(limit))
-    if variable.causality != "output":
-        value["start"] = _start(variable, reference, ports)
-    SubElement(node, variable.kind, value)
+            value[name] = number(limit) if variable.kind == "Real" else str(int(limit))
+    return value
 
 
-def _start(variable: Variable, reference: int, ports: Ports) -> str:
+def start(variable: Variable, reference: int, ports: Ports) -> str:
     """What a fresh model holds there."""
     if variable.kind == "Real":
-        return _number(ports.get_real([reference])[0])
+        return number(ports.get_real([reference])[0])
     if variable.kind == "Boolean":
         return str(ports.get_boolean([reference])[0]).lower()
     if variable.kind == "String":
@@ -149,10 +169,10 @@ def _structure(root: Element, table: Table) -> None:
     for position, variable in unknowns:
         node = SubElement(initial, "Unknown", {"index": str(position)})
         if variable.depends_on is not None:
-            node.set("dependencies", " ".join(map(str, _known(variable, table))))
+            node.set("dependencies", " ".join(map(str, known(variable, table))))
 
 
-def _known(variable: Variable, table: Table) -> Iterable[int]:
+def known(variable: Variable, table: Table) -> Iterable[int]:
     """Positions, from 1, of what a variable depends on at the start. Raises ValueError for a name that is nowhere in
     the table."""
     known: set[int] = set()
@@ -168,7 +188,7 @@ def _known(variable: Variable, table: Table) -> Iterable[int]:
     return sorted(known)
 
 
-def _number(value: float) -> str:
+def number(value: float) -> str:
     """Shortest text that reads back as the same double, in the spelling of XML Schema."""
     if math.isnan(value):
         return "NaN"

@@ -6,9 +6,9 @@ the result. Here the same inputs give the same bytes: names sorted, one date, on
 digest of everything else.
 
     modelDescription.xml
-    binaries/linux64|win64/NAME.*           pythonfmu's wrapper
+    binaries/linux64|win64/NAME.*           pythonfmu's wrapper (FMI 3.0: x86_64-linux|windows, pythonfmu3's)
     documentation/                          a page for people, licences
-    resources/slavemodule.txt, NAME.py      where the wrapper starts
+    resources/slavemodule.txt, NAME_*.py    where the wrapper starts; * is a digest
     resources/pythonfmu/, shipcollision_fmu/, models/
     resources/build.json                    what it was built from (build_record)
     resources/requirements.txt              what the host's Python must have
@@ -19,23 +19,25 @@ from __future__ import annotations
 import io
 import os
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from hashlib import sha256
 from importlib import import_module, metadata
+from importlib.util import find_spec
 from pathlib import Path
 from uuid import UUID
-
-import pythonfmu
+from xml.etree.ElementTree import Element
 
 from shipcollision_fmu import __version__
-from shipcollision_fmu.errors import HostError
+from shipcollision_fmu.errors import HostError, InputError
 from shipcollision_fmu.fmi import build_record
 from shipcollision_fmu.fmi.build_record import RECORD, BuildRecord, package_directory
 from shipcollision_fmu.fmi.documentation import page
 from shipcollision_fmu.fmi.interface import SHIPS, Interface
 from shipcollision_fmu.fmi.model_description import model_description, to_bytes
+from shipcollision_fmu.fmi.model_description_fmi3 import model_description as model_description_fmi3
 
-__all__ = ["FMUS", "REQUIREMENTS", "build_fmus", "fmu_bytes", "fmus_current", "slave_directory"]
+__all__ = ["FMUS", "REQUIREMENTS", "VERSIONS", "build_fmus", "fmu_bytes", "fmu_file", "fmus_current", "slave_directory"]
 
 FMUS = {"ShipCollision": "ship_collision", "ShipManoeuvring": "ship_manoeuvring"}
 """Name of each FMU, and the module beside this one that holds its INTERFACE."""
@@ -49,38 +51,68 @@ _DATE = (1980, 1, 1, 0, 0, 0)
 _BINARIES = (".so", ".dll", ".dylib")
 
 
-def build_fmus(out: str | Path, *, ships: tuple[str, ...] = SHIPS) -> dict[str, Path]:
+@dataclass(frozen=True)
+class _Version:
+    """What a version of FMI changes in the file: the package of the wrapper, the folder of its slaves in fmu_src/, the
+    end of the file's name, and modelDescription.xml."""
+
+    wrapper: str
+    slaves: str
+    suffix: str
+    description: Callable[[Interface, tuple[str, ...], str], Element]
+
+
+VERSIONS = {
+    2: _Version("pythonfmu", ".", ".fmu", model_description),
+    3: _Version("pythonfmu3", "fmi3", ".fmi3.fmu", model_description_fmi3),
+}
+"""Versions of FMI that FMUs can be built for."""
+
+
+def fmu_file(name: str, fmi: int = 2) -> str:
+    """File name of an FMU; both versions may lie in one folder."""
+    return f"{name}{VERSIONS[fmi].suffix}"
+
+
+def build_fmus(out: str | Path, *, ships: tuple[str, ...] = SHIPS, fmi: int = 2) -> dict[str, Path]:
     """Write ShipCollision.fmu and ShipManoeuvring.fmu into the folder `out` and return their paths by name.
 
-    `ships` are the names that the collision FMU gives its ships. Both files are written, or neither. Raises HostError.
+    `ships` are the names that the collision FMU gives its ships. With fmi = 3 the files are ShipCollision.fmi3.fmu and
+    ShipManoeuvring.fmi3.fmu, for FMI 3.0. Both files are written, or neither. Raises HostError, and InputError for
+    another version.
     """
-    built = {name: fmu_bytes(_interface(name), _slave(name).read_bytes(), ships) for name in FMUS}
-    return _write(Path(out), built)
+    if fmi not in VERSIONS:
+        raise InputError(f"fmi = {fmi!r} is not a version that FMUs can be built for: give one of 2, 3")
+    built = {name: fmu_bytes(_interface(name), _slave(name, fmi).read_bytes(), ships, fmi) for name in FMUS}
+    return _write(Path(out), {fmu_file(name, fmi): data for name, data in built.items()})
 
 
-def fmus_current(directory: str | Path, *, ships: tuple[str, ...] = SHIPS) -> bool:
+def fmus_current(directory: str | Path, *, ships: tuple[str, ...] = SHIPS, fmi: int = 2) -> bool:
     """Whether both FMUs are in `directory` and made from the sources that run now; some ten milliseconds."""
     now = build_record.contents_digest(package_directory())
-    return all(_is_current(Path(directory) / f"{name}.fmu", name, now, ships) for name in FMUS)
+    return all(_is_current(Path(directory) / fmu_file(name, fmi), name, now, ships, fmi) for name in FMUS)
 
 
-def fmu_bytes(interface: Interface, slave: bytes, ships: tuple[str, ...] = SHIPS) -> bytes:
-    """One FMU as bytes; `slave` is the text of its slave module. Raises HostError when pythonfmu has no binaries."""
-    name = interface.name
+def fmu_bytes(interface: Interface, slave: bytes, ships: tuple[str, ...] = SHIPS, fmi: int = 2) -> bytes:
+    """One FMU as bytes; `slave` is the text of its slave module. Raises HostError when the wrapper is not installed or
+    has no binaries."""
+    version, name = VERSIONS[fmi], interface.name
+    contents = build_record.contents_digest(package_directory())
+    inputs = _inputs(contents, slave, ships, version)
+    module = f"{name}_{inputs[:12]}"  # of its own: another FMU's module of the same name would run in its place
     files = {
         **_sources(),
-        **_pythonfmu(name),
-        f"resources/{name}.py": slave,
-        "resources/slavemodule.txt": name.encode(),
+        **_wrapper(version.wrapper, name),
+        f"resources/{module}.py": slave,
+        "resources/slavemodule.txt": module.encode(),
         "resources/requirements.txt": "".join(f"{line}\n" for line in REQUIREMENTS).encode(),
-        "documentation/index.html": page(interface, ships).encode(),
-        **_licences(),
+        "documentation/index.html": page(interface, ships, fmi).encode(),
+        **_licences(version.wrapper),
     }
-    anonymous = to_bytes(model_description(interface, ships, guid=""))
+    anonymous = to_bytes(version.description(interface, ships, ""))
     guid = str(UUID(build_record.digest({**files, "modelDescription.xml": anonymous})[:32]))
-    files["modelDescription.xml"] = to_bytes(model_description(interface, ships, guid))
-    contents = build_record.contents_digest(package_directory())
-    record = BuildRecord(name, __version__, contents, _inputs(contents, slave, ships), ships, guid)
+    files["modelDescription.xml"] = to_bytes(version.description(interface, ships, guid))
+    record = BuildRecord(name, __version__, contents, inputs, ships, guid, _identity(version))
     files[f"resources/{RECORD}"] = record.to_json().encode()
     return _zipped(files)
 
@@ -97,8 +129,8 @@ def _interface(name: str) -> Interface:
     return found
 
 
-def _slave(name: str) -> Path:
-    path = slave_directory() / f"{name}.py"
+def _slave(name: str, fmi: int) -> Path:
+    path = slave_directory() / VERSIONS[fmi].slaves / f"{name}.py"
     if not path.is_file():
         raise HostError(f"{path} is missing: the installation of shipcollision_fmu is not complete, install it again")
     return path
@@ -108,26 +140,42 @@ def _sources() -> dict[str, bytes]:
     return {f"resources/{name}": path.read_bytes() for name, path in build_record.contents(package_directory()).items()}
 
 
-def _pythonfmu(name: str) -> dict[str, bytes]:
-    """pythonfmu's Python files, and its wrapper libraries under the FMU's name."""
-    home = Path(pythonfmu.__file__).parent
+def _home(wrapper: str) -> Path:
+    """Where a wrapper's package is installed."""
+    found = find_spec(wrapper)
+    if found is None or found.origin is None:
+        raise HostError(
+            f"{wrapper}, which the FMUs are wrapped with, is not installed: run `python -m pip install "
+            f"'shipcollision-fmu{'[fmi3]' if wrapper == 'pythonfmu3' else ''}'`"
+        )
+    return Path(found.origin).parent
+
+
+def _identity(version: _Version) -> str:
+    """Package and version of a wrapper; the version is that of its own text, not of its distribution."""
+    return f"{version.wrapper} {import_module(version.wrapper).__version__}"
+
+
+def _wrapper(wrapper: str, name: str) -> dict[str, bytes]:
+    """The wrapper's Python files, and its libraries under the FMU's name."""
+    home = _home(wrapper)
     binaries = home / "resources" / "binaries"
-    files = {f"resources/pythonfmu/{path.name}": path.read_bytes() for path in home.glob("*.py")}
+    files = {f"resources/{wrapper}/{path.name}": path.read_bytes() for path in home.glob("*.py")}
     found = {
         f"binaries/{path.parent.name}/{name}{path.suffix}": path.read_bytes()
         for path in binaries.rglob("*")
         if path.suffix in _BINARIES
     }
     if not found:
-        raise HostError(f"pythonfmu has no binaries under {binaries}: install pythonfmu 0.7 from its wheel")
+        raise HostError(f"{wrapper} has no binaries under {binaries}: install {wrapper} from its wheel")
     return files | found
 
 
-def _licences() -> dict[str, bytes]:
-    """Of this project and of pythonfmu, as their distributions carry them; a checkout has its own at its root."""
+def _licences(wrapper: str) -> dict[str, bytes]:
+    """Of this project and of the wrapper, as their distributions carry them; a checkout has its own at its root."""
     root = package_directory().parent / "LICENSE"
     ours = root.read_text(encoding="utf-8") if root.is_file() else _distributed("shipcollision-fmu")
-    texts = {"shipcollision_fmu": ours, "pythonfmu": _distributed("pythonfmu")}
+    texts = {"shipcollision_fmu": ours, wrapper: _distributed(wrapper)}
     return {f"documentation/licenses/{name}.txt": text.encode() for name, text in texts.items() if text}
 
 
@@ -139,19 +187,21 @@ def _distributed(distribution: str) -> str | None:
     return found.read_text("licenses/LICENSE") or found.read_text("LICENSE")
 
 
-def _inputs(contents: str, slave: bytes, ships: tuple[str, ...]) -> str:
-    """Digest of everything an FMU is made from; what pythonfmu gives goes by its version."""
-    parts = (contents, sha256(slave).hexdigest(), ships, pythonfmu.__version__, __version__, REQUIREMENTS)
+def _inputs(contents: str, slave: bytes, ships: tuple[str, ...], version: _Version) -> str:
+    """Digest of everything an FMU is made from; what the wrapper gives goes by its version."""
+    _home(version.wrapper)
+    parts = (contents, sha256(slave).hexdigest(), ships, _identity(version), __version__, REQUIREMENTS)
     return sha256(repr(parts).encode()).hexdigest()
 
 
-def _is_current(fmu: Path, name: str, contents: str, ships: tuple[str, ...]) -> bool:
+def _is_current(fmu: Path, name: str, contents: str, ships: tuple[str, ...], fmi: int) -> bool:
     try:
         with zipfile.ZipFile(fmu) as archive:
             record = BuildRecord.from_json(archive.read(f"resources/{RECORD}"))
     except (OSError, KeyError, TypeError, ValueError, zipfile.BadZipFile):
         return False
-    return record.model == name and record.inputs == _inputs(contents, _slave(name).read_bytes(), ships)
+    inputs = _inputs(contents, _slave(name, fmi).read_bytes(), ships, VERSIONS[fmi])
+    return record.model == name and record.inputs == inputs
 
 
 def _zipped(files: Mapping[str, bytes]) -> bytes:
@@ -173,7 +223,7 @@ def _write(out: Path, built: Mapping[str, bytes]) -> dict[str, Path]:
     try:
         out.mkdir(parents=True, exist_ok=True)
         for name, data in built.items():
-            path = out / f"{name}.fmu"
+            path = out / name
             aside = out / f".{name}.{os.getpid()}.tmp"
             waiting[aside] = path
             aside.write_bytes(data)
@@ -186,4 +236,4 @@ def _write(out: Path, built: Mapping[str, bytes]) -> dict[str, Path]:
         for aside in waiting:
             if aside.exists():
                 aside.unlink()
-    return {path.stem: path for path in waiting.values()}
+    return {path.name.split(".")[0]: path for path in waiting.values()}

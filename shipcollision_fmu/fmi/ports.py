@@ -143,7 +143,10 @@ class Ports:
         self._write(references, [bool(value) for value in values], "Boolean")
 
     def set_string(self, references: Sequence[int], values: Sequence[str]) -> None:
-        """Set Strings."""
+        """Set Strings. Raises InputError for what is none: a null pointer of the host arrives as None."""
+        for value in values:
+            if not isinstance(value, str):
+                raise InputError(f"{self.name}: {value!r} is not a string")
         self._write(references, values, "String")
 
     # In time. ------------------------------------------------------------------------------

@@ -17,7 +17,9 @@ from shipcollision_fmu.fmi.variables import (
     IMPULSE,
     LINEAR,
     NED,
+    Array,
     Table,
+    Variable,
     boolean,
     enumeration,
     integer,
@@ -112,48 +114,55 @@ def _contacts() -> Table:
         ),
     )]  # fmt: skip
     for k in range(SLOTS):
-        name, path = f"contact[{k + 1}]", f"outputs.contacts.{k}"
-        lines.append((
-            *vector("output", name, NED, "m", f"{path}.point", "Contact point in n", depends_on=()),
-            *vector(
-                "output", f"{name}.normal", NED, "1", f"{path}.normal", "Unit normal from ship_a to ship_b in n",
-                depends_on=(),
-            ),
-            real("output", f"{name}.gap", "m", f"{path}.values", 0, "Gap, negative in overlap", depends_on=()),
-            real(
-                "output", f"{name}.impulse_normal", "N.s", f"{path}.values", 1,
-                "Normal impulse over the step", depends_on=(),
-            ),
-            real(
-                "output", f"{name}.impulse_tangential", "N.s", f"{path}.values", 2, "Friction impulse over the step",
-                depends_on=(),
-            ),
-            real(
-                "output", f"{name}.energy", "J", f"{path}.values", 3,
-                "Energy dissipated over the step", depends_on=(),
-            ),
-            *vector(
-                "output", f"{name}.impulse", NED, "N.s", f"{path}.impulse",
-                "Impulse on ship_b in n over the step; ship_a takes the opposite", depends_on=(),
-            ),
-            *vector("output", f"{name}.a", BODY, "m", f"{path}.r_a", "Contact point in b of ship_a", depends_on=()),
-            *vector("output", f"{name}.b", BODY, "m", f"{path}.r_b", "Contact point in b of ship_b", depends_on=()),
-            integer(
-                "output", f"{name}.ship_a", f"{path}.ship_a",
-                "First ship, from 1; 0: slot unused", minimum=0, depends_on=(),
-            ),
-            integer(
-                "output", f"{name}.ship_b", f"{path}.ship_b",
-                "Second ship, from 1; beyond the ships: obstacles, in their order; 0: slot unused",
-                minimum=0, depends_on=(),
-            ),
-            integer(
-                "output", f"{name}.impact", f"{path}.impact",
-                "Number of the collision; 0: a fender acts, the hulls do not touch", minimum=0, depends_on=(),
-            ),
-            integer("output", f"{name}.scratch", f"{path}.scratch", "Number of the scratch", minimum=0, depends_on=()),
-        ))  # fmt: skip
+        lines.append(_contact(f"contact[{k + 1}]", f"outputs.contacts.{k}"))
     return tuple(line for block in lines for line in block)
+
+
+def _contact(name: str, path: str) -> Table:
+    """A contact point; in FMI 3.0 a row of the arrays contact.*."""
+
+    def each(field: str, description: str) -> Array:
+        return Array(f"contact.{field}", (SLOTS,), description)
+
+    def point(field: str, components: tuple[str, ...], description: str) -> Array:
+        return Array(f"contact.{field}", (SLOTS, 3), f"{description}: {', '.join(components)}")
+
+    def triple(group: str, components: tuple[str, ...], unit: str, at: str, description: str, field: str) -> Table:
+        return vector(
+            "output", group, components, unit, f"{path}.{at}", description, depends_on=(),
+            array=point(field, components, description),
+        )  # fmt: skip
+
+    def value(field: str, unit: str, index: int, description: str) -> Variable:
+        return real(
+            "output", f"{name}.{field}", unit, f"{path}.values", index, description, depends_on=(),
+            array=each(field, description),
+        )  # fmt: skip
+
+    def number(field: str, description: str) -> Variable:
+        return integer(
+            "output", f"{name}.{field}", f"{path}.{field}", description, minimum=0, depends_on=(),
+            array=each(field, description),
+        )  # fmt: skip
+
+    return (
+        *triple(name, NED, "m", "point", "Contact point in n", "position"),
+        *triple(f"{name}.normal", NED, "1", "normal", "Unit normal from ship_a to ship_b in n", "normal"),
+        value("gap", "m", 0, "Gap, negative in overlap"),
+        value("impulse_normal", "N.s", 1, "Normal impulse over the step"),
+        value("impulse_tangential", "N.s", 2, "Friction impulse over the step"),
+        value("energy", "J", 3, "Energy dissipated over the step"),
+        *triple(
+            f"{name}.impulse", NED, "N.s", "impulse",
+            "Impulse on ship_b in n over the step; ship_a takes the opposite", "impulse",
+        ),
+        *triple(f"{name}.a", BODY, "m", "r_a", "Contact point in b of ship_a", "a"),
+        *triple(f"{name}.b", BODY, "m", "r_b", "Contact point in b of ship_b", "b"),
+        number("ship_a", "First ship, from 1; 0: slot unused"),
+        number("ship_b", "Second ship, from 1; beyond the ships: obstacles, in their order; 0: slot unused"),
+        number("impact", "Number of the collision; 0: a fender acts, the hulls do not touch"),
+        number("scratch", "Number of the scratch"),
+    )  # fmt: skip
 
 
 def _events() -> Table:
@@ -164,6 +173,7 @@ def _events() -> Table:
         *vector(
             "output", "impact", NED, "m", "outputs.impact_point",
             "First contact point of the latest collision in n: where the explosion goes", depends_on=(),
+            array=Array("impact.position", (3,), "First contact point of the latest collision in n: north, east, down"),
         ),
         real(
             "output", "impact.closing_speed", "m/s", "outputs.impact", 1,

@@ -17,6 +17,9 @@ written there and nowhere else; modelDescription.xml, the accessors, the documen
 `path` leads from the model to the value: attribute names and list positions joined by dots
 ("inputs.ships.0.position"). `index` is the position in the list found there, or None when the path ends at the value
 itself. Start values are the model's own, of a model freshly made.
+
+FMI 2.0 has scalars only; FMI 3.0 has arrays. A line names the array that it is an element of there: a vector is one by
+itself, a block of lines that repeats ("contact[1].gap", "contact[2].gap") says so by `array`.
 """
 
 from __future__ import annotations
@@ -28,8 +31,8 @@ from typing import Literal
 from shipcollision_fmu.fmi.units import UNITS
 
 __all__ = [
-    "ANGLES", "FORCE", "IMPULSE", "LINEAR", "NED", "Causality", "Kind", "Table", "Variable", "boolean", "enumeration",
-    "integer", "real", "string", "vector", "wrench",
+    "ANGLES", "FORCE", "IMPULSE", "LINEAR", "NED", "Array", "Causality", "Kind", "Table", "Variable", "boolean",
+    "enumeration", "integer", "real", "string", "vector", "wrench",
 ]  # fmt: skip
 
 Kind = Literal["Real", "Integer", "Boolean", "String", "Enumeration"]
@@ -49,12 +52,22 @@ IMPULSE = ("N.s", "N.m.s")
 
 
 @dataclass(frozen=True)
+class Array:
+    """An array of FMI 3.0: its elements are the lines of the table that name it, in their order, row by row."""
+
+    name: str
+    shape: tuple[int, ...]
+    description: str
+
+
+@dataclass(frozen=True)
 class Variable:
     """One scalar variable of an FMU.
 
     Raises ValueError for a line that cannot be: an unknown unit, an enumeration without items, a Real that is
     discrete by mistake. `depends_on` names the parameters and inputs, one by one or as a group ("initial.position"),
-    that the value of an output at the start depends on; None means that it may depend on all of them.
+    that the value of an output at the start depends on; None means that it may depend on all of them. `array` is the
+    array of FMI 3.0 that it is an element of; None means that it is a scalar there too.
     """
 
     name: str
@@ -69,6 +82,7 @@ class Variable:
     nominal: float | None = None
     items: tuple[str, ...] = ()
     depends_on: tuple[str, ...] | None = None
+    array: Array | None = None
 
     def __post_init__(self) -> None:
         if (self.kind == "Real") != (self.unit is not None):
@@ -101,10 +115,11 @@ def real(
     maximum: float | None = None,
     nominal: float | None = None,
     depends_on: tuple[str, ...] | None = None,
+    array: Array | None = None,
 ) -> Variable:
     """A Real: entry `index` of the list at `path`, or, with None, the float at `path`."""
     return Variable(
-        name, "Real", causality, path, index, description, unit, minimum, maximum, nominal, depends_on=depends_on
+        name, "Real", causality, path, index, description, unit, minimum, maximum, nominal, (), depends_on, array
     )  # fmt: skip
 
 
@@ -118,9 +133,12 @@ def integer(
     minimum: int | None = None,
     maximum: int | None = None,
     depends_on: tuple[str, ...] | None = None,
+    array: Array | None = None,
 ) -> Variable:
     """An Integer: the int at `path`, or entry `index` of the list there."""
-    return Variable(name, "Integer", causality, path, index, description, None, minimum, maximum, depends_on=depends_on)
+    return Variable(
+        name, "Integer", causality, path, index, description, None, minimum, maximum, None, (), depends_on, array
+    )  # fmt: skip
 
 
 def boolean(
@@ -164,12 +182,20 @@ def vector(
     *,
     first: int = 0,
     depends_on: tuple[str, ...] | None = None,
+    array: Array | None = None,
 ) -> Table:
-    """Reals name.component, in the order of the list at `path` from its entry `first` on."""
+    """Reals name.component, in the order of the list at `path` from its entry `first` on.
+
+    In FMI 3.0 they are the array `name`, unless `array` says otherwise.
+    """
+    within = array or Array(name, (len(components),), f"{description}: {', '.join(components)}")
     return tuple(
-        real(causality, f"{name}.{part}", unit, path, first + i, f"{description}: {part}", depends_on=depends_on)
+        real(
+            causality, f"{name}.{part}", unit, path, first + i, f"{description}: {part}",
+            depends_on=depends_on, array=within,
+        )
         for i, part in enumerate(components)
-    )
+    )  # fmt: skip
 
 
 def wrench(
@@ -183,8 +209,20 @@ def wrench(
     depends_on: tuple[str, ...] | None = None,
 ) -> Table:
     """Six Reals of the list at `path`: linear.surge|sway|heave, then angular.roll|pitch|yaw, in the two units (FORCE
-    or IMPULSE)."""
-    return (
-        *vector(causality, linear, LINEAR, units[0], path, description, depends_on=depends_on),
-        *vector(causality, angular, ANGLES, units[1], path, description, first=3, depends_on=depends_on),
-    )
+    or IMPULSE).
+
+    In FMI 3.0 they are two arrays, because an array has one unit. Where both halves have one name, these are told
+    apart: NAME.force and NAME.moment, or NAME.linear and NAME.angular of an impulse.
+    """
+    names = (linear, angular)
+    if linear == angular:
+        names = (f"{linear}.force", f"{linear}.moment") if units == FORCE else (f"{linear}.linear", f"{linear}.angular")
+    halves = zip((linear, angular), names, (LINEAR, ANGLES), units, (0, 3), strict=True)
+    return tuple(
+        line
+        for name, array, components, unit, first in halves
+        for line in vector(
+            causality, name, components, unit, path, description, first=first, depends_on=depends_on,
+            array=Array(array, (3,), f"{description}: {', '.join(components)}"),
+        )
+    )  # fmt: skip

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from shipcollision_fmu.cosim.component import Component, InProcessComponent
+from shipcollision_fmu.cosim.fmi3_component import Fmi3Component
 from shipcollision_fmu.cosim.fmu_component import FmuComponent, UnpackedFmu
 from shipcollision_fmu.errors import HostError, StepError
 from shipcollision_fmu.fmi.package import build_fmus
@@ -36,15 +37,26 @@ def temporary(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return folder
 
 
-@pytest.fixture(params=["FMU", "in process"])
-def make(request: pytest.FixtureRequest, built: dict[str, Path], temporary: Path) -> Iterator[Make]:
-    """Makes a component of either kind from 'ShipManoeuvring' or 'ShipCollision'."""
+@pytest.fixture(scope="module")
+def built_for_fmi3(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    return build_fmus(tmp_path_factory.mktemp("fmus"), fmi=3)
+
+
+@pytest.fixture(params=["FMU", "FMU of FMI 3.0", "in process"])
+def make(
+    request: pytest.FixtureRequest, built: dict[str, Path], built_for_fmi3: dict[str, Path], temporary: Path
+) -> Iterator[Make]:
+    """Makes a component of each kind from 'ShipManoeuvring' or 'ShipCollision'."""
     with ExitStack() as stack:
 
         def made(model: str) -> Component:
+            made_from = {"ShipManoeuvring": MANOEUVRING, "ShipCollision": COLLISION}[model]
             if request.param == "in process":
-                ports = {"ShipManoeuvring": MANOEUVRING, "ShipCollision": COLLISION}[model].ports()
-                return stack.enter_context(closing(InProcessComponent("one", ports)))
+                return stack.enter_context(closing(InProcessComponent("one", made_from.ports())))
+            if request.param == "FMU of FMI 3.0":
+                unpacked = stack.enter_context(closing(UnpackedFmu(built_for_fmi3[model])))
+                table = made_from.table(("own", "target"))
+                return stack.enter_context(closing(Fmi3Component("one", unpacked, table)))
             fmu = stack.enter_context(closing(UnpackedFmu(built[model])))
             return stack.enter_context(closing(FmuComponent("one", fmu)))
 
@@ -63,11 +75,25 @@ def sailed(component: Component, steps: int) -> list[list[float]]:
     return rows
 
 
-def test_both_kinds_give_the_same_bits(built: dict[str, Path], temporary: Path) -> None:
-    with closing(UnpackedFmu(built["ShipManoeuvring"])) as fmu, closing(FmuComponent("one", fmu)) as through_fmi:
-        rows = sailed(through_fmi, 100)
+def test_all_kinds_give_the_same_bits(make: Make) -> None:
+    rows = sailed(make("ShipManoeuvring"), 100)
     assert rows == sailed(InProcessComponent("one", MANOEUVRING.ports()), 100)
     assert rows[-1][2] != 0.0
+
+
+def test_a_group_that_writes_part_of_a_vector_leaves_the_rest(make: Make) -> None:
+    """Of a scalar FMU trivial; in FMI 3.0 the vector is one variable."""
+    ship = make("ShipManoeuvring")
+    push = ship.reals(["force.sway", "moment.yaw"])
+    whole = ship.reals(["force.surge", "force.sway", "force.heave", "moment.yaw", "moment.roll"])
+    whole.values[:] = [1.0, 2.0, 3.0, 4.0, 5.0]
+    whole.write()
+    push.values[:] = [-2.0, -4.0]
+    push.write()
+    whole.values[:] = [0.0] * 5
+    whole.read()
+    assert list(whole.values) == [1.0, -2.0, 3.0, -4.0, 5.0]
+    ship.initialise(SAILING, 1.0)
 
 
 def test_two_instances_of_one_fmu_do_not_disturb_each_other(built: dict[str, Path], temporary: Path) -> None:

@@ -38,9 +38,26 @@ def compared_files(out: Path) -> dict[str, bytes]:
 def test_fmus_and_models_in_process_give_the_same_files(scenario_file: Write, tmp_path: Path, algorithm: str) -> None:
     path = scenario_file()
     ran(path, in_process=False, algorithm=algorithm, out=tmp_path / "fmu")
+    ran(path, in_process=False, fmi=3, algorithm=algorithm, out=tmp_path / "fmi3")
     run = ran(path, algorithm=algorithm, out=tmp_path / "in_process")
     assert compared_files(tmp_path / "fmu") == compared_files(tmp_path / "in_process")
+    assert compared_files(tmp_path / "fmi3") == compared_files(tmp_path / "in_process")
     assert run.summary["collisions"] == 1
+
+
+def test_the_published_collision_is_the_same_to_the_bit_through_fmi_2_and_3(tmp_path: Path) -> None:
+    """All states, contacts, events and figures of guan2014."""
+    for fmi in (2, 3):
+        simulate("guan2014", fmi=fmi, out=tmp_path / str(fmi))
+    assert compared_files(tmp_path / "2") == compared_files(tmp_path / "3")
+    assert len((tmp_path / "3" / "states.csv").read_text().splitlines()) == 122
+    assert json.loads((tmp_path / "3" / "timing.json").read_text())["mode"] == "FMU, FMI 3.0"
+
+
+@pytest.mark.parametrize(("fmi", "in_process"), [(1, False), (3, True)])
+def test_a_version_of_fmi_that_is_none_is_refused(scenario_file: Write, fmi: int, in_process: bool) -> None:
+    with pytest.raises(ScenarioError, match=rf"fmi = {fmi} with in_process = {in_process}: 2 or 3, and only for a run"):
+        ran(scenario_file(), fmi=fmi, in_process=in_process)
 
 
 def test_running_twice_gives_the_same_files(scenario_file: Write, tmp_path: Path) -> None:

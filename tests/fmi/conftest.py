@@ -15,7 +15,7 @@ import pytest
 from fmpy import extract, read_model_description
 from fmpy.fmi2 import FMU2Slave, byref, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 
-from shipcollision_fmu.fmi.package import fmu_bytes
+from shipcollision_fmu.fmi.package import build_fmus, fmu_bytes
 from shipcollision_fmu.fmi.ports import Ports
 
 DUMMY = Path(__file__).with_name("Dummy.py")
@@ -48,6 +48,17 @@ def dummy_fmu(dummy: ModuleType, tmp_path_factory: pytest.TempPathFactory) -> Pa
 
 
 @pytest.fixture(scope="session")
+def unpacked3(dummy: ModuleType, tmp_path_factory: pytest.TempPathFactory, _tidy_path: None) -> Path:
+    """The dummy for FMI 3.0: the same text with the other base."""
+    text = DUMMY.read_text(encoding="utf-8")
+    text = text.replace("fmi.slave import ModelSlave", "fmi.slave_fmi3 import Fmi3Slave, ModelSlave3")
+    text = text.replace("class Dummy(ModelSlave)", "class Dummy(ModelSlave3, Fmi3Slave)")
+    path = tmp_path_factory.mktemp("fmu3") / "Dummy.fmi3.fmu"
+    path.write_bytes(fmu_bytes(dummy.INTERFACE, text.encode(), fmi=3))
+    return Path(extract(path, tmp_path_factory.mktemp("unpacked3")))
+
+
+@pytest.fixture(scope="session")
 def _tidy_path() -> Iterator[None]:
     """The wrapper leaves the resources of every FMU on sys.path."""
     before = list(sys.path)
@@ -58,6 +69,24 @@ def _tidy_path() -> Iterator[None]:
 @pytest.fixture(scope="session")
 def unpacked(dummy_fmu: Path, tmp_path_factory: pytest.TempPathFactory, _tidy_path: None) -> Path:
     return Path(extract(dummy_fmu, tmp_path_factory.mktemp("unpacked")))
+
+
+@pytest.fixture(scope="session")
+def real_fmus(tmp_path_factory: pytest.TempPathFactory) -> dict[tuple[str, int], Path]:
+    """Files of both FMUs, by name and version of FMI."""
+    folder = tmp_path_factory.mktemp("real")
+    return {(name, fmi): path for fmi in (2, 3) for name, path in build_fmus(folder, fmi=fmi).items()}
+
+
+@pytest.fixture(scope="session")
+def real_unpacked(
+    real_fmus: dict[tuple[str, int], Path], tmp_path_factory: pytest.TempPathFactory, _tidy_path: None
+) -> dict[tuple[str, int], Path]:
+    """Both FMUs unpacked, by name and version of FMI."""
+    return {
+        which: Path(extract(path, tmp_path_factory.mktemp(f"{which[0]}{which[1]}")))
+        for which, path in real_fmus.items()
+    }
 
 
 class Host:

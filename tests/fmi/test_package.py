@@ -11,10 +11,11 @@ import zipfile
 from pathlib import Path
 
 import pytest
+from fmpy import read_model_description
 from fmpy.validation import validate_fmu
 
 import shipcollision_fmu
-from shipcollision_fmu.errors import HostError
+from shipcollision_fmu.errors import HostError, InputError
 from shipcollision_fmu.fmi import build_record, package
 from shipcollision_fmu.fmi.package import FMUS, REQUIREMENTS, build_fmus, fmus_current
 
@@ -29,6 +30,12 @@ ROOT = Path(shipcollision_fmu.__file__).parent.parent
 @pytest.fixture(scope="module")
 def built(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     return build_fmus(tmp_path_factory.mktemp("built") / "new" / "folder")
+
+
+@pytest.fixture(scope="module")
+def built_for_fmi3(built: dict[str, Path]) -> dict[str, Path]:
+    """Beside those for FMI 2.0, in the same folder."""
+    return build_fmus(next(iter(built.values())).parent, fmi=3)
 
 
 def in_a_process(code: str, *arguments: object, **environment: str) -> str:
@@ -54,13 +61,59 @@ def test_both_fmus_are_valid(built: dict[str, Path]) -> None:
         assert validate_fmu(str(path)) == []
 
 
+def test_fmi3_files_lie_beside_the_others_and_are_valid(
+    built: dict[str, Path], built_for_fmi3: dict[str, Path]
+) -> None:
+    assert sorted(built_for_fmi3) == ["ShipCollision", "ShipManoeuvring"]
+    for name, path in built_for_fmi3.items():
+        assert path == built[name].parent / f"{name}.fmi3.fmu"
+        assert validate_fmu(str(path)) == []
+        assert read_model_description(str(path)).fmiVersion == "3.0"
+    assert fmus_current(built["ShipCollision"].parent)
+    assert fmus_current(built["ShipCollision"].parent, fmi=3)
+
+
+def test_what_is_in_an_fmi3_fmu(built_for_fmi3: dict[str, Path]) -> None:
+    for name, path in built_for_fmi3.items():
+        with zipfile.ZipFile(path) as archive:
+            names = archive.namelist()
+            module = archive.read("resources/slavemodule.txt").decode()
+            page = archive.read("documentation/index.html").decode()
+        assert re.fullmatch(rf"{name}_[0-9a-f]{{12}}", module)
+        for wanted in (
+            f"binaries/x86_64-linux/{name}.so",
+            f"binaries/x86_64-windows/{name}.dll",
+            "documentation/licenses/pythonfmu3.txt",
+            f"resources/{module}.py",
+            "resources/pythonfmu3/fmi3slave.py",
+            "resources/shipcollision_fmu/fmi/slave_fmi3.py",
+        ):
+            assert wanted in names
+        assert not [n for n in names if n.startswith("resources/pythonfmu/") or "linux64" in n]
+        assert "Float64[3]" in page
+        assert "fmi3GetFloat32" in page
+
+
+def test_another_version_of_fmi_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"fmi = 1 is not a version that FMUs can be built for: give one of 2, 3"):
+        build_fmus(tmp_path, fmi=1)
+
+
+def test_without_pythonfmu3_it_says_how_to_get_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(package, "find_spec", lambda name: None)
+    with pytest.raises(HostError, match=r"^pythonfmu3, .* run `python -m pip install 'shipcollision-fmu\[fmi3\]'`"):
+        build_fmus(tmp_path, fmi=3)
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_what_is_in_an_fmu(built: dict[str, Path]) -> None:
     for name, path in built.items():
         with zipfile.ZipFile(path) as archive:
             names = archive.namelist()
             assert names == sorted(names)
             assert {entry.date_time for entry in archive.infolist()} == {(1980, 1, 1, 0, 0, 0)}
-            assert archive.read("resources/slavemodule.txt").decode() == name
+            module = archive.read("resources/slavemodule.txt").decode()
+            assert re.fullmatch(rf"{name}_[0-9a-f]{{12}}", module)  # of its own: the wrapper imports it by name
         for wanted in (
             "modelDescription.xml",
             f"binaries/linux64/{name}.so",
@@ -68,7 +121,7 @@ def test_what_is_in_an_fmu(built: dict[str, Path]) -> None:
             "documentation/index.html",
             "documentation/licenses/shipcollision_fmu.txt",
             "documentation/licenses/pythonfmu.txt",
-            f"resources/{name}.py",
+            f"resources/{module}.py",
             "resources/build.json",
             "resources/requirements.txt",
             "resources/pythonfmu/fmi2slave.py",
@@ -97,19 +150,20 @@ os.umask(int(sys.argv[3], 8))
 from shipcollision_fmu import build_fmus
 before = list(sys.path)
 build_fmus(sys.argv[2])
+build_fmus(sys.argv[2], fmi=3)
 assert sys.path == before
 assert not {"ShipCollision", "ShipManoeuvring", "pythonfmu.builder.nothing"} & set(sys.modules)
 """
 
 
-def test_same_inputs_same_bytes(built: dict[str, Path], tmp_path: Path) -> None:
+def test_same_inputs_same_bytes(built: dict[str, Path], built_for_fmi3: dict[str, Path], tmp_path: Path) -> None:
     """Whatever the hash seed, the umask, the time zone, the folder and the process."""
     in_a_process(BUILD, ROOT, tmp_path / "a", "077", PYTHONHASHSEED="1", TZ="Asia/Tokyo")
     in_a_process(BUILD, ROOT, tmp_path / "b" / "c", "000", PYTHONHASHSEED="2", TZ="America/Lima")
-    for name, path in built.items():
+    for path in (*built.values(), *built_for_fmi3.values()):
         here = path.read_bytes()
-        assert (tmp_path / "a" / f"{name}.fmu").read_bytes() == here
-        assert (tmp_path / "b" / "c" / f"{name}.fmu").read_bytes() == here
+        assert (tmp_path / "a" / path.name).read_bytes() == here
+        assert (tmp_path / "b" / "c" / path.name).read_bytes() == here
 
 
 def test_same_bytes_from_files_found_in_another_order(
@@ -300,4 +354,4 @@ print(len(messages), messages[0])
 
 def test_resources_without_a_record_are_refused(tmp_path: Path) -> None:
     with pytest.raises(HostError, match=r"has no record of what the FMU was built from \(FileNotFoundError"):
-        build_record.confirmed(str(tmp_path))
+        build_record.confirmed(str(tmp_path), "pythonfmu 0.7.0")

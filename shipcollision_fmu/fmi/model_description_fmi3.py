@@ -1,0 +1,119 @@
+"""modelDescription.xml of FMI 3.0 for co-simulation, from the same table of variables.
+
+What differs from FMI 2.0 (model_description.py): arrays; the time is a variable; every variable is an element of its
+type, and references are value references, not positions.
+
+Types that pythonfmu3 cannot serve (Float32, Int8, Int16, UInt8, UInt16, UInt32, Binary, Clock) are not used, and
+capabilities that it does not have are declared false. It ends the host's process when such a call comes all the same;
+a host that keeps to this description has no reason to make one.
+"""
+
+from __future__ import annotations
+
+from xml.etree.ElementTree import Element, SubElement
+
+from shipcollision_fmu import __version__
+from shipcollision_fmu.fmi.arrays import TIME, ArrayVariable, arrays
+from shipcollision_fmu.fmi.interface import Interface
+from shipcollision_fmu.fmi.model_description import add_categories, add_types, add_units, known, limits, number, start
+from shipcollision_fmu.fmi.ports import Ports
+from shipcollision_fmu.fmi.variables import Kind, Table, Variable
+
+__all__ = ["TYPES", "model_description"]
+
+TYPES: dict[Kind, str] = {
+    "Real": "Float64", "Integer": "Int32", "Boolean": "Boolean", "String": "String", "Enumeration": "Enumeration",
+}  # fmt: skip
+"""What a kind of variable is called in FMI 3.0."""
+
+_SECOND = "s"  # the unit of the time, which is not in the table
+_CAPABILITIES = {
+    "needsExecutionTool": True,  # a Python interpreter with the packages of resources/requirements.txt
+    "canBeInstantiatedOnlyOncePerProcess": False,
+    "canGetAndSetFMUState": True,
+    "canSerializeFMUState": True,
+    "providesDirectionalDerivatives": False,
+    "providesAdjointDerivatives": False,
+    "providesPerElementDependencies": False,
+    "canHandleVariableCommunicationStepSize": True,
+    "providesIntermediateUpdate": False,
+    "mightReturnEarlyFromDoStep": False,
+    "canReturnEarlyAfterIntermediateUpdate": False,
+    "hasEventMode": False,
+    "providesEvaluateDiscreteStates": False,
+}
+
+
+def model_description(interface: Interface, ships: tuple[str, ...], token: str) -> Element:
+    """The whole document. Without a date, so that the same sources give the same file."""
+    ports = interface.ports(ships)
+    table, gathered = ports.table, arrays(ports.table)
+    root = Element("fmiModelDescription", {
+        "fmiVersion": "3.0",
+        "modelName": interface.name,
+        "instantiationToken": token,
+        "description": interface.description,
+        "version": __version__,
+        "license": "MIT",
+        "generationTool": f"shipcollision_fmu {__version__}",
+        "variableNamingConvention": "structured",
+    })  # fmt: skip
+    capabilities = {name: str(able).lower() for name, able in _CAPABILITIES.items()}
+    SubElement(root, "CoSimulation", {"modelIdentifier": interface.name, **capabilities})
+    add_units(root, table, _SECOND)
+    add_types(root, table, _enumeration)
+    add_categories(root)
+    SubElement(root, "DefaultExperiment", {"startTime": "0", "stepSize": number(interface.step_size)})
+    variables = SubElement(root, "ModelVariables")
+    SubElement(variables, "Float64", {
+        "name": "time",
+        "valueReference": str(TIME),
+        "description": "End of the last step; 0 before the first",
+        "causality": "independent",
+        "variability": "continuous",
+        "unit": _SECOND,
+    })  # fmt: skip
+    for reference, array in enumerate(gathered, TIME + 1):
+        _variable(variables, reference, array, ports)
+    _structure(root, gathered, table)
+    return root
+
+
+def _enumeration(definitions: Element, name: str, variable: Variable) -> Element:
+    return SubElement(definitions, "EnumerationType", {"name": name, "description": variable.description})
+
+
+def _variable(variables: Element, reference: int, array: ArrayVariable, ports: Ports) -> None:
+    line = array.line
+    attributes = {
+        "name": array.name,
+        "valueReference": str(reference),
+        "description": array.description,
+        "causality": line.causality,
+        "variability": line.variability,
+    }
+    if line.causality != "input":
+        attributes["initial"] = "calculated" if line.causality == "output" else "exact"
+    starts = [start(ports.table[scalar], scalar, ports) for scalar in array.references]
+    settable, string = line.causality != "output", line.kind == "String"
+    if settable and not string:
+        attributes["start"] = " ".join(starts)
+    node = SubElement(variables, TYPES[line.kind], attributes | limits(line))
+    for extent in array.shape:
+        SubElement(node, "Dimension", {"start": str(extent)})
+    if settable and string:
+        for value in starts:
+            SubElement(node, "Start", {"value": value})
+
+
+def _structure(root: Element, gathered: tuple[ArrayVariable, ...], table: Table) -> None:
+    structure = SubElement(root, "ModelStructure")
+    outputs = [(i, array) for i, array in enumerate(gathered, TIME + 1) if array.line.causality == "output"]
+    for reference, _ in outputs:
+        SubElement(structure, "Output", {"valueReference": str(reference), "dependencies": ""})
+    within = {scalar: reference for reference, array in enumerate(gathered, TIME + 1) for scalar in array.references}
+    for reference, array in outputs:
+        node = SubElement(structure, "InitialUnknown", {"valueReference": str(reference)})
+        if array.line.depends_on is not None:
+            scalars = (position - 1 for position in known(array.line, table))
+            node.set("dependencies", " ".join(map(str, sorted({within[scalar] for scalar in scalars}))))

@@ -1,0 +1,219 @@
+"""What a slave does whatever the version of FMI: a model behind its ports, and no exception that crosses into the host.
+
+    exit_initialization_mode        the model reads its parameters
+    do_step                         one step, or a refusal and one logged line; the state before the step stays
+    _get_fmu_state, ...             the whole state, exact to the bit, JSON as bytes
+
+The wrappers of pythonfmu 0.7 (FMI 2.0) and pythonfmu3 0.3 (FMI 3.0) decide the rest. Where a call raises, they answer
+fatal, and give back one reference too many to the instance, its class and its log: whoever uses the instance
+afterwards (the host that frees it) works on freed memory.
+
+So nothing raises, with one exception. A refused get or set, or a call in the wrong order, is logged, changes nothing,
+answers NaN, 0 or "" where something must be answered, and makes the next doStep fail. Only initialisation that fails
+must not pass for success: there the references are made good first, then an exception is let through, and the host
+sees fatal with the reason. The instance can still be reset and freed.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import json
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from hashlib import sha256
+from importlib import import_module
+from typing import Any, ClassVar, TypeVar
+
+from shipcollision_fmu.errors import InputError, ShipCollisionError, StepError
+from shipcollision_fmu.fmi.build_record import confirmed
+from shipcollision_fmu.fmi.interface import SHIPS, Interface
+from shipcollision_fmu.fmi.ports import Ports
+from shipcollision_fmu.fmi.wrapper_library import let_go
+
+__all__ = ["SlaveBase", "keep", "state_from_bytes", "state_to_bytes"]
+
+T = TypeVar("T")
+
+_DIGEST = 64
+"""Characters of a digest."""
+
+INSTANTIATED, INITIALISING, RUNNING, TERMINATED = "instantiated", "initialising", "running", "terminated"
+"""Phases of an instance, between which FMI has one way: reset or a restored state lead back."""
+
+
+class _InitialisationFailed(Exception):  # noqa: N818 - the wrapper shows its repr to the host: the message alone
+    def __repr__(self) -> str:
+        return str(self)
+
+
+class SlaveBase:
+    """An Interface as a slave, without what the version of FMI decides. Subclasses set `interface`, or name the module
+    that holds it as INTERFACE.
+
+    The module is imported only when it is sure that it comes from the right build, and where from: see build_record.
+
+    Raises HostError when it is instantiated on another build of shipcollision_fmu than its own: the host sees the
+    instantiation fail.
+    """
+
+    interface: ClassVar[Interface | str]
+    wrapper: ClassVar[str]
+    ports: Ports
+    resources: str | None
+    log_queue: list[Any]
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self._ships: tuple[str, ...] = SHIPS
+        self.guid = ""
+        if self.resources is not None:
+            let_go(str(self.resources))
+            record = confirmed(str(self.resources), self.wrapper)
+            self._ships, self.guid = record.ships, record.guid
+        made_from = self.interface
+        self._made_from: Interface = import_module(made_from).INTERFACE if isinstance(made_from, str) else made_from
+        self.ports = self._made_from.ports(self._ships)
+        self._phase = INSTANTIATED
+        self._refused = ""  # a call that was refused and that no status has told yet
+
+    def report(self, line: str) -> None:
+        """Log a line as an error."""
+        raise NotImplementedError
+
+    # In time. ------------------------------------------------------------------------------
+
+    def enter_initialization_mode(self) -> None:
+        """From here on start values are final, but for corrections."""
+        if self._phase == INSTANTIATED:
+            self._phase = INITIALISING
+        else:
+            self._refuse(InputError(f"initialisation cannot be entered: the instance is {self._phase}; reset it"))
+
+    def exit_initialization_mode(self) -> None:
+        """Initialise the model; a failure reaches the host as fatal."""
+        try:
+            if not self._refused and self._phase != INITIALISING:
+                raise InputError(f"initialisation is not entered: the instance is {self._phase}")
+            if not self._refused:
+                self.ports.initialise()
+                self._phase = RUNNING
+        except BaseException as error:
+            self._refused = _line(error)
+        if self._refused:
+            for lost in (self, type(self), self.log_queue):
+                keep(lost)
+            failed = _InitialisationFailed(self._text(f"{self._made_from.name} cannot be initialised: {self._refused}"))
+            self._refused = ""
+            raise failed
+
+    def terminate(self) -> None:
+        """The last values stay readable; there are no more steps."""
+        self._phase = TERMINATED
+
+    def stepped(self, t: float, h: float) -> bool:
+        """One step from t to t + h [s]; whether it could be made. If not, the reason is logged."""
+        try:
+            if not self._refused:
+                if self._phase == TERMINATED:
+                    raise StepError(f"{self._made_from.name} is terminated at t = {t:g} s: reset it or restore a state")
+                self.ports.do_step(t, h)
+                return True
+            line = f"no step at t = {t} s after a refused call: {self._refused}"
+        except BaseException as error:
+            line = _line(error)
+        self._refused = ""
+        self.report(line)
+        return False
+
+    # Values. ------------------------------------------------------------------------------
+
+    def answered(self, get: Callable[[Sequence[int]], list[T]], references: Sequence[int]) -> list[T] | None:
+        """What a getter gives; None when it refuses, which is logged.
+
+        During initialisation parameters may still be corrected, so it is then only logged.
+        """
+        try:
+            return get(references)
+        except BaseException as error:
+            if self.ports.running:
+                self._refused = _line(error)
+            self.report(_line(error))
+            return None
+
+    def given(self, put: Callable[[Sequence[int], Any], object], references: list[int], values: list[Any]) -> None:
+        """Give values to a setter; its refusal is logged and discards the next step."""
+        try:
+            put(references, values)
+        except BaseException as error:
+            self._refuse(error)
+
+    # The whole state. ------------------------------------------------------------------------------
+
+    def _get_fmu_state(self) -> dict[str, Any]:
+        try:
+            return {**self.ports.save(), "phase": self._phase}
+        except BaseException as error:
+            self._refuse(error)
+            return {"of": f"nothing: {_line(error)}"}
+
+    def _set_fmu_state(self, state: dict[str, Any]) -> None:
+        try:
+            self.ports.restore(state)
+            phase = state.get("phase", RUNNING if self.ports.running else INSTANTIATED)
+            self._phase, self._refused = str(phase), ""
+        except BaseException as error:
+            self._refuse(error)
+
+    @staticmethod
+    def _fmu_state_to_bytes(state: dict[str, Any]) -> bytes:
+        return state_to_bytes(state)
+
+    @staticmethod
+    def _fmu_state_from_bytes(state: bytes) -> dict[str, Any]:
+        try:
+            return state_from_bytes(state)
+        except InputError as error:
+            return {"of": str(error)}  # refused by whoever restores it
+
+    def __del__(self) -> None:
+        """The host has freed the instance."""
+        with suppress(Exception):  # after an instantiation that failed, and when the process ends, little is left
+            self.ports.close()
+
+    # Inside. ------------------------------------------------------------------------------
+
+    def _refuse(self, error: BaseException) -> None:
+        self._refused = _line(error)
+        self.report(self._refused)
+
+    @staticmethod
+    def _text(line: str) -> str:
+        """A line as the host's logger takes it."""
+        return line
+
+
+def state_to_bytes(state: Mapping[str, Any]) -> bytes:
+    """A saved state as bytes: a digest and JSON, with floats as repr, which is exact."""
+    text = json.dumps(state, separators=(",", ":")).encode()
+    return sha256(text).hexdigest().encode() + text
+
+
+def state_from_bytes(data: bytes) -> dict[str, Any]:
+    """The state that the bytes are of. Raises InputError for damaged bytes, and for what was never a state."""
+    digest, text = data[:_DIGEST], data[_DIGEST:]
+    if sha256(text).hexdigest().encode() != digest:
+        raise InputError("bytes that are no state, or damaged ones")
+    read = json.loads(text)
+    if not isinstance(read, dict):
+        raise InputError("bytes that are no state")
+    return read
+
+
+def keep(lost: object) -> None:
+    """Take a reference that nobody will give back, for the one that the wrapper gives back twice."""
+    ctypes.pythonapi.Py_IncRef(ctypes.py_object(lost))
+
+
+def _line(error: BaseException) -> str:
+    message = " ".join(str(error).split())
+    return message if isinstance(error, ShipCollisionError) else f"{type(error).__name__}: {message}"

@@ -1,0 +1,119 @@
+"""A step costs at the end of a long run what it costs at its start, through the FMUs.
+
+Cost is processor time of this process. Every tenth of a run is cut into pieces that do the same, and the cheapest
+piece counts: other programs can only make one dearer.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, closing
+from pathlib import Path
+from time import process_time
+
+import pytest
+
+from shipcollision_fmu.cosim.component import Component
+from shipcollision_fmu.cosim.fmu_component import FmuComponent, UnpackedFmu
+from shipcollision_fmu.cosim.fmu_files import ready_fmus
+from shipcollision_fmu.cosim.scenario import load_scenario
+from shipcollision_fmu.cosim.simulate import simulate
+
+from .conftest import BARGE, Write
+
+H = 0.05
+PERIOD = 150
+"""Steps of one visit: the ships touch, slide, part, and stay apart for longer than a collision lasts."""
+
+Make = Callable[[str], Component]
+
+
+@pytest.fixture
+def make() -> Iterator[Make]:
+    with ExitStack() as stack:
+
+        def made(name: str) -> Component:
+            fmu = stack.enter_context(closing(UnpackedFmu(ready_fmus()[name])))
+            return stack.enter_context(closing(FmuComponent("one", fmu)))
+
+        yield made
+
+
+def ratio(piece: Callable[[int], None], pieces: int) -> float:
+    """Cost of the last tenth of `pieces` runs of piece(k) over that of the first, after one to warm up."""
+    piece(0)
+    costs = []
+    for k in range(1, pieces + 1):
+        begin = process_time()
+        piece(k)
+        costs.append(process_time() - begin)
+    tenth = pieces // 10
+    return min(costs[-tenth:]) / min(costs[:tenth])
+
+
+def visiting(collision: Component, barge: Path) -> Callable[[int], None]:
+    """A piece: own comes, touches target's side, slides along it and leaves. Positions are given, not sailed."""
+    place = collision.reals(["own.position.north", "own.position.east", "own.velocity.surge", "own.velocity.sway"])
+    impacts = collision.integers(["impact.count"])
+    place.values[:] = [0.0, -80.0, 0.0, 0.0]
+    parameters = {"own.ship": str(barge), "target.ship": str(barge), "feedback": "none", "minimum_separation_time": 1.0}
+    collision.initialise(parameters, 7200.0, [place])
+
+    def piece(k: int) -> None:
+        for j in range(PERIOD):
+            into = max(0.0, 1.0 - abs(j - 0.3 * PERIOD) / (0.3 * PERIOD))  # 0 apart, 1 deepest
+            speed = 0.5 if j < 0.3 * PERIOD else -0.5
+            place.values[:] = [0.1 * into, -23.0 + 3.5 * into, 0.1, speed if into else 0.0]
+            place.write()
+            collision.step((k * PERIOD + j) * H, H)
+        impacts.read()
+        assert impacts.values[0] == k + 1  # each visit is a collision of its own
+
+    return piece
+
+
+def sailing(ship: Component) -> Callable[[int], None]:
+    """A piece: a turning ship in six degrees of freedom."""
+    orders = ship.reals(["rudder_order", "propeller_order"])
+    orders.values[:] = [0.1, 1.5]
+    ship.initialise({"ship": "kvlcc2", "degrees_of_freedom": 6, "hydrodynamics": True, "initial.velocity.surge": 7.0},
+                    7200.0, [orders])  # fmt: skip
+
+    def piece(k: int) -> None:
+        for j in range(PERIOD):
+            ship.step((k * PERIOD + j) * H, H)
+
+    return piece
+
+
+def test_collisions_cost_the_same_after_ten_others(make: Make, tmp_path: Path) -> None:
+    (tmp_path / "barge.toml").write_text(BARGE, encoding="utf-8")
+    assert ratio(visiting(make("ShipCollision"), tmp_path / "barge.toml"), 10) < 1.3
+
+
+def test_a_ship_sails_on_at_the_same_cost(make: Make) -> None:
+    assert ratio(sailing(make("ShipManoeuvring")), 20) < 1.3
+
+
+@pytest.mark.slow
+def test_two_hours_of_collisions_at_constant_cost(make: Make, tmp_path: Path) -> None:
+    (tmp_path / "barge.toml").write_text(BARGE, encoding="utf-8")
+    assert ratio(visiting(make("ShipCollision"), tmp_path / "barge.toml"), round(7200 / (PERIOD * H))) < 1.3
+
+
+@pytest.mark.slow
+def test_two_hours_of_sailing_at_constant_cost(make: Make) -> None:
+    assert ratio(sailing(make("ShipManoeuvring")), round(7200 / (PERIOD * H))) < 1.3
+
+
+@pytest.mark.slow
+def test_two_hours_recorded_at_constant_cost(scenario_file: Write) -> None:
+    """The whole run: master, recorder and both FMUs, the ships in lasting contact at the start."""
+    stamps: list[float] = []
+    scenario = load_scenario(scenario_file(("duration = 3.0", "duration = 7200.0")))
+    run = simulate(scenario, progress=lambda done, total: stamps.append(process_time()))
+    assert len(run.states) == 144_001
+    piece = 1440
+    costs = [stamps[k + piece] - stamps[k] for k in range(0, len(stamps) - piece, piece)]
+    after = [cost for k, cost in enumerate(costs) if k * piece * H > 120.0]  # the ships have parted
+    assert min(after[-10:]) / min(after[:10]) < 1.3

@@ -1,0 +1,49 @@
+"""Limits in the model description are those that the models keep: just outside is refused, the limit itself is not."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from shipcollision_fmu.errors import InputError
+from shipcollision_fmu.fmi.interface import Interface
+from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
+from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
+from shipcollision_fmu.fmi.variables import Variable
+
+LIMITED = [
+    (made_from, line, limit, outward)
+    for made_from in (COLLISION, MANOEUVRING)
+    for line in made_from.table(("own", "target"))
+    if line.causality == "parameter"
+    for limit, outward in ((line.minimum, -math.inf), (line.maximum, math.inf))
+    if limit is not None
+]
+
+
+@pytest.mark.parametrize(
+    ("made_from", "line", "limit", "outward"), LIMITED, ids=[f"{line.name} {limit}" for _, line, limit, _ in LIMITED]
+)
+def test_beyond_a_limit_is_refused(made_from: Interface, line: Variable, limit: float, outward: float) -> None:
+    ports = made_from.ports(("own", "target"))
+    reference = ports.references([line.name])
+    if line.kind == "Integer":
+        ports.set_integer(reference, [int(limit) + (1 if outward > 0 else -1)])
+    else:
+        ports.set_real(reference, [math.nextafter(limit, outward)])
+    with pytest.raises(InputError):
+        ports.initialise()
+
+
+def test_there_are_limits() -> None:
+    names = {line.name for _, line, _, _ in LIMITED}
+    assert {"friction", "restitution", "substep", "degrees_of_freedom", "own.fender.stiffness"} <= names
+
+
+@pytest.mark.parametrize("made_from", [COLLISION, MANOEUVRING])
+def test_numbers_and_counts_are_never_negative(made_from: Interface) -> None:
+    """Of the outputs, what counts or numbers something says so."""
+    for line in made_from.table(("own", "target")):
+        if line.causality == "output" and line.kind == "Integer":
+            assert line.minimum == 0, line.name

@@ -1,0 +1,70 @@
+"""Instances give their memory back: rounds of instantiate, step, terminate, free in a process of their own."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROUNDS = """
+import json, sys
+sys.path.insert(0, sys.argv[1])
+from pathlib import Path
+from fuzz import Fmu
+
+fmu, rounds, failing = Fmu(Path(sys.argv[2])), int(sys.argv[3]), sys.argv[4] == "failing"
+used = []
+for k in range(rounds):
+    one = fmu.instantiate(False)
+    if failing:
+        fmu.set("String", one, fmu.kinds["String"][:1], [b"nobody"])
+        fmu.enter(one, 0.0, 1.0)
+        assert fmu.call("ExitInitializationMode")(one) == 4
+        assert fmu.call("Reset")(one) == 0
+    assert fmu.enter(one, 0.0, 1.0) == 0
+    assert fmu.call("ExitInitializationMode")(one) == 0, fmu.said
+    for j in range(3):
+        assert fmu.step(one, 0.05 * j, 0.05) == 0, fmu.said
+    state = fmu.saved(one)
+    again = fmu.from_bytes(one, fmu.to_bytes(one, state))
+    assert fmu.restored(one, again) == 0
+    fmu.freed(one, state)
+    fmu.freed(one, again)
+    fmu.call("Terminate")(one)
+    fmu.free(one)
+    fmu.said.clear()
+    used.append(int(Path("/proc/self/statm").read_text().split()[1]) * 4096 / 1e6)
+print(json.dumps(used))
+"""
+
+WHICH = [(name, fmi) for name in ("ShipManoeuvring", "ShipCollision") for fmi in (2, 3)]
+
+
+def grown(folder: Path, rounds: int, kind: str) -> float:
+    """Growth of the resident memory [MB] after the first ten rounds."""
+    done = subprocess.run(
+        [sys.executable, "-c", ROUNDS, Path(__file__).parent, folder, str(rounds), kind],
+        capture_output=True, text=True, timeout=300, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    used = json.loads(done.stdout.splitlines()[-1])
+    assert len(used) == rounds
+    return float(max(used[10:]) - used[9])
+
+
+@pytest.mark.parametrize("which", [("ShipManoeuvring", 3), ("ShipCollision", 2)])
+def test_a_few_rounds_do_not_grow(real_unpacked: dict[tuple[str, int], Path], which: tuple[str, int]) -> None:
+    """As many as tell a leak of 50 kB a round from noise."""
+    assert grown(real_unpacked[which], 40, "plain") < 1.2
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", ["plain", "failing"])
+@pytest.mark.parametrize("which", WHICH)
+def test_two_hundred_rounds_grow_by_less_than_5_mb(
+    real_unpacked: dict[tuple[str, int], Path], which: tuple[str, int], kind: str
+) -> None:
+    assert grown(real_unpacked[which], 200, kind) < 5.0
