@@ -241,27 +241,30 @@ def trial(
 @click.option("--drift-deg", type=float, metavar="DEG", help="Where she drifts, from her bow.  [default: 90]")
 @click.option("--case", type=int, metavar="N", help="Of imazu: 1 to 22.")
 @click.option("--hydrodynamics/--coasting", default=None, help="Sail the ships, or let them coast.  [default: by TYPE]")
+@click.option(
+    "--degrees-of-freedom", type=click.Choice(["3", "4", "6"]), help="Of all ships.  [default: 3 under way, 6 coasting]"
+)
 @click.option("--step", type=float, default=0.05, show_default=True, metavar="S", help="Communication step.")
 @click.option("--name", help="Of the scenario.")
 @click.option("--out", type=_PATH, metavar="FILE.toml", help="Store it; else it is printed.")
-def encounter(kind: str, out: Path | None, case: int | None, **options: Any) -> None:
+def encounter(kind: str, out: Path | None, case: int | None, degrees_of_freedom: str | None, **options: Any) -> None:
     """Make a scenario in which two ships collide as wanted.
 
     TYPE is head-on, crossing, overtaking, glancing, t-bone, drifting-target, late-evasive, loss-of-steering, or imazu
     with --case: one of the 22 cases of Imazu's problem, with one to three targets.
     """
     from .cosim.encounters import encounter as made
-    from .cosim.encounters import wanted
     from .cosim.folder import check_writable, write_file
     from .cosim.imazu import imazu_with
 
     directory = Path(".") if out is None else out.parent
+    options["degrees_of_freedom"] = None if degrees_of_freedom is None else int(degrees_of_freedom)
     if kind == "imazu":
         text = imazu_with(case, options, directory).text
     else:
         if case is not None:
             raise click.UsageError("--case goes with TYPE imazu only")
-        text = made(wanted(kind, options), directory).text
+        text = made(kind, directory, **options).text
     if out is None:
         click.echo(text, nl=False)
         return

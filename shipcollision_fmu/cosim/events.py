@@ -168,7 +168,7 @@ def _point(row: Any) -> dict[str, list[float]]:
 
 
 def _middle(row: Any, start: Impact, record: Record) -> dict[str, list[float]]:
-    """The first point of a collision in n, and in b of either body: of a ship as she was then, of an obstacle `row`'s."""
+    """The first point of a collision, in n and in b of either ship as she was then; in that of an obstacle `row`'s."""
     n = np.array(start.point)
     before = record.states[max(0, int(np.searchsorted(record.states["time"], row["time"])) - 1)]
     places = {}

@@ -21,10 +21,11 @@ from typing import Any
 
 from ..errors import ScenarioError
 from ..ship.library import load_ship
-from .encounters import FASTEST, ship_reference, whole_steps
+from .encounters import ship_reference
 from .scenario import Scenario, scenario_of
 from .scenario_text import scenario_text
 from .trials import self_propulsion
+from .wanted import FASTEST, whole_steps
 
 __all__ = ["COURSES", "KNOT", "SLOW", "Imazu", "imazu", "imazu_with"]
 
@@ -63,6 +64,7 @@ def imazu(
     after: float = 120.0,
     step: float = 0.05,
     hydrodynamics: bool = False,
+    degrees_of_freedom: int | None = None,
     directory: str | Path = ".",
 ) -> Imazu:
     """Case 1 to 22 as a scenario file for `directory`; `speed` is own's [m/s], `time` that to the meeting [s].
@@ -100,6 +102,7 @@ def imazu(
             "heading_deg": float(course),
             "speed": U,
             "hydrodynamics": hydrodynamics or None,
+            "degrees_of_freedom": degrees_of_freedom,
             "orders": [{"time": 0.0, "rudder_deg": 0.0, "rev_per_s": self_propulsion(file, U)}]
             if hydrodynamics
             else None,
@@ -115,7 +118,7 @@ def imazu(
 
 
 _OPTIONS = {"own": "own", "target": "target", "own_speed": "speed", "time": "time", "after": "after", "step": "step",
-            "hydrodynamics": "hydrodynamics"}  # fmt: skip
+            "hydrodynamics": "hydrodynamics", "degrees_of_freedom": "degrees_of_freedom"}  # fmt: skip
 
 
 def imazu_with(case: int | None, options: Mapping[str, Any], directory: str | Path) -> Imazu:

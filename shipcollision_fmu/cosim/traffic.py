@@ -31,13 +31,14 @@ from ..errors import ScenarioError
 from ..ship.library import load_ship
 from ..ship.particulars import RHO_SEA
 from ..ship.refusal import one_line
-from .encounters import ship_reference, whole_steps
+from .encounters import ship_reference
 from .imazu import KNOT
 from .scenario import load_scenario
 from .scenario_text import scenario_text
 from .tables import SHORTEST_LEG
 from .tangent_plane import TangentPlane
 from .trials import self_propulsion
+from .wanted import whole_steps
 
 __all__ = ["Imported", "imported"]
 
