@@ -13,9 +13,10 @@ The result is a scenario file like any other. What cannot meet is refused.
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from contextlib import closing
 from dataclasses import dataclass, replace
-from math import cos, degrees, radians, sin
+from math import cos, degrees, hypot, inf, radians, sin
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -30,7 +31,7 @@ from .aim import BEST, Range, aimed, check_nothing_before
 from .scenario import Scenario, scenario_of
 from .scenario_text import scenario_text
 from .touching import Place, Touch, common_deck, place, section, touches
-from .tracks import Mover, Pose, relative_velocity, steered, track, under_way
+from .tracks import Mover, Pose, as_run, nearer, relative_velocity, steered, track, under_way
 from .wanted import Kind, Wanted, asked_for, checked, either, whole_steps
 
 __all__ = ["Encounter", "encounter", "ship_reference"]
@@ -39,6 +40,11 @@ SLOWEST_CLOSING = 0.05
 """[m/s] along the normal: slower, and the hulls lie against each other rather than collide."""
 GRAZING = 0.03
 """Of the relative speed along the normal: less, within 1.7 deg of the hull's side, and no place can be foretold."""
+PROMISED = 0.45
+"""[m] from the place, of the half metre that is promised."""
+HAIR = 1e-5
+"""[m] A start written in the file differs from the next by so much."""
+HAIRS = 20
 
 
 @dataclass(frozen=True)
@@ -95,12 +101,17 @@ def encounter(wanted: Wanted | str, directory: str | Path = ".", **options: Any)
     sailed = kind.sailed if wanted.hydrodynamics is None else wanted.hydrodynamics
     impact = _impact(wanted, kind)
     current, own, target = _movers(wanted, kind, sailed, steps)
-    coming = _coming(wanted, impact, own, target, current, steps)
-    check_nothing_before(coming.own_track, coming.target_track, impact.sections, impact.deck, steps, wanted.step)
-    text = _text(wanted, kind, impact, steps, current, coming, sailed, Path(directory))
+    with closing(Range(own, target, steps, wanted.step)) as range_:
+        coming = _coming(wanted, impact, own, target, current, steps, range_)
+        check_nothing_before(coming.own_track, coming.target_track, impact.sections, impact.deck, steps, wanted.step)
+        text, scenario = _as_recorded(
+            lambda to: _text(wanted, kind, impact, steps, current, to, sailed, Path(directory)),
+            lambda text: scenario_of(text, f"encounter {wanted.kind}", directory),
+            wanted, impact, coming, steps, range_,
+        )  # fmt: skip
     return Encounter(
         text=text,
-        scenario=scenario_of(text, f"encounter {wanted.kind}", directory),
+        scenario=scenario,
         point=(float(impact.at.point[0]), float(impact.at.point[1])),
         normal=(float(coming.contact.normals[0][0]), float(coming.contact.normals[0][1])),
         angle=abs(impact.heading),
@@ -148,7 +159,7 @@ def _movers(wanted: Wanted, kind: Kind, sailed: bool, steps: int) -> tuple[tuple
 
 
 def _coming(
-    wanted: Wanted, impact: _Impact, own: Mover, target: Mover, current: tuple[float, float], steps: int
+    wanted: Wanted, impact: _Impact, own: Mover, target: Mover, current: tuple[float, float], steps: int, range_: Range
 ) -> _Coming:  # fmt: skip
     """The tracks that end at the impact, which is at n's origin."""
     psi, h, at = radians(wanted.heading_deg), wanted.step, impact.at
@@ -157,23 +168,46 @@ def _coming(
     ways = touches(at, impact.sections["own"], impact.heading)
     own_track = track(own, R @ (ways[0].position - at.point), psi + impact.heading, current, steps, h)
     least_off = float("inf")
-    with closing(Range(own, target, steps, h)) as range_:
-        for i, contact in enumerate(ways):
-            there = R @ (contact.position - at.point)
-            shifted = [p._replace(north=p.north + there[0] - own_track[steps].north,
-                                  east=p.east + there[1] - own_track[steps].east) for p in own_track]  # fmt: skip
-            velocity = relative_velocity(shifted[steps], target_track[steps])
-            speeds = [float(-velocity @ (R @ normal)) for normal in contact.normals]
-            try:
-                _check_they_meet(wanted, impact, min(speeds), float(np.linalg.norm(velocity)))
-            except ScenarioError:
-                if i == 0:
-                    raise
-                continue
-            aimed_track, off = aimed(range_, shifted, target_track, at.point, contact.normals[0], speeds[0], steps, h)
-            if off <= BEST:
-                return _Coming(own, target, aimed_track, target_track, contact, speeds[0])
-            least_off = min(least_off, off)
+    for i, contact in enumerate(ways):
+        there = R @ (contact.position - at.point)
+        shifted = [p._replace(north=p.north + there[0] - own_track[steps].north,
+                              east=p.east + there[1] - own_track[steps].east) for p in own_track]  # fmt: skip
+        velocity = relative_velocity(shifted[steps], target_track[steps])
+        speeds = [float(-velocity @ (R @ normal)) for normal in contact.normals]
+        try:
+            _check_they_meet(wanted, impact, min(speeds), float(np.linalg.norm(velocity)))
+        except ScenarioError:
+            if i == 0:
+                raise
+            continue
+        aimed_track, off = aimed(range_, shifted, target_track, at.point, contact.normals[0], speeds[0], steps, h)
+        if off <= BEST:
+            return _Coming(own, target, aimed_track, target_track, contact, speeds[0])
+        least_off = min(least_off, off)
+    raise _beside(wanted, impact, least_off)
+
+
+def _as_recorded(
+    text_of: Callable[[_Coming], str], scenario_of_text: Callable[[str], Scenario], wanted: Wanted, impact: _Impact,
+    coming: _Coming, steps: int, range_: Range,
+) -> tuple[str, Scenario]:  # fmt: skip
+    """The file, and that it leads to the place when it is run, to the bit.
+
+    Of starts within a hair of each other, which all lead to the same line of contact, the first is taken from which
+    the first contact is found near enough to the middle.
+    """
+    text = text_of(coming)
+    scenario = scenario_of_text(text)
+    target, off, least_off = as_run(scenario, "target", steps), inf, inf
+    for attempt in range(HAIRS):
+        found = range_.found(as_run(scenario, "own", steps), target)
+        off = inf if found is None else hypot(*(impact.at.point - found.point))
+        if off <= PROMISED:
+            return text, scenario
+        least_off = min(least_off, off)
+        by = (attempt // 2 + 1) * (-1) ** attempt * HAIR
+        text = text_of(coming._replace(own_track=nearer(coming.own_track, np.array([by, by]))))
+        scenario = scenario_of_text(text)
     raise _beside(wanted, impact, least_off)
 
 

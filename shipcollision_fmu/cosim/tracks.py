@@ -6,7 +6,7 @@ turned and shifted so that it ends there; with a current, which does not turn, t
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import cos, degrees, radians, sin
 from typing import NamedTuple
@@ -17,9 +17,12 @@ from ..errors import ScenarioError
 from ..manoeuvring.model import ShipManoeuvring
 from ..ship.frames import Array
 from ..ship.library import load_ship
+from .scenario import Scenario, order_table
 from .trials import self_propulsion
 
-__all__ = ["BEYOND", "Mover", "Order", "Pose", "nearer", "relative_velocity", "steered", "track", "under_way"]
+__all__ = [
+    "BEYOND", "Mover", "Order", "Pose", "as_run", "nearer", "relative_velocity", "steered", "track", "under_way",
+]  # fmt: skip
 
 BEYOND = 2
 """Communication points of a track after the wanted impact, as if nothing had been met."""
@@ -118,17 +121,36 @@ def _sailed(mover: Mover, heading: float, current: tuple[float, float], steps: i
     c, s = cos(heading), sin(heading)
     parameters.initial_velocity[:] = [mover.surge + north * c + east * s, mover.sway - north * s + east * c, 0.0]
     model.inputs.current[:] = [north, east]
-    orders = {order.k: order for order in mover.orders or ()}
-    model.inputs.orders[:] = [radians(orders[0].rudder_deg), orders[0].rev_per_s]
+    orders = {order.k: [radians(order.rudder_deg), order.rev_per_s] for order in mover.orders or ()}
+    return _stepped(model, orders, steps, h)
+
+
+def _stepped(model: ShipManoeuvring, orders: Mapping[int, list[float]], steps: int, h: float) -> list[Pose]:
+    """Poses at the communication points; orders by the point at which they are given."""
+    model.inputs.orders[:] = orders.get(0, [0.0, 0.0])
     model.initialise()
     o, poses = model.outputs, []
     for k in range(steps + BEYOND + 1):
         poses.append(Pose(*o.position, *o.attitude, *o.velocity, *o.rate))
         if k in orders:
-            model.inputs.orders[:] = [radians(orders[k].rudder_deg), orders[k].rev_per_s]
+            model.inputs.orders[:] = orders[k]
         if k < steps + BEYOND:
             model.step(k * h, h)
     return poses
+
+
+def as_run(scenario: Scenario, name: str, steps: int) -> list[Pose]:
+    """The track of a ship of a scenario, who meets nobody, to the bit as a run makes it, up to `steps` + BEYOND."""
+    table = scenario.ships[name]
+    model, start = ShipManoeuvring(), table.start
+    parameters = model.parameters
+    parameters.ship, parameters.degrees_of_freedom = scenario.ship_file(name), table.free
+    parameters.hydrodynamics = table.hydrodynamics
+    parameters.initial_position[:], parameters.initial_attitude[:] = start.position, start.attitude
+    parameters.initial_velocity[:], parameters.initial_rate[:] = start.velocity, start.rate
+    if table.hydrodynamics:
+        model.inputs.current[:] = scenario.environment.current
+    return _stepped(model, dict(order_table(table, scenario.step)), steps, scenario.step)
 
 
 def _turned(poses: Sequence[Pose], by: float) -> list[Pose]:
