@@ -26,10 +26,12 @@ _HOME = {
     "load_scenario": "shipcollision_fmu.cosim.scenario",
     "load_ship": "shipcollision_fmu.ship.library",
     "simulate": "shipcollision_fmu.cosim.simulate",
+    "traffic_scenario": "shipcollision_fmu.cosim.traffic",
 }
 
 __all__ = [
     "ShipCollisionError", "__version__", "build_fmus", "encounter", "imazu", "load_scenario", "load_ship", "simulate",
+    "traffic_scenario",
 ]  # fmt: skip
 
 

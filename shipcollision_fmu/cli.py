@@ -290,13 +290,17 @@ def import_(
     ship file beside the scenario.
     """
     from .cosim.folder import check_writable, write_files
-    from .cosim.traffic import imported
+    from .cosim.traffic import traffic_scenario
 
-    made = imported(file, out=out, ship=ship, own=own, duration=duration, step=step, hydrodynamics=hydrodynamics)
+    made = traffic_scenario(
+        file, out=out, ship=ship, own=own, duration=duration, step=step, hydrodynamics=hydrodynamics
+    )
     check_writable(out.parent)
     write_files(out.parent, {**made.ship_files, out.name: made.text})
     for name in (*made.ship_files, out.name):
         click.echo(out.parent / name)
+    for note in made.notes:
+        click.echo(f"note: {note}", err=True)
 
 
 def _fail(message: str, status: int) -> NoReturn:
