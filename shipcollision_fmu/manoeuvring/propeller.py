@@ -33,7 +33,7 @@ from functools import lru_cache
 from math import atan2, degrees, exp, floor, hypot, pi, sqrt
 
 from ..errors import ShipError
-from ..ship.particulars import PropellerTable
+from ..ship.manoeuvring_tables import PropellerTable
 from ..ship.ship import Ship
 from .b_series import ROTATION, bollard, coefficient, pitch_of
 
