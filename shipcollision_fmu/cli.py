@@ -204,9 +204,10 @@ def trial(
     SHIP is a name that `shipcollision ships` lists, or the path of a TOML file. Limits: IMO resolution MSC.137(76), for
     ships of 100 m and more. Distances are of midship, in lengths L.
     """
+    from .cosim.approach import approach
     from .cosim.folder import check_writable, write_file
     from .cosim.trial_report import figures, track_csv
-    from .cosim.trials import approach, crash_stop, turning_circle, zigzag
+    from .cosim.trials import crash_stop, turning_circle, zigzag
 
     start = approach(ship, speed=speed, rev_per_s=rev_per_s, degrees_of_freedom=int(degrees_of_freedom))
     if out is not None:

@@ -12,29 +12,26 @@ The result is a scenario file like any other. What cannot meet is refused.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from contextlib import closing
 from dataclasses import dataclass, replace
 from math import cos, degrees, hypot, inf, radians, sin
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from ..errors import ScenarioError
-from ..ship.frames import Array
 from ..ship.hull import build_hull
 from ..ship.library import load_ship
-from ..ship.ship import Ship
 from .aim import BEST, Range, aimed, check_nothing_before
+from .encounter_text import Coming, Impact, encounter_text
 from .scenario import Scenario, scenario_of
-from .scenario_text import scenario_text
-from .touching import Place, Touch, common_deck, place, section, touches
-from .tracks import Mover, Pose, as_run, nearer, relative_velocity, steered, track, under_way
+from .touching import common_deck, place, section, touches
+from .tracks import Mover, as_run, nearer, relative_velocity, steered, track, under_way
 from .wanted import Kind, Wanted, asked_for, checked, either, whole_steps
 
-__all__ = ["Encounter", "encounter", "ship_reference"]
+__all__ = ["Encounter", "encounter"]
 
 SLOWEST_CLOSING = 0.05
 """[m/s] along the normal: slower, and the hulls lie against each other rather than collide."""
@@ -64,28 +61,6 @@ class Encounter:
     closing_speed: float
 
 
-class _Coming(NamedTuple):
-    """What leads to the impact: own and target, their tracks, how own touches, her closing speed [m/s]."""
-
-    own: Mover
-    target: Mover
-    own_track: list[Pose]
-    target_track: list[Pose]
-    contact: Touch
-    closing_speed: float
-
-
-class _Impact(NamedTuple):
-    """The impact seen from the target: its place, s, own's heading [rad], sections in plan by ship, their height."""
-
-    at: Place
-    s: float
-    heading: float
-    sections: dict[str, Array]
-    deck: float
-    ships: dict[str, Ship]
-
-
 def encounter(wanted: Wanted | str, directory: str | Path = ".", **options: Any) -> Encounter:
     """The encounter that leads to the impact that is wanted, as a scenario file for `directory`.
 
@@ -105,7 +80,7 @@ def encounter(wanted: Wanted | str, directory: str | Path = ".", **options: Any)
         coming = _coming(wanted, impact, own, target, current, steps, range_)
         check_nothing_before(coming.own_track, coming.target_track, impact.sections, impact.deck, steps, wanted.step)
         text, scenario = _as_recorded(
-            lambda to: _text(wanted, kind, impact, steps, current, to, sailed, Path(directory)),
+            lambda to: encounter_text(wanted, kind, impact, steps, current, to, sailed, Path(directory)),
             lambda text: scenario_of(text, f"encounter {wanted.kind}", directory),
             wanted, impact, coming, steps, range_,
         )  # fmt: skip
@@ -120,21 +95,14 @@ def encounter(wanted: Wanted | str, directory: str | Path = ".", **options: Any)
     )
 
 
-def ship_reference(ship: str, directory: Path) -> str:
-    """How a scenario file in `directory` names a ship: a shipped name as it is, a path relative to the file."""
-    if ship.endswith(".toml") or "/" in ship or "\\" in ship:
-        return Path(os.path.relpath(Path(ship).resolve(), directory.resolve())).as_posix()
-    return ship
-
-
-def _impact(wanted: Wanted, kind: Kind) -> _Impact:
+def _impact(wanted: Wanted, kind: Kind) -> Impact:
     ships = {"own": load_ship(wanted.own), "target": load_ship(wanted.target)}
     hulls = {name: build_hull(ship.L_oa, ship.B, ship.T, ship.hull) for name, ship in ships.items()}
     deck = common_deck(hulls["own"], hulls["target"])
     sections = {name: section(hull, deck) for name, hull in hulls.items()}
     s, angle = either(wanted.at, kind.at), radians(either(wanted.angle_deg, kind.angle_deg))
     struck = place(sections["target"], ships["target"].hull.trim_x + s * ships["target"].L_oa, wanted.side)
-    return _Impact(struck, s, -angle if wanted.side == "starboard" else angle, sections, deck, ships)
+    return Impact(struck, s, -angle if wanted.side == "starboard" else angle, sections, deck, ships)
 
 
 def _movers(wanted: Wanted, kind: Kind, sailed: bool, steps: int) -> tuple[tuple[float, float], Mover, Mover]:
@@ -159,8 +127,8 @@ def _movers(wanted: Wanted, kind: Kind, sailed: bool, steps: int) -> tuple[tuple
 
 
 def _coming(
-    wanted: Wanted, impact: _Impact, own: Mover, target: Mover, current: tuple[float, float], steps: int, range_: Range
-) -> _Coming:  # fmt: skip
+    wanted: Wanted, impact: Impact, own: Mover, target: Mover, current: tuple[float, float], steps: int, range_: Range
+) -> Coming:  # fmt: skip
     """The tracks that end at the impact, which is at n's origin."""
     psi, h, at = radians(wanted.heading_deg), wanted.step, impact.at
     R = np.array([[cos(psi), -sin(psi)], [sin(psi), cos(psi)]])
@@ -182,14 +150,14 @@ def _coming(
             continue
         aimed_track, off = aimed(range_, shifted, target_track, at.point, contact.normals[0], speeds[0], steps, h)
         if off <= BEST:
-            return _Coming(own, target, aimed_track, target_track, contact, speeds[0])
+            return Coming(own, target, aimed_track, target_track, contact, speeds[0])
         least_off = min(least_off, off)
     raise _beside(wanted, impact, least_off)
 
 
 def _as_recorded(
-    text_of: Callable[[_Coming], str], scenario_of_text: Callable[[str], Scenario], wanted: Wanted, impact: _Impact,
-    coming: _Coming, steps: int, range_: Range,
+    text_of: Callable[[Coming], str], scenario_of_text: Callable[[str], Scenario], wanted: Wanted, impact: Impact,
+    coming: Coming, steps: int, range_: Range,
 ) -> tuple[str, Scenario]:  # fmt: skip
     """The file, and that it leads to the place when it is run, to the bit.
 
@@ -211,7 +179,7 @@ def _as_recorded(
     raise _beside(wanted, impact, least_off)
 
 
-def _check_they_meet(wanted: Wanted, impact: _Impact, closing_speed: float, speed: float) -> None:
+def _check_they_meet(wanted: Wanted, impact: Impact, closing_speed: float, speed: float) -> None:
     least = max(SLOWEST_CLOSING, GRAZING * speed)
     if closing_speed < least:
         raise ScenarioError(
@@ -220,7 +188,7 @@ def _check_they_meet(wanted: Wanted, impact: _Impact, closing_speed: float, spee
         )
 
 
-def _beside(wanted: Wanted, impact: _Impact, off: float) -> ScenarioError:
+def _beside(wanted: Wanted, impact: Impact, off: float) -> ScenarioError:
     how = (
         "they pass it" if off == float("inf") else f"their hulls lie along each other, and touch first {off:.2g} m off"
     )
@@ -230,69 +198,7 @@ def _beside(wanted: Wanted, impact: _Impact, off: float) -> ScenarioError:
     )
 
 
-def _where(wanted: Wanted, impact: _Impact) -> str:
+def _where(wanted: Wanted, impact: Impact) -> str:
     where = f"s = {impact.s:g} of her" + (" end" if abs(impact.s) == 0.5 else f" {wanted.side} side")
     own, target = (impact.ships[role].name for role in ("own", "target"))
     return f"encounter {wanted.kind}: at {degrees(abs(impact.heading)):g} deg {own} does not meet {target} at {where}"
-
-
-def _text(
-    wanted: Wanted, kind: Kind, impact: _Impact, steps: int, current: tuple[float, float], coming: _Coming,
-    sailed: bool, directory: Path,
-) -> str:  # fmt: skip
-    T, end = steps * wanted.step, (steps + whole_steps(wanted.after, wanted.step)) * wanted.step
-    s, angle = impact.s, f"{degrees(abs(impact.heading)):g}"
-    where = "at her stem" if s == 0.5 else "at her stern" if s == -0.5 else f"on her {wanted.side} side, s = {s:g}"
-    comment = [
-        f"Made by `shipcollision encounter {wanted.kind}`, backwards from the impact.",
-        *_sentence(kind, wanted).splitlines(),
-        f"Impact wanted: at {T:g} s at n's origin, {where}, {angle} deg between the headings,",
-        f"closing at {coming.closing_speed:.3g} m/s along the normal of the target's hull.",
-    ]
-    tables: dict[str, dict[str, Any]] = {
-        "scenario": {
-            "name": wanted.name or f"{wanted.kind}-{angle}".replace("-", "_").replace(".", "_"),
-            "description": f"own {kind.words}: {angle} deg, {where}.",
-            "duration": round(end, 9),
-            "step": wanted.step,
-        },
-        "ships.own": _ship_table(coming.own, coming.own_track[0], wanted, sailed, directory),
-        "ships.target": _ship_table(coming.target, coming.target_track[0], wanted, sailed, directory),
-        "collision": {"friction": 0.3, "restitution": 0.0},
-    }
-    if any(current):
-        tables["environment"] = {"current": [*current]}
-    return scenario_text(comment, tables)
-
-
-def _ship_table(mover: Mover, pose: Pose, wanted: Wanted, sailed: bool, directory: Path) -> dict[str, Any]:
-    ahead = abs(pose.sway) < 1e-12
-    orders = None
-    if mover.orders is not None:
-        orders = [
-            {"time": round(order.k * wanted.step, 9), "rudder_deg": order.rudder_deg, "rev_per_s": order.rev_per_s}
-            for order in mover.orders
-        ]
-    return {
-        "ship": ship_reference(mover.file, directory),
-        "position": [_rounded(pose.north, 5), _rounded(pose.east, 5)],
-        "heading_deg": _rounded(degrees(pose.heading), 7) % 360.0,
-        "speed": _rounded(pose.surge, 9) if ahead else None,
-        "surge": None if ahead else _rounded(pose.surge, 9),
-        "sway": None if ahead else _rounded(pose.sway, 9),
-        "hydrodynamics": sailed or None,
-        "degrees_of_freedom": mover.degrees_of_freedom if sailed or wanted.degrees_of_freedom else None,
-        "orders": orders,
-    }
-
-
-def _sentence(kind: Kind, wanted: Wanted) -> str:
-    helm = ""
-    if kind.helm:
-        before, rudder = either(wanted.before, kind.before), either(wanted.rudder_deg, kind.rudder_deg)
-        helm = f"\nHer rudder is ordered to {rudder:g} deg {before:g} s before the impact."
-    return f"Own {kind.words}.{helm}"
-
-
-def _rounded(value: float, digits: int) -> float:
-    return round(float(value), digits) + 0.0  # no -0.0

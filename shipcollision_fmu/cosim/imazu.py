@@ -21,10 +21,10 @@ from typing import Any
 
 from ..errors import ScenarioError
 from ..ship.library import load_ship
-from .encounters import ship_reference
+from .approach import self_propulsion
+from .encounter_text import ship_reference
 from .scenario import Scenario, scenario_of
 from .scenario_text import scenario_text
-from .trials import self_propulsion
 from .wanted import FASTEST, whole_steps
 
 __all__ = ["COURSES", "KNOT", "SLOW", "Imazu", "imazu", "imazu_with"]

@@ -17,8 +17,8 @@ from ..errors import ScenarioError
 from ..manoeuvring.model import ShipManoeuvring
 from ..ship.frames import Array
 from ..ship.library import load_ship
+from .approach import self_propulsion
 from .scenario import Scenario, order_table
-from .trials import self_propulsion
 
 __all__ = [
     "BEYOND", "Mover", "Order", "Pose", "as_run", "nearer", "relative_velocity", "steered", "track", "under_way",

@@ -1,9 +1,7 @@
 """Traffic situations of DNV's trafficgen and maritime-schema (JSON), made into a scenario file.
 
-    lat, lon              to north, east on the tangent plane at own ship's position (tangent_plane.py)
-    sog [kn], cog [deg]   to a velocity over ground; heading [deg] to the heading, the course where there is none
-    a, b, c, d            where the position is aboard (bow, stern, port, starboard): CO is amidships
-    length, width         to a ship file of that size when no ship is named; what is missing is estimated
+    ships                 to position, heading and velocity (traffic_ships.py)
+    length, width         to a ship file of that size when no ship is named
     waypoints             the route of a ship that sails with hydrodynamics
     sog of the legs       orders of revolutions to her engine, at the times at which the legs begin as planned
     current, wind         the scenario's, for ships that sail with hydrodynamics
@@ -17,35 +15,26 @@ import re
 import tempfile
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
-from math import atan2, cos, degrees, hypot, inf, isclose, radians, sin
+from math import cos, degrees, inf, isclose, sin
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..errors import ScenarioError
 from ..ship.library import load_ship
-from ..ship.particulars import RHO_SEA
-from .encounters import ship_reference
-from .imazu import KNOT
+from .approach import self_propulsion
+from .encounter_text import ship_reference
 from .scenario import load_scenario
 from .scenario_text import scenario_text
-from .tables import SHORTEST_LEG
-from .tangent_plane import TangentPlane
-from .traffic_schema import Dimensions, Environment, Initial, Position, Situation, Static, TrafficShip, situation
-from .trials import self_propulsion
+from .traffic_schema import Environment, Situation, TrafficShip, situation
+from .traffic_ships import State, ship_file_text, states_of
 from .wanted import whole_steps
 
 __all__ = ["Imported", "traffic_scenario"]
 
-WIDEST = 100e3
-"""[m] between own ship and a target: further apart, a plane is no map, and the positions are probably mistaken."""
 LONGEST_DEFAULT = 3600.0
 """[s] A situation is run for as long as own ship's route takes, and no longer than this."""
 USUAL_DURATION = 600.0
 """[s] Where own ship has no route to sail."""
-BLOCK_COEFFICIENTS = {"tanker": 0.82, "cargo": 0.75, "passenger": 0.62}
-"""C_b by the first word of shipType; 0.65 for the others. Typical values."""
-BREADTH_TO_DRAUGHT = 3.0
-"""B/T of a ship whose draught is not given."""
 
 
 @dataclass(frozen=True)
@@ -57,26 +46,13 @@ class Imported:
     notes: tuple[str, ...] = ()
 
 
-class _State(NamedTuple):
-    """CO in n [m], heading and course [rad], speed over ground [m/s], the waypoints to come [m], and the planned
-    speed [m/s] on the leg to each."""
-
-    north: float
-    east: float
-    heading: float
-    course: float
-    speed: float
-    route: list[list[float]]
-    speeds: list[float]
-
-
 class _Plan(NamedTuple):
     """What the scenario is made from: file and content, states and ships by role, texts of the ship files made."""
 
     path: Path
     out: Path
     situation: Situation
-    states: dict[str, _State]
+    states: dict[str, State]
     ships: dict[str, str]
     files: dict[str, str]
     steps: int
@@ -102,7 +78,7 @@ def traffic_scenario(
     path, out = Path(path), Path(out)
     content = situation(path)
     roles = _roles(content, path)
-    states = _states(roles, path)
+    states = states_of(roles, path)
     ships, files = _cast(roles, ship, own, hydrodynamics, path, out)
     steps = whole_steps(_duration(states["own"]) if duration is None else duration, step)
     plan = _Plan(path, out, content, states, ships, files, steps, step, hydrodynamics)
@@ -119,19 +95,6 @@ def _roles(content: Situation, path: Path) -> dict[str, TrafficShip]:
     return {"own": content.ownShip, **targets}
 
 
-def _states(roles: Mapping[str, TrafficShip], path: Path) -> dict[str, _State]:
-    first = _fix(roles["own"], path, "own")
-    plane = TangentPlane(first.lat, first.lon)
-    states = {role: _state(role, one, plane, path) for role, one in roles.items()}
-    for role, state in states.items():
-        apart = hypot(state.north - states["own"].north, state.east - states["own"].east)
-        if apart > WIDEST:
-            raise ScenarioError(
-                f"{path.name}: {role} is {apart / 1e3:.0f} km from own ship, at most {WIDEST / 1e3:.0f}: check lat, lon"
-            )
-    return states
-
-
 def _cast(
     roles: Mapping[str, TrafficShip], ship: str | None, own: str | None, hydrodynamics: bool, path: Path, out: Path
 ) -> tuple[dict[str, str], dict[str, str]]:  # fmt: skip
@@ -141,7 +104,7 @@ def _cast(
         named = own if role == "own" and own is not None else ship
         if named is None:
             ships[role] = f"{out.stem}-{role}.toml"
-            files[ships[role]] = _ship_file(role, one, path)
+            files[ships[role]] = ship_file_text(role, one, path)
             if hydrodynamics:
                 raise ScenarioError(
                     f"{path.name}: {role} has dimensions only and can but coast: name a ship with --ship, or leave out "
@@ -169,123 +132,10 @@ def _check_it_loads(plan: _Plan) -> None:
             raise ScenarioError(f"{plan.path.name}: does not make a scenario: {error}") from None
 
 
-def _fix(ship: TrafficShip, path: Path, role: str) -> Position:
-    """Where a ship is at the start."""
-    if ship.initial is not None and ship.initial.position is not None:
-        return ship.initial.position
-    if ship.waypoints:
-        return ship.waypoints[0].position
-    raise ScenarioError(f"{path.name}: {role} is nowhere: give initial.position or waypoints")
-
-
-def _state(role: str, ship: TrafficShip, plane: TangentPlane, path: Path) -> _State:
-    fix = _fix(ship, path, role)
-    north, east = plane.position(fix.lat, fix.lon)
-    marks = [list(plane.position(w.position.lat, w.position.lon)) for w in ship.waypoints or []]
-    heading, course = _directions(role, ship, marks, plane, path)
-    speed = _sog(role, ship, path) * KNOT
-    if ship.static is not None and ship.static.initDelay:
-        raise ScenarioError(f"{path.name}: {role} initDelay = {ship.static.initDelay:g} s is not offered: set it to 0")
-    d = _dimensions(ship)
-    if d.a is not None and d.b is not None:
-        ahead, aside = 0.5 * (d.a - d.b), 0.5 * (d.d - d.c) if d.c is not None and d.d is not None else 0.0
-        north += ahead * cos(heading) - aside * sin(heading)
-        east += ahead * sin(heading) + aside * cos(heading)
-    route: list[list[float]] = []
-    speeds: list[float] = []
-    planned = speed
-    for mark, waypoint in zip(marks[1:], (ship.waypoints or [])[1:], strict=True):
-        sog = None if waypoint.leg is None else waypoint.leg.planned_sog
-        planned = planned if sog is None else _believable(sog, role, path) * KNOT
-        last = route[-1] if route else [north, east]
-        if hypot(mark[0] - last[0], mark[1] - last[1]) > 10.0 * SHORTEST_LEG:
-            route.append([round(x, 3) for x in mark])
-            speeds.append(planned)
-    return _State(north, east, heading, course, speed, route, speeds)
-
-
-def _directions(
-    role: str, ship: TrafficShip, marks: list[list[float]], plane: TangentPlane, path: Path
-) -> tuple[float, float]:  # fmt: skip
-    """Heading and course at the start [rad]."""
-    fix, initial = _fix(ship, path, role), ship.initial or Initial()
-    if initial.cog is not None:
-        course = plane.direction(fix.lat, fix.lon, radians(initial.cog))
-    elif len(marks) > 1:
-        course = atan2(marks[1][1] - marks[0][1], marks[1][0] - marks[0][0])
-    elif initial.heading is not None:
-        course = plane.direction(fix.lat, fix.lon, radians(initial.heading))
-    else:
-        raise ScenarioError(f"{path.name}: {role} has no course: give initial.cog, or two waypoints")
-    if initial.heading is None:
-        return course, course
-    return plane.direction(fix.lat, fix.lon, radians(initial.heading)), course
-
-
-def _sog(role: str, ship: TrafficShip, path: Path) -> float:
-    """Speed over ground at the start [kn]."""
-    sog = ship.initial.sog if ship.initial is not None else None
-    for waypoint in (ship.waypoints or [])[1:2]:  # the first leg is described in its end
-        if sog is None and waypoint.leg is not None:
-            sog = waypoint.leg.planned_sog
-    if sog is None:
-        raise ScenarioError(
-            f"{path.name}: {role} has no speed: give initial.sog, or sog in the leg of her second waypoint"
-        )
-    return _believable(sog, role, path)
-
-
-def _believable(sog: float, role: str, path: Path) -> float:
-    if not 0.0 <= sog <= 60.0:
-        raise ScenarioError(f"{path.name}: {role} sog = {sog:g} must be 0 to 60: it is the speed over ground in knots")
-    return sog
-
-
-def _dimensions(ship: TrafficShip) -> Dimensions:
-    static = ship.static or Static()
-    return static.dimensions or static
-
-
-def _lengths(state: _State) -> list[float]:
-    """Of the legs of a route [m]."""
-    starts = [[state.north, state.east], *state.route]
-    return [hypot(b[0] - a[0], b[1] - a[1]) for a, b in zip(starts, state.route, strict=False)]
-
-
-def _duration(own: _State) -> float:
+def _duration(own: State) -> float:
     """Until own ship has sailed her waypoints, as planned."""
-    times = [length / speed if speed > 0.0 else inf for length, speed in zip(_lengths(own), own.speeds, strict=True)]
+    times = [length / speed if speed > 0.0 else inf for length, speed in zip(own.lengths, own.speeds, strict=True)]
     return min(LONGEST_DEFAULT, sum(times)) if times else USUAL_DURATION
-
-
-def _ship_file(role: str, ship: TrafficShip, path: Path) -> str:
-    """A ship that coasts, of the dimensions given."""
-    d, static = _dimensions(ship), ship.static or Static()
-    if d.length is None or d.width is None:
-        raise ScenarioError(f"{path.name}: {role} has no length and width in static: name a ship with --ship")
-    L, B = d.length, d.width
-    if B >= L:
-        raise ScenarioError(f"{path.name}: {role} is wider than long, width = {B:g} m and length = {L:g} m: check them")
-    T = round(B / BREADTH_TO_DRAUGHT, 3) if d.draught is None else d.draught
-    kind = str(static.shipType or "unknown")
-    C_b = BLOCK_COEFFICIENTS.get(kind.split()[0].split("/")[0].lower(), 0.65)
-    drawn = f"T = B/{BREADTH_TO_DRAUGHT:g}" if d.draught is None else "draught from the same file"
-    return scenario_text(
-        [f"Made by `shipcollision import {path.name}`: {role}."],
-        {
-            "ship": {
-                "name": static.name or role,
-                "kind": kind,
-                "source": f"Length and width: {path.name}. Estimated: {drawn}; mass from C_b = {C_b:g}, typical of her "
-                "type; depth 1.5 T; the shape of the hull.",
-            },
-            "particulars": {"L_pp": L, "L_oa": L, "B": B, "T": T, "mass": round(RHO_SEA * C_b * L * B * T, 1)},
-            "hull": {
-                "shape": "parametric", "depth": round(1.5 * T, 3), "bow_length": round(0.2 * L, 3),
-                "stern_length": round(0.2 * L, 3), "transom_fraction": 0.6,
-            },
-        },
-    )  # fmt: skip
 
 
 def _notes(plan: _Plan) -> list[str]:
@@ -337,7 +187,7 @@ def _text(plan: _Plan, directory: Path) -> str:
     return scenario_text(comment, tables)
 
 
-def _ship_table(state: _State, ship: str, made: Collection[str], directory: Path, plan: _Plan) -> dict[str, Any]:
+def _ship_table(state: State, ship: str, made: Collection[str], directory: Path, plan: _Plan) -> dict[str, Any]:
     drift = state.course - state.heading
     straight = isclose(cos(drift), 1.0, abs_tol=1e-12)
     return {
@@ -353,10 +203,10 @@ def _ship_table(state: _State, ship: str, made: Collection[str], directory: Path
     }
 
 
-def _orders(state: _State, ship: str, duration: float) -> list[dict[str, float]]:
+def _orders(state: State, ship: str, duration: float) -> list[dict[str, float]]:
     """Revolutions for the speed at the start, and for that of each leg from when it should begin."""
     orders, now, time = [{"time": 0.0, "rev_per_s": _revolutions(ship, state.speed)}], state.speed, 0.0
-    for i, (length, speed) in enumerate(zip(_lengths(state), state.speeds, strict=True)):
+    for i, (length, speed) in enumerate(zip(state.lengths, state.speeds, strict=True)):
         if i and not isclose(speed, now):
             orders.append({"time": round(time, 3), "rev_per_s": _revolutions(ship, speed)})
         # The first leg is sailed at the speed of the start, which initial.sog may give other than the leg does.

@@ -6,8 +6,9 @@ from dataclasses import fields
 
 from rich.table import Table
 
+from .approach import Approach
 from .report import table
-from .trials import Approach, Figure, Moment, Trial
+from .trial_track import Figure, Moment, Trial
 
 __all__ = ["figures", "track_csv"]
 
