@@ -180,7 +180,7 @@ def validate(fmu: Path) -> None:
 @click.argument("ship")
 @click.argument("manoeuvre", type=click.Choice(["turning-circle", "zigzag", "crash-stop"]))
 @click.option("--rudder-deg", type=float, metavar="DEG", help="Rudder angle.  [default: 35, in a zigzag 10]")
-@click.option("--heading-deg", type=float, default=10.0, show_default=True, metavar="DEG", help="Of a zigzag.")
+@click.option("--heading-deg", type=float, metavar="DEG", help="Of a zigzag.  [default: 10]")
 @click.option("--starboard/--port", default=True, help="Side of the first rudder.  [default: --starboard]")
 @click.option("--speed", type=float, metavar="M/S", help="Approach speed.  [default: the service speed]")
 @click.option(
@@ -192,7 +192,7 @@ def trial(
     ship: str,
     manoeuvre: str,
     rudder_deg: float | None,
-    heading_deg: float,
+    heading_deg: float | None,
     starboard: bool,
     speed: float | None,
     rev_per_s: float | None,
@@ -209,13 +209,18 @@ def trial(
     from .cosim.trial_report import figures, track_csv
     from .cosim.trials import crash_stop, turning_circle, zigzag
 
+    if manoeuvre != "zigzag" and heading_deg is not None:
+        raise click.UsageError("--heading-deg goes with a zigzag only")
+    if manoeuvre == "crash-stop" and rudder_deg is not None:
+        raise click.UsageError("--rudder-deg goes with a turning-circle or a zigzag: a crash-stop keeps it amidships")
     start = approach(ship, speed=speed, rev_per_s=rev_per_s, degrees_of_freedom=int(degrees_of_freedom))
     if out is not None:
         check_writable(out.parent)
     if manoeuvre == "turning-circle":
         sailed = turning_circle(start, 35.0 if rudder_deg is None else rudder_deg, port=not starboard)
     elif manoeuvre == "zigzag":
-        sailed = zigzag(start, 10.0 if rudder_deg is None else rudder_deg, heading_deg, port=not starboard)
+        by, to = (10.0 if angle is None else angle for angle in (rudder_deg, heading_deg))
+        sailed = zigzag(start, by, to, port=not starboard)
     else:
         sailed = crash_stop(start)
     if out is not None:

@@ -112,7 +112,7 @@ def _cast(
                 )
         else:
             ships[role] = named
-            if hydrodynamics and load_ship(named).manoeuvring is None:
+            if load_ship(named).manoeuvring is None and hydrodynamics:
                 raise ScenarioError(
                     f"ship {named!r} can only coast, she has no [manoeuvring]: leave out --hydrodynamics"
                 )

@@ -93,7 +93,7 @@ def _state(role: str, ship: TrafficShip, plane: TangentPlane, path: Path) -> Sta
         planned = planned if sog is None else _believable(sog, role, path) * KNOT
         last = route[-1] if route else [north, east]
         if hypot(mark[0] - last[0], mark[1] - last[1]) > 10.0 * SHORTEST_LEG:
-            route.append([round(x, 3) for x in mark])
+            route.append([round(x, 3) + 0.0 for x in mark])
             speeds.append(planned)
     return State(north, east, heading, course, speed, route, speeds)
 
