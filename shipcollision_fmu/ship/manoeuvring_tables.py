@@ -63,7 +63,7 @@ class PropellerTable(Table):
     k_1: float = Field(description="k_1 of K_T = k_0 + k_1 J + k_2 J^2")
     k_2: float = Field(description="k_2 of K_T = k_0 + k_1 J + k_2 J^2")
     astern_factor: Annotated[float, Field(gt=0.0, le=1.0)] = Field(
-        default=1.0, description="thrust at negative revolutions over that of the mirrored curve; from a crash stop"
+        default=1.0, description="of what turning astern adds to the stopped propeller's drag; from a crash stop"
     )
     z_P: float | None = Field(default=None, description="the depth of the shaft below CO [m]")
     service_speed: Positive | None = Field(default=None, description="the service speed [m/s]")
