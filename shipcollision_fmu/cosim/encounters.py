@@ -135,18 +135,15 @@ def _coming(
     target_track = track(target, -R @ at.point, psi, current, steps, h)
     ways = touches(at, impact.sections["own"], impact.heading)
     own_track = track(own, R @ (ways[0].position - at.point), psi + impact.heading, current, steps, h)
-    least_off = float("inf")
+    least_off = inf
     for i, contact in enumerate(ways):
-        there = R @ (contact.position - at.point)
-        shifted = [p._replace(north=p.north + there[0] - own_track[steps].north,
-                              east=p.east + there[1] - own_track[steps].east) for p in own_track]  # fmt: skip
+        shifted = nearer(own_track, R @ (contact.position - ways[0].position))
         velocity = relative_velocity(shifted[steps], target_track[steps])
         speeds = [float(-velocity @ (R @ normal)) for normal in contact.normals]
-        try:
-            _check_they_meet(wanted, impact, min(speeds), float(np.linalg.norm(velocity)))
-        except ScenarioError:
+        least = max(SLOWEST_CLOSING, GRAZING * float(np.linalg.norm(velocity)))
+        if min(speeds) < least:
             if i == 0:
-                raise
+                raise _grazing(wanted, impact, min(speeds), least)
             continue
         aimed_track, off = aimed(range_, shifted, target_track, at.point, contact.normals[0], speeds[0], steps, h)
         if off <= BEST:
@@ -179,22 +176,18 @@ def _as_recorded(
     raise _beside(wanted, impact, least_off)
 
 
-def _check_they_meet(wanted: Wanted, impact: Impact, closing_speed: float, speed: float) -> None:
-    least = max(SLOWEST_CLOSING, GRAZING * speed)
-    if closing_speed < least:
-        raise ScenarioError(
-            f"{_where(wanted, impact)}: there they close at {closing_speed + 0.0:.2f} m/s, at least {least:.2f} is "
-            "needed; change the angle, the speeds, the side or the place"
-        )
+def _grazing(wanted: Wanted, impact: Impact, closing_speed: float, least: float) -> ScenarioError:
+    return ScenarioError(
+        f"{_where(wanted, impact)}: there they close at {closing_speed + 0.0:.2f} m/s, at least {least:.2f} is "
+        "needed; change the angle, the speeds, the side or the place"
+    )
 
 
 def _beside(wanted: Wanted, impact: Impact, off: float) -> ScenarioError:
-    how = (
-        "they pass it" if off == float("inf") else f"their hulls lie along each other, and touch first {off:.2g} m off"
-    )
+    how = f"touch first {off:.2g} m off" if off < inf else "pass the place"
     return ScenarioError(
-        f"{_where(wanted, impact)}: {how}, at most {BEST:g} m is accepted; change the angle by a degree or two, or the "
-        "place"
+        f"{_where(wanted, impact)}: their hulls lie along each other there and {how}, where {BEST:g} m is accepted; "
+        "change the angle by a degree or two, or the place"
     )
 
 

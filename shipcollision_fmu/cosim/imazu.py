@@ -93,20 +93,11 @@ def imazu(
         }
     }
     for name, course, ratio in zip(["own", *names], (0, *courses), (1.0, *ratios), strict=True):
-        file, U = own if name == "own" else target, round(ratio * speed, 6)
+        file = own if name == "own" else target
         if hydrodynamics and load_ship(file).manoeuvring is None:
             raise ScenarioError(f"ship {file!r} can only coast, she has no [manoeuvring]: leave out --hydrodynamics")
-        tables[f"ships.{name}"] = {
-            "ship": ship_reference(file, Path(directory)),
-            "position": [round(-U * T * f(radians(course)), 4) + 0.0 for f in (cos, sin)],
-            "heading_deg": float(course),
-            "speed": U,
-            "hydrodynamics": hydrodynamics or None,
-            "degrees_of_freedom": degrees_of_freedom,
-            "orders": [{"time": 0.0, "rudder_deg": 0.0, "rev_per_s": self_propulsion(file, U)}]
-            if hydrodynamics
-            else None,
-        }
+        table = _ship_table(file, round(ratio * speed, 6), course, T, hydrodynamics, Path(directory))
+        tables[f"ships.{name}"] = table | {"degrees_of_freedom": degrees_of_freedom}
     tables["collision"] = {"friction": 0.3, "restitution": 0.0}
     comment = [
         f"Made by `shipcollision encounter imazu --case {case}`: Imazu's problem, case {case} of 22.",
@@ -115,6 +106,21 @@ def imazu(
     ]
     text = scenario_text(comment, tables)
     return Imazu(text, scenario_of(text, f"Imazu case {case}", directory), T)
+
+
+def _ship_table(
+    file: str, speed: float, course: int, time: float, hydrodynamics: bool, directory: Path
+) -> dict[str, Any]:  # fmt: skip
+    """A ship that is at n's origin after `time` [s] on a course [deg]."""
+    orders = [{"time": 0.0, "rudder_deg": 0.0, "rev_per_s": self_propulsion(file, speed)}] if hydrodynamics else None
+    return {
+        "ship": ship_reference(file, directory),
+        "position": [round(-speed * time * f(radians(course)), 4) + 0.0 for f in (cos, sin)],
+        "heading_deg": float(course),
+        "speed": speed,
+        "hydrodynamics": hydrodynamics or None,
+        "orders": orders,
+    }
 
 
 _OPTIONS = {"own": "own", "target": "target", "own_speed": "speed", "time": "time", "after": "after", "step": "step",
