@@ -2,10 +2,11 @@
 
 Users import from here:
 
-    from shipcollision_fmu import build_fmus, load_scenario, load_ship, simulate
+    from shipcollision_fmu import build_fmus, encounter, imazu, load_scenario, load_ship, simulate
 
     run = simulate(load_scenario("guan2014"))
     run.states, run.contacts, run.events, run.summary
+    run = simulate(encounter("t-bone", own="kcs", own_speed=4.0).scenario)
 
 Names are fetched on first use, so that an FMU, which needs only the models, does not import a master.
 """
@@ -20,12 +21,18 @@ __version__ = "0.1.0"
 _HOME = {
     "ShipCollisionError": "shipcollision_fmu.errors",
     "build_fmus": "shipcollision_fmu.fmi.package",
+    "encounter": "shipcollision_fmu.cosim.encounters",
+    "imazu": "shipcollision_fmu.cosim.imazu",
     "load_scenario": "shipcollision_fmu.cosim.scenario",
     "load_ship": "shipcollision_fmu.ship.library",
     "simulate": "shipcollision_fmu.cosim.simulate",
+    "traffic_scenario": "shipcollision_fmu.cosim.traffic",
 }
 
-__all__ = ["ShipCollisionError", "__version__", "build_fmus", "load_scenario", "load_ship", "simulate"]
+__all__ = [
+    "ShipCollisionError", "__version__", "build_fmus", "encounter", "imazu", "load_scenario", "load_ship", "simulate",
+    "traffic_scenario",
+]  # fmt: skip
 
 
 def __getattr__(name: str) -> Any:

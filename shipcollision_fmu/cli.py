@@ -196,7 +196,7 @@ def validate(fmu: Path, no_calls: bool, ignore: tuple[str, ...]) -> None:
 @click.argument("ship")
 @click.argument("manoeuvre", type=click.Choice(["turning-circle", "zigzag", "crash-stop"]))
 @click.option("--rudder-deg", type=float, metavar="DEG", help="Rudder angle.  [default: 35, in a zigzag 10]")
-@click.option("--heading-deg", type=float, default=10.0, show_default=True, metavar="DEG", help="Of a zigzag.")
+@click.option("--heading-deg", type=float, metavar="DEG", help="Of a zigzag.  [default: 10]")
 @click.option("--starboard/--port", default=True, help="Side of the first rudder.  [default: --starboard]")
 @click.option("--speed", type=float, metavar="M/S", help="Approach speed.  [default: the service speed]")
 @click.option(
@@ -208,7 +208,7 @@ def trial(
     ship: str,
     manoeuvre: str,
     rudder_deg: float | None,
-    heading_deg: float,
+    heading_deg: float | None,
     starboard: bool,
     speed: float | None,
     rev_per_s: float | None,
@@ -220,17 +220,23 @@ def trial(
     SHIP is a name that `shipcollision ships` lists, or the path of a TOML file. Limits: IMO resolution MSC.137(76), for
     ships of 100 m and more. Distances are of midship, in lengths L.
     """
+    from .cosim.approach import approach
     from .cosim.folder import check_writable, write_file
     from .cosim.trial_report import figures, track_csv
-    from .cosim.trials import approach, crash_stop, turning_circle, zigzag
+    from .cosim.trials import crash_stop, turning_circle, zigzag
 
+    if manoeuvre != "zigzag" and heading_deg is not None:
+        raise click.UsageError("--heading-deg goes with a zigzag only")
+    if manoeuvre == "crash-stop" and rudder_deg is not None:
+        raise click.UsageError("--rudder-deg goes with a turning-circle or a zigzag: a crash-stop keeps it amidships")
     start = approach(ship, speed=speed, rev_per_s=rev_per_s, degrees_of_freedom=int(degrees_of_freedom))
     if out is not None:
         check_writable(out.parent)
     if manoeuvre == "turning-circle":
         sailed = turning_circle(start, 35.0 if rudder_deg is None else rudder_deg, port=not starboard)
     elif manoeuvre == "zigzag":
-        sailed = zigzag(start, 10.0 if rudder_deg is None else rudder_deg, heading_deg, port=not starboard)
+        by, to = (10.0 if angle is None else angle for angle in (rudder_deg, heading_deg))
+        sailed = zigzag(start, by, to, port=not starboard)
     else:
         sailed = crash_stop(start)
     if out is not None:
@@ -257,27 +263,30 @@ def trial(
 @click.option("--drift-deg", type=float, metavar="DEG", help="Where she drifts, from her bow.  [default: 90]")
 @click.option("--case", type=int, metavar="N", help="Of imazu: 1 to 22.")
 @click.option("--hydrodynamics/--coasting", default=None, help="Sail the ships, or let them coast.  [default: by TYPE]")
+@click.option(
+    "--degrees-of-freedom", type=click.Choice(["3", "4", "6"]), help="Of all ships.  [default: 3 under way, 6 coasting]"
+)
 @click.option("--step", type=float, default=0.05, show_default=True, metavar="S", help="Communication step.")
 @click.option("--name", help="Of the scenario.")
 @click.option("--out", type=_PATH, metavar="FILE.toml", help="Store it; else it is printed.")
-def encounter(kind: str, out: Path | None, case: int | None, **options: Any) -> None:
+def encounter(kind: str, out: Path | None, case: int | None, degrees_of_freedom: str | None, **options: Any) -> None:
     """Make a scenario in which two ships collide as wanted.
 
     TYPE is head-on, crossing, overtaking, glancing, t-bone, drifting-target, late-evasive, loss-of-steering, or imazu
     with --case: one of the 22 cases of Imazu's problem, with one to three targets.
     """
     from .cosim.encounters import encounter as made
-    from .cosim.encounters import wanted
     from .cosim.folder import check_writable, write_file
     from .cosim.imazu import imazu_with
 
     directory = Path(".") if out is None else out.parent
+    options["degrees_of_freedom"] = None if degrees_of_freedom is None else int(degrees_of_freedom)
     if kind == "imazu":
         text = imazu_with(case, options, directory).text
     else:
         if case is not None:
             raise click.UsageError("--case goes with TYPE imazu only")
-        text = made(wanted(kind, options), directory).text
+        text = made(kind, directory, **options).text
     if out is None:
         click.echo(text, nl=False)
         return
@@ -303,13 +312,17 @@ def import_(
     ship file beside the scenario.
     """
     from .cosim.folder import check_writable, write_files
-    from .cosim.traffic import imported
+    from .cosim.traffic import traffic_scenario
 
-    made = imported(file, out=out, ship=ship, own=own, duration=duration, step=step, hydrodynamics=hydrodynamics)
+    made = traffic_scenario(
+        file, out=out, ship=ship, own=own, duration=duration, step=step, hydrodynamics=hydrodynamics
+    )
     check_writable(out.parent)
     write_files(out.parent, {**made.ship_files, out.name: made.text})
     for name in (*made.ship_files, out.name):
         click.echo(out.parent / name)
+    for note in made.notes:
+        click.echo(f"note: {note}", err=True)
 
 
 def _fail(message: str, status: int) -> NoReturn:

@@ -336,6 +336,8 @@ def test_a_traffic_situation_becomes_a_scenario_with_its_ships(folder: Path) -> 
         (["trial", "guan2014_own", "crash-stop"], 2, "so she can only coast: take one that is listed as manoeuvring"),
         (["trial", "kvlcc2", "zigzag", "--out", "barge.toml/x.csv"], 1, "cannot write to barge.toml: barge"),
         (["trial", "kvlcc2", "zigzag", "--out", "sub"], 1, "cannot write to sub: it is a folder"),
+        (["trial", "kvlcc2", "crash-stop", "--rudder-deg", "9"], 2, "--rudder-deg goes with a turning-circle or a"),
+        (["trial", "kvlcc2", "turning-circle", "--heading-deg", "9"], 2, "--heading-deg goes with a zigzag only"),
         (["encounter", "tbone", "--out", "x.toml"], 2, "unknown encounter 'tbone': did you mean t-bone?"),
         (["encounter", "glancing", "--angle-deg", "0", "--out", "x.toml"], 2, "KVLCC2 does not meet KVLCC2 at s = 0.1"),
         (["encounter", "t-bone", "--own", "kvlc2", "--out", "x.toml"], 2, "unknown ship 'kvlc2': did you mean kvlcc2?"),

@@ -7,5 +7,9 @@ recorder                    what happened, at communication points
 events, reference, summary  what follows from it: collisions, the paper beside us, the books
 fmu_files, folder           where FMUs are found and runs are written
 simulate                    all of it in one call
+helm                        who steers: autopilot, route, evasion
+wanted, touching, tracks, aim, encounters, encounter_text, imazu    scenarios in which ships do meet
+traffic_schema, traffic_ships, tangent_plane, traffic               scenarios from traffic situations in JSON
+approach, trial_track, trials, trial_report                         standard manoeuvres of one ship
 report, compliance          for people: tables, and the FMI check
 """

@@ -5,6 +5,8 @@
                               the step's start, where a sequential master applies the impulse, and Delta impulse is
                               what the collision FMU issued in the step. A ship in two collisions in one step takes
                               Delta impulse from each one's contact points instead.
+    first point of a          the middle of what touched first, as the collision FMU gave it (impact.north ...): of two
+    collision                 sides that meet nearly parallel, the middle of the line
     energy                    sum of what its contact points dissipated
     angle                     between the headings, 0 (overtaking) to pi (head-on)
     damage                    indicative, from the energy, only when the scenario asks for it (collision/damage.py);
@@ -23,12 +25,12 @@ import numpy as np
 import numpy.typing as npt
 
 from ..collision.damage import BOW, indicative_damage
-from ..ship.frames import Array, rotation
+from ..ship.frames import Array, rotation, rotation_vector
 from ..ship.inertia import free_inverse
 from ..ship.ship import Ship
-from .recorder import Record
+from .recorder import Impact, Record
 from .tables import DamageTable
-from .wiring import named
+from .wiring import STATE, named
 
 __all__ = ["events"]
 
@@ -73,7 +75,7 @@ def _collision(number: int, rows: Rows, record: Record, gained: dict[tuple[int, 
         "ship_b": pair[1],
         "start": float(rows["time"][0]) if start is None else start.time,
         "end": float(rows["time"][-1]),
-        "first_point": _point(first),
+        "first_point": _point(first) if start is None else _middle(first, start, record),
         "closing_speed": None if start is None else start.closing_speed,
         "angle": None if start is None else start.angle,
         "impulse": {"n": impulse.tolist(), "magnitude": float(np.linalg.norm(impulse))},
@@ -163,6 +165,22 @@ def _strongest(rows: Rows) -> Any:
 def _point(row: Any) -> dict[str, list[float]]:
     n = [float(row[axis]) for axis in _NED]
     return {"n": n, "b_a": _triple(row, "a", _XYZ).tolist(), "b_b": _triple(row, "b", _XYZ).tolist()}
+
+
+def _middle(row: Any, start: Impact, record: Record) -> dict[str, list[float]]:
+    """The first point of a collision, in n and in b of either ship as she was then; in that of an obstacle `row`'s."""
+    n = np.array(start.point)
+    before = record.states[max(0, int(np.searchsorted(record.states["time"], row["time"])) - 1)]
+    places = {}
+    for body, group in ((str(row["ship_a"]), "a"), (str(row["ship_b"]), "b")):
+        places[f"b_{group}"] = _triple(row, group, _XYZ).tolist()
+        if f"{body}.{STATE[0]}" in before.dtype.names:
+            state = [float(before[f"{body}.{variable}"]) for variable in STATE]
+            since = start.time - float(before["time"])
+            R_nb = rotation(state[3:6])
+            x = np.array(state[:3]) + R_nb @ np.array(state[6:9]) * since
+            places[f"b_{group}"] = (rotation_vector(np.array(state[9:]) * -since) @ R_nb.T @ (n - x)).tolist()
+    return {"n": n.tolist(), **places}
 
 
 def _triple(row: Any, group: str, components: tuple[str, ...]) -> Array:

@@ -21,10 +21,11 @@ from typing import Any
 
 from ..errors import ScenarioError
 from ..ship.library import load_ship
-from .encounters import FASTEST, ship_reference, whole_steps
+from .approach import self_propulsion
+from .encounter_text import ship_reference
 from .scenario import Scenario, scenario_of
 from .scenario_text import scenario_text
-from .trials import self_propulsion
+from .wanted import FASTEST, whole_steps
 
 __all__ = ["COURSES", "KNOT", "SLOW", "Imazu", "imazu", "imazu_with"]
 
@@ -63,6 +64,7 @@ def imazu(
     after: float = 120.0,
     step: float = 0.05,
     hydrodynamics: bool = False,
+    degrees_of_freedom: int | None = None,
     directory: str | Path = ".",
 ) -> Imazu:
     """Case 1 to 22 as a scenario file for `directory`; `speed` is own's [m/s], `time` that to the meeting [s].
@@ -91,19 +93,11 @@ def imazu(
         }
     }
     for name, course, ratio in zip(["own", *names], (0, *courses), (1.0, *ratios), strict=True):
-        file, U = own if name == "own" else target, round(ratio * speed, 6)
+        file = own if name == "own" else target
         if hydrodynamics and load_ship(file).manoeuvring is None:
             raise ScenarioError(f"ship {file!r} can only coast, she has no [manoeuvring]: leave out --hydrodynamics")
-        tables[f"ships.{name}"] = {
-            "ship": ship_reference(file, Path(directory)),
-            "position": [round(-U * T * f(radians(course)), 4) + 0.0 for f in (cos, sin)],
-            "heading_deg": float(course),
-            "speed": U,
-            "hydrodynamics": hydrodynamics or None,
-            "orders": [{"time": 0.0, "rudder_deg": 0.0, "rev_per_s": self_propulsion(file, U)}]
-            if hydrodynamics
-            else None,
-        }
+        table = _ship_table(file, round(ratio * speed, 6), course, T, hydrodynamics, Path(directory))
+        tables[f"ships.{name}"] = table | {"degrees_of_freedom": degrees_of_freedom}
     tables["collision"] = {"friction": 0.3, "restitution": 0.0}
     comment = [
         f"Made by `shipcollision encounter imazu --case {case}`: Imazu's problem, case {case} of 22.",
@@ -114,8 +108,23 @@ def imazu(
     return Imazu(text, scenario_of(text, f"Imazu case {case}", directory), T)
 
 
+def _ship_table(
+    file: str, speed: float, course: int, time: float, hydrodynamics: bool, directory: Path
+) -> dict[str, Any]:  # fmt: skip
+    """A ship that is at n's origin after `time` [s] on a course [deg]."""
+    orders = [{"time": 0.0, "rudder_deg": 0.0, "rev_per_s": self_propulsion(file, speed)}] if hydrodynamics else None
+    return {
+        "ship": ship_reference(file, directory),
+        "position": [round(-speed * time * f(radians(course)), 4) + 0.0 for f in (cos, sin)],
+        "heading_deg": float(course),
+        "speed": speed,
+        "hydrodynamics": hydrodynamics or None,
+        "orders": orders,
+    }
+
+
 _OPTIONS = {"own": "own", "target": "target", "own_speed": "speed", "time": "time", "after": "after", "step": "step",
-            "hydrodynamics": "hydrodynamics"}  # fmt: skip
+            "hydrodynamics": "hydrodynamics", "degrees_of_freedom": "degrees_of_freedom"}  # fmt: skip
 
 
 def imazu_with(case: int | None, options: Mapping[str, Any], directory: str | Path) -> Imazu:

@@ -29,16 +29,18 @@ CONTACT_COLUMNS = (
 )  # fmt: skip
 """Real columns of contacts.csv: the point and the normal (from ship_a to ship_b) in n, the impulse on ship_b in n."""
 _CONTACT_NUMBERS = ("ship_a", "ship_b", "impact", "scratch")
-_IMPACT = ("impact.time", "impact.closing_speed", "impact.angle")
+_IMPACT = ("impact.time", "impact.closing_speed", "impact.angle", *named("impact", _NED))
 
 
 @dataclass(frozen=True)
 class Impact:
-    """The start of a collision, as the collision FMU gave it: time [s], closing speed [m/s], angle [rad]."""
+    """The start of a collision, as the collision FMU gave it: time [s], closing speed [m/s], angle [rad], and the
+    middle of what touched first, in n [m]."""
 
     time: float
     closing_speed: float
     angle: float
+    point: tuple[float, float, float]
 
 
 @dataclass
@@ -113,7 +115,8 @@ class Recorder:
         count, impacts = self._counts.values
         if impacts > self._impacts:
             self._impacts = impacts
-            self._seen.impacts[impacts] = Impact(*_read(self._impact))
+            time, closing_speed, angle, north, east, down = _read(self._impact)
+            self._seen.impacts[impacts] = Impact(time, closing_speed, angle, (north, east, down))
         if count > 0:
             self._record_contacts(k, min(count, SLOTS))
 

@@ -6,6 +6,7 @@ at the lower of the two decks, so contact is a question of two polygons: the sec
     section   polygon (n, 2) of a hull at height z, in b: x forward, y starboard; corners in the order of rising angle
     place     point of the boundary with its outward normals: one on an edge, two at a corner, and all between them
     touch     where the other ship's CO must be so that she touches the place, with that normal which faces her bow most
+    touches   the same, and the other ways in which she can, at a corner
 
 Coasting ships that keep their headings move on a straight line relative to each other. If they close along the normals
 there, they touch there first: the difference of two convex sets is convex and lies behind those normals.
@@ -22,7 +23,7 @@ import numpy as np
 from ..ship.frames import Array
 from ..ship.hull import HullMesh
 
-__all__ = ["Place", "Side", "Touch", "common_deck", "gap", "moved", "place", "section", "touch"]
+__all__ = ["Place", "Side", "Touch", "common_deck", "gap", "moved", "place", "section", "touch", "touches"]
 
 Side = Literal["port", "starboard"]
 
@@ -92,9 +93,32 @@ def place(polygon: Array, x: float, side: Side) -> Place:
     return _place_at(polygon, np.array([x, sign * best]))
 
 
+def touches(at: Place, other: Array, heading: float) -> list[Touch]:
+    """The ways in which another ship of section `other` and `heading` [rad], relative to the struck one, can be there.
+
+    The first has her bow to the place. At a corner there are others, one for each corner of hers that fits on it.
+    """
+    preferred = at.normal_towards(heading + pi)
+    directions = [preferred]
+    width = at.normals[1] - at.normals[0]
+    for corner in other if width > 0.0 else ():
+        first, last = (at.normals[0] + remainder(n + heading + pi - at.normals[0], 2.0 * pi)
+                       for n in _place_at(other, corner).normals)  # fmt: skip
+        if last < first:
+            last += 2.0 * pi
+        low, high = max(first, at.normals[0]), min(last, at.normals[1])
+        if high > low:
+            directions.append(0.5 * (low + high))
+    return [_touch_along(at, other, heading, n) for n in sorted(directions, key=lambda n: abs(n - preferred))]
+
+
 def touch(at: Place, other: Array, heading: float) -> Touch:
     """The other ship, of section `other` and `heading` [rad] relative to the struck one, with her bow at a place."""
-    direction = at.normal_towards(heading + pi)
+    return touches(at, other, heading)[0]
+
+
+def _touch_along(at: Place, other: Array, heading: float, direction: float) -> Touch:
+    """With that normal of the place, a direction [rad], at which both touch."""
     R = _rotation(heading)
     towards = R.T @ -_unit(direction)
     reach = other @ towards

@@ -6,8 +6,9 @@ from dataclasses import fields
 
 from rich.table import Table
 
+from .approach import Approach
 from .report import table
-from .trials import Approach, Figure, Moment, Trial
+from .trial_track import Figure, Moment, Trial
 
 __all__ = ["figures", "track_csv"]
 
@@ -39,4 +40,6 @@ def _verdict(start: Approach, figure: Figure) -> str:
     if figure.within is None:
         return ""
     kept = "kept" if figure.within else "NOT KEPT"
+    if not figure.within and figure.waived is not None and figure.value <= figure.waived:
+        kept = f"NOT KEPT; {figure.waived:g} may be allowed to large displacements"
     return kept if start.ship.L_pp >= SHORTEST else f"{kept} (meant for {SHORTEST:g} m and more)"

@@ -29,8 +29,12 @@ __all__ = ["INTERFACE", "table"]
 def table(ships: tuple[str, ...] = ()) -> Table:
     """The variables, in the order of their value references."""
     del ships  # this FMU is one ship
+    return (*_state(), *_forces(), *_inputs(), *_parameters())
+
+
+def _state() -> Table:
+    """Outputs: the ship at the end of the step."""
     return (
-        # Outputs: the state at the end of the step.
         *vector(
             "output", "position", NED, "m", "outputs.position", "Position of CO in n", depends_on=("initial.position",)
         ),
@@ -57,11 +61,22 @@ def table(ships: tuple[str, ...] = ()) -> Table:
             "output", "impulse_applied", "impulse_applied", IMPULSE, "outputs.impulse_applied",
             "Cumulative impulse that the ship has applied, in b about CO", depends_on=(),
         ),
+    )  # fmt: skip
+
+
+def _forces() -> Table:
+    """Outputs: forces by origin."""
+    return (
         *wrench("output", "hull", "hull", FORCE, "outputs.hull", "Force of the water on the hull, b about CO"),
         *wrench("output", "propeller", "propeller", FORCE, "outputs.propeller", "Force of the propeller, b about CO"),
         *wrench("output", "rudder", "rudder", FORCE, "outputs.rudder", "Force of the rudder, b about CO"),
         *wrench("output", "wind", "wind", FORCE, "outputs.wind", "Force of the wind, b about CO"),
-        # Inputs: held over the step.
+    )
+
+
+def _inputs() -> Table:
+    """Held over the step."""
+    return (
         real("input", "rudder_order", "rad", "inputs.orders", 0, "Ordered rudder angle"),
         real("input", "propeller_order", "rev/s", "inputs.orders", 1, "Ordered propeller speed"),
         *vector("input", "current", NED[:2], "m/s", "inputs.current", "Velocity of the water, towards, in n"),
@@ -75,7 +90,12 @@ def table(ships: tuple[str, ...] = ()) -> Table:
             "Cumulative impulse on the ship, in b about CO; what is new since the last step is applied at its start",
         ),
         *wrench("input", "force", "moment", FORCE, "inputs.force", "External force held over the step, in b about CO"),
-        # Parameters.
+    )  # fmt: skip
+
+
+def _parameters() -> Table:
+    """Fixed."""
+    return (
         string("parameter", "ship", "parameters.ship", "Name of a ship in the FMU's resources, or path of a TOML file"),
         integer(
             "parameter", "degrees_of_freedom", "parameters.degrees_of_freedom",

@@ -26,7 +26,7 @@ from __future__ import annotations
 
 from math import atan2, hypot, radians, tan
 
-from ..ship.particulars import ManoeuvringTable
+from ..ship.manoeuvring_tables import ManoeuvringTable
 from ..ship.ship import Ship
 
 __all__ = ["HullForces", "cross_flow"]

@@ -19,7 +19,7 @@ from __future__ import annotations
 
 from math import copysign, cos, hypot, pi, sin, sqrt
 
-from ..ship.particulars import PropellerTable, RudderTable
+from ..ship.manoeuvring_tables import PropellerTable, RudderTable
 from ..ship.ship import Ship
 
 __all__ = ["Rudder"]

@@ -128,32 +128,53 @@ def completed(
             f"[manoeuvring] estimate = true with C_b = mass / (rho L_pp B T) = {d.C_b:.3f}: must be {REACH[0]:.2f} to "
             f"{REACH[1]:.2f}; give a mass that fits the draught, or the MMG set, or remove the table: the ship coasts"
         )
-    notes = [f"[manoeuvring] Yoshimura & Masumoto (2012), {_grade(d)}"]
-    tables: dict[str, dict[str, Any]] = {}
+    made = _Made(given)
+    made.notes.append(f"[manoeuvring] Yoshimura & Masumoto (2012), {_grade(d)}")
+    masses = _masses(d, made, own_masses)
+    propeller = _propeller(d, made)
+    _hull(d, made, masses, propeller["service_speed"])
+    if "service_rev_per_s" not in propeller:
+        propeller["service_rev_per_s"] = _self_propulsion(d, made.tables["manoeuvring"]["R_0"], propeller)
+        made.notes.append(f"[propeller] service_rev_per_s = {propeller['service_rev_per_s']:.4g} (self-propulsion)")
+    _rudder(d, made)
+    _engine(propeller["service_rev_per_s"], made)
+    return made.tables, made.notes
 
-    def laid_under(name: str, values: dict[str, float], how: str = "") -> dict[str, Any]:
-        own = dict(given.get(name, {}))
+
+class _Made:
+    """Tables as they are completed, and what was estimated."""
+
+    def __init__(self, given: Mapping[str, Mapping[str, Any]]) -> None:
+        self.given = given
+        self.tables: dict[str, dict[str, Any]] = {}
+        self.notes: list[str] = []
+
+    def lay_under(self, name: str, values: Mapping[str, float], how: str = "") -> dict[str, Any]:
+        """The table with `values` where nothing is given."""
+        own = dict(self.given.get(name, {}))
         new = [key for key in values if key not in own]
-        tables[name] = {**values, **own}
+        self.tables[name] = {**values, **own}
         if new and how:
-            notes.append(f"[{name}] {', '.join(f'{key} = {values[key]:.4g}' for key in new)} ({how})")
-        return tables[name]
+            self.notes.append(f"[{name}] {', '.join(f'{key} = {values[key]:.4g}' for key in new)} ({how})")
+        return self.tables[name]
 
-    manoeuvring: dict[str, float] = {}
-    own = given.get("manoeuvring", {})
+
+def _masses(d: Dimensions, made: _Made, own_masses: tuple[float, float] | None) -> dict[str, float]:
+    """m_x, m_y, and J_z where it is estimated with them, over 1/2 rho L^2 T and 1/2 rho L^4 T."""
+    own = made.given.get("manoeuvring", {})
     if own_masses is not None:
-        m_x, m_y = own_masses
-    elif own.get("m_x") is not None:
-        m_x, m_y = own["m_x"], own["m_y"]
-    else:
-        mass = 2.0 * d.C_b * d.B / d.L  # over 1/2 rho L^2 T
-        m_x, m_y, J_z = (fraction * mass for fraction in added_mass_fractions(d))
-        manoeuvring = {"m_x": m_x, "m_y": m_y, "J_z": J_z}
-        notes.append(f"[manoeuvring] m_x = {m_x:.4g}, m_y = {m_y:.4g}, J_z = {J_z:.4g} (Zhou, Motora charts)")
-    manoeuvring |= hull_derivatives(d, m_x, m_y)
+        return {"m_x": own_masses[0], "m_y": own_masses[1]}
+    if own.get("m_x") is not None:
+        return {"m_x": own["m_x"], "m_y": own["m_y"]}
+    mass = 2.0 * d.C_b * d.B / d.L  # over 1/2 rho L^2 T
+    m_x, m_y, J_z = (fraction * mass for fraction in added_mass_fractions(d))
+    made.notes.append(f"[manoeuvring] m_x = {m_x:.4g}, m_y = {m_y:.4g}, J_z = {J_z:.4g} (Zhou, Motora charts)")
+    return {"m_x": m_x, "m_y": m_y, "J_z": J_z}
 
-    w_P0 = 0.5 * d.C_b - 0.05
-    propeller = laid_under(
+
+def _propeller(d: Dimensions, made: _Made) -> dict[str, Any]:
+    w_P0 = _wake(d)
+    return made.lay_under(
         "propeller",
         {
             "D_p": min(0.7 * d.T, 9.9), "t_P": 0.6 * w_P0, "w_P0": w_P0, "x_P": -0.48,
@@ -162,23 +183,26 @@ def completed(
         },
         "Taylor's wake, which vanishes in large drift; generic K_T; Alexander's speed, Froude number at most 0.26",
     )  # fmt: skip
-    manoeuvring["R_0"] = _resistance(d, propeller["service_speed"])
-    if "R_0" not in own:
-        notes.append(f"[manoeuvring] R_0 = {manoeuvring['R_0']:.4g} (ITTC-57, Mumford, no wave resistance)")
-    laid_under("manoeuvring", manoeuvring)
-    tables["manoeuvring"].pop("estimate", None)
-    if "service_rev_per_s" not in propeller:
-        n = _self_propulsion(d, tables["manoeuvring"]["R_0"], propeller)
-        propeller["service_rev_per_s"] = n
-        notes.append(f"[propeller] service_rev_per_s = {n:.4g} (self-propulsion)")
 
+
+def _hull(d: Dimensions, made: _Made, masses: Mapping[str, float], speed: float) -> None:
+    """The table manoeuvring; its added masses only where they are estimated here."""
+    values = {**masses} if "J_z" in masses else {}
+    values |= hull_derivatives(d, masses["m_x"], masses["m_y"])
+    values["R_0"] = _resistance(d, speed)
+    if "R_0" not in made.given.get("manoeuvring", {}):
+        made.notes.append(f"[manoeuvring] R_0 = {values['R_0']:.4g} (ITTC-57, Mumford, no wave resistance)")
+    made.lay_under("manoeuvring", values).pop("estimate", None)
+
+
+def _rudder(d: Dimensions, made: _Made) -> None:
     A_R = d.L * d.T / 100.0 * (1.0 + 25.0 * (d.B / d.L) ** 2)
     H_R = min(sqrt(1.8 * A_R), 0.85 * d.T)
-    own = given.get("rudder", {})
+    own = made.given.get("rudder", {})
     A, H = own.get("A_R", A_R), own.get("H_R", H_R)
     aspect = H * H / A
-    c, epsilon = d.C_b * d.B / d.L, 2.26 - 1.82 * (1.0 - w_P0)
-    laid_under(
+    c, epsilon = d.C_b * d.B / d.L, 2.26 - 1.82 * (1.0 - _wake(d))
+    made.lay_under(
         "rudder",
         {
             "A_R": A_R, "H_R": H_R, "f_alpha": 6.13 * aspect / (aspect + 2.25), "t_R": 0.39, "a_H": 3.6 * c,
@@ -187,13 +211,20 @@ def completed(
         },
         "DNV's least area, aspect ratio 1.8; Yoshimura & Masumoto (2012)",
     )  # fmt: skip
-    n = propeller["service_rev_per_s"]
-    laid_under(
+
+
+def _engine(n: float, made: _Made) -> None:
+    """From the revolutions at service speed [1/s]."""
+    made.lay_under(
         "engine",
         {"rate": n / 60.0, "max_rev_per_s": 1.15 * n, "max_astern_rev_per_s": 0.7 * n, "reversal_delay": 90.0},
         "a minute to full speed; direct reversing",
     )
-    return tables, notes
+
+
+def _wake(d: Dimensions) -> float:
+    """w_P0, Taylor."""
+    return 0.5 * d.C_b - 0.05
 
 
 def _grade(d: Dimensions) -> str:

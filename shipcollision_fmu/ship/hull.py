@@ -23,7 +23,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import pairwise
 from math import radians, tan
-from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
@@ -31,9 +30,7 @@ import numpy.typing as npt
 from ..errors import ShipError
 from .convex import Indices, half_spaces
 from .frames import Array
-
-if TYPE_CHECKING:
-    from .particulars import HullTable
+from .hull_table import HullTable
 
 __all__ = ["HullMesh", "build_hull"]
 

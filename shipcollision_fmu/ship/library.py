@@ -11,9 +11,10 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ShipError
-from .particulars import ship_file
+from .assembly import assembled
 from .refusal import suggestion
-from .ship import Ship, assembled
+from .ship import Ship
+from .ship_file import ship_file
 from .toml import read_toml
 
 __all__ = ["Ship", "load_ship", "models_directory", "ship_names"]

@@ -28,7 +28,6 @@ from importlib import import_module
 from itertools import permutations
 from pathlib import Path
 from types import ModuleType
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -36,9 +35,7 @@ from ..errors import HostError, ShipError
 from .convex import Indices, enclosed_volume, half_spaces, is_convex
 from .frames import Array
 from .hull import HullMesh
-
-if TYPE_CHECKING:
-    from .particulars import HullTable
+from .hull_table import HullTable
 
 __all__ = ["UNITS", "VOLUME_TOLERANCE", "mesh_hull"]
 

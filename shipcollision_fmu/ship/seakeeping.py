@@ -17,13 +17,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import pi, sqrt
-from typing import TYPE_CHECKING
 
 from ..errors import ShipError
 from .hydrostatics import GRAVITY, hydrostatics
-
-if TYPE_CHECKING:
-    from .ship import Ship
+from .ship import Ship
 
 __all__ = ["Seakeeping", "seakeeping"]
 

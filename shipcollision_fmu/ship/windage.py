@@ -17,10 +17,8 @@ Estimates of this project, within some 25 % of merchant ships; give the areas of
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from .ship import Ship
+from .ship import Ship
 
 __all__ = ["BLENDERMANN", "Windage", "windage"]
 

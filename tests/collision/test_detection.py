@@ -10,7 +10,7 @@ import pytest
 from shipcollision_fmu.collision.detection import SHALLOW, Detector
 from shipcollision_fmu.collision.shadow import Shadow
 from shipcollision_fmu.ship.hull import build_hull
-from shipcollision_fmu.ship.particulars import HullTable
+from shipcollision_fmu.ship.hull_table import HullTable
 
 BOX = HullTable(shape="box", depth=20.0)
 PLUMB = HullTable(shape="parametric", depth=20.0, bow_length=40.0, stern_length=50.0)

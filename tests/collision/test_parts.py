@@ -16,7 +16,7 @@ from shipcollision_fmu.collision.joined import JoinedParts
 from shipcollision_fmu.collision.shadow import Shadow
 from shipcollision_fmu.ship.convex import half_spaces
 from shipcollision_fmu.ship.hull import HullMesh, build_hull
-from shipcollision_fmu.ship.particulars import HullTable
+from shipcollision_fmu.ship.hull_table import HullTable
 
 BOX = HullTable(shape="box", depth=20.0)
 HIGH = HullTable(shape="box", depth=26.0)

@@ -59,11 +59,12 @@ def test_a_collision_sums_over_its_points_and_steps() -> None:
         contact(3, ("left", "middle"), (1, 1), 7.0, 1e6),
     ]
     issued = {2: [sway(-5e6), sway(5e6), sway(0)], 3: [sway(-6e6), sway(6e6), sway(0)]}
-    (collision,) = found(record(rows, issued, {1: Impact(0.8, 1.5, 0.1)}))["collisions"]
+    (collision,) = found(record(rows, issued, {1: Impact(0.8, 1.5, 0.1, (0.0, 5.5, 0.0))}))["collisions"]
     assert (collision["start"], collision["end"]) == (0.8, 1.5)
     assert (collision["closing_speed"], collision["angle"], collision["energy"]) == (1.5, 0.1, 3.0)
     assert collision["impulse"] == {"n": [0.0, 6e6, 0.0], "magnitude": 6e6}
-    assert collision["first_point"] == {"n": [0.0, 6.0, 0.0], "b_a": [10.0, 6.0, 0.0], "b_b": [-20.0, -6.0, 0.0]}
+    # The FMU's point, the middle of the two; seen from the ships, which are at n's origin.
+    assert collision["first_point"] == {"n": [0.0, 5.5, 0.0], "b_a": [0.0, 5.5, 0.0], "b_b": [0.0, 5.5, 0.0]}
     gained = np.array(collision["delta_v"]["middle"])
     expected = np.linalg.solve(SHIP.M[np.ix_([0, 1, 5], [0, 1, 5])], [0.0, 6e6, 0.0])
     np.testing.assert_allclose(gained, [expected[0], expected[1], 0.0], rtol=1e-12)
@@ -75,7 +76,7 @@ def test_a_ship_hit_from_both_sides_at_once_takes_its_share_from_each() -> None:
     """The impulses on the middle ship cancel in the ledger, and must not in its two collisions."""
     rows = [contact(1, ("left", "middle"), (1, 1), 5.0, 4e6), contact(1, ("middle", "right"), (2, 2), 9.0, 4e6)]
     issued = {1: [sway(-4e6), sway(0.0), sway(4e6)]}
-    first, second = found(record(rows, issued, {2: Impact(0.2, 1.0, 0.0)}))["collisions"]
+    first, second = found(record(rows, issued, {2: Impact(0.2, 1.0, 0.0, (0.0, 9.0, 0.0))}))["collisions"]
     M = SHIP.M[np.ix_([0, 1, 5], [0, 1, 5])]
     on_b = np.linalg.solve(M, [0.0, 4e6, -20.0 * 4e6])[1]
     on_a = np.linalg.solve(M, [0.0, -4e6, -10.0 * 4e6])[1]

@@ -84,3 +84,8 @@ def test_a_case_is_a_file(tmp_path: Path) -> None:
     assert made.text.count("[ships.target_") == 3
     assert "rev_per_s" in made.text
     assert made.scenario.name == "imazu_13"
+
+
+def test_the_ships_have_the_degrees_of_freedom_that_are_asked_for() -> None:
+    made = imazu(1, hydrodynamics=True, degrees_of_freedom=6, time=60.0, step=0.5)
+    assert [ship.free for ship in made.scenario.ships.values()] == [6, 6]

@@ -15,7 +15,7 @@ from shipcollision_fmu import load_scenario, simulate
 from shipcollision_fmu.cosim.imazu import KNOT
 from shipcollision_fmu.cosim.scenario import Scenario
 from shipcollision_fmu.cosim.tangent_plane import TangentPlane
-from shipcollision_fmu.cosim.traffic import Imported, imported
+from shipcollision_fmu.cosim.traffic import Imported, traffic_scenario
 from shipcollision_fmu.errors import ScenarioError
 
 HERE = Path(__file__).parent / "situations"
@@ -56,7 +56,7 @@ def test_courses_turn_with_the_meridians() -> None:
 
 
 def test_version_0_1(tmp_path: Path) -> None:
-    scenario = stored(imported(OLD, out=tmp_path / "old.toml"), tmp_path / "old.toml")
+    scenario = stored(traffic_scenario(OLD, out=tmp_path / "old.toml"), tmp_path / "old.toml")
     own, first, second = scenario.ships.values()
     assert list(scenario.ships) == ["own", "target_1", "target_2"]
     assert own.start.position == [0.0, 0.0, 0.0]
@@ -76,7 +76,7 @@ def test_version_0_1(tmp_path: Path) -> None:
 
 def test_version_0_2(tmp_path: Path) -> None:
     """No initial: the first waypoint, course and speed of the first leg; leg.data.sog before leg.sog."""
-    scenario = stored(imported(NEW, out=tmp_path / "new.toml"), tmp_path / "new.toml")
+    scenario = stored(traffic_scenario(NEW, out=tmp_path / "new.toml"), tmp_path / "new.toml")
     own, target = scenario.ships.values()
     assert list(scenario.ships) == ["own", "target"]
     assert own.start.velocity[0] == pytest.approx(14.0 * KNOT, rel=1e-6)
@@ -88,10 +88,21 @@ def test_version_0_2(tmp_path: Path) -> None:
     text = (tmp_path / "new.toml").read_text(encoding="utf-8")
     assert "bends of their routes are left out" in text
     assert "wind is not carried over" in text
+    assert "keep their speeds: those of later legs are left out" in text
+
+
+def test_what_is_left_out_is_told(tmp_path: Path) -> None:
+    coasting = traffic_scenario(NEW, out=tmp_path / "x.toml").notes
+    assert [note.split(":")[0] for note in coasting] == [
+        "The ships coast and keep their courses", "The ships coast and keep their speeds",
+        "The file's wind is not carried over", "The file's current is not carried over",
+    ]  # fmt: skip
+    sailing = traffic_scenario(NEW, out=tmp_path / "x.toml", ship="kvlcc2", step=0.5, hydrodynamics=True).notes
+    assert [note.split(":")[0] for note in sailing] == ["Speeds of later legs", "turnRadius is not carried over"]
 
 
 def test_ships_by_name_sail_their_waypoints(tmp_path: Path) -> None:
-    made = imported(NEW, out=tmp_path / "new.toml", ship="kvlcc2", duration=60.0, step=0.5, hydrodynamics=True)
+    made = traffic_scenario(NEW, out=tmp_path / "new.toml", ship="kvlcc2", duration=60.0, step=0.5, hydrodynamics=True)
     assert made.ship_files == {}
     scenario = stored(made, tmp_path / "new.toml")
     own = scenario.ships["own"]
@@ -99,14 +110,30 @@ def test_ships_by_name_sail_their_waypoints(tmp_path: Path) -> None:
     assert len(own.route.waypoints) == 2
     assert own.orders[0].rev_per_s == pytest.approx(1.2268 * 14 * KNOT / 7.974, rel=1e-6)
     assert scenario.environment.current == pytest.approx([0.0, 1.0], abs=1e-9)
+    assert scenario.environment.wind is not None
+    assert (scenario.environment.wind.speed, scenario.environment.wind.from_deg) == (10.0, 180.0)
     run = simulate(scenario, in_process=True)
     assert run.states["own.position.north"][-1] > 400.0
+
+
+def test_the_engine_is_ordered_for_the_speed_of_each_leg(tmp_path: Path) -> None:
+    """14 kn for 3.3 km, then 9 kn; the trial's figures of revolutions."""
+    made = traffic_scenario(
+        NEW, out=tmp_path / "new.toml", ship="kvlcc2", duration=1500.0, step=0.5, hydrodynamics=True
+    )
+    first, second = stored(made, tmp_path / "new.toml").ships["own"].orders
+    assert (first.time, first.rev_per_s) == (0.0, pytest.approx(1.2268 * 14 * KNOT / 7.974, rel=1e-6))
+    assert second.time == pytest.approx(0.03 * 111399 / (14 * KNOT), rel=0.02)
+    assert second.rev_per_s == pytest.approx(1.2268 * 9 * KNOT / 7.974, rel=1e-6)
+    short = traffic_scenario(NEW, out=tmp_path / "new.toml", ship="kvlcc2", duration=60.0, step=0.5, hydrodynamics=True)
+    assert "rev_per_s" in short.text
+    assert len(stored(short, tmp_path / "new.toml").ships["own"].orders) == 1
 
 
 def test_a_situation_inside_a_larger_document_is_found(tmp_path: Path) -> None:
     path = tmp_path / "output.json"
     path.write_text(json.dumps({"trafficSituation": json.loads(OLD.read_text())}), encoding="utf-8")
-    assert "target_2" in imported(path, out=tmp_path / "x.toml", ship="kvlcc2").text
+    assert "target_2" in traffic_scenario(path, out=tmp_path / "x.toml", ship="kvlcc2").text
 
 
 Spoil = Callable[[dict[str, Any]], Any]
@@ -139,10 +166,10 @@ def test_what_is_wrong_is_refused_in_one_line(tmp_path: Path, spoil: Spoil, line
     path = tmp_path / "s.json"
     path.write_text(json.dumps(data), encoding="utf-8")
     if line is None:
-        imported(path, out=tmp_path / "x.toml")
+        traffic_scenario(path, out=tmp_path / "x.toml")
         return
     with pytest.raises(ScenarioError, match=line) as refused:
-        imported(path, out=tmp_path / "x.toml")
+        traffic_scenario(path, out=tmp_path / "x.toml")
     assert "\n" not in str(refused.value)
     assert [p.name for p in tmp_path.iterdir()] == ["s.json"]
 
@@ -160,7 +187,7 @@ def test_malformed_files_are_refused_in_one_line(tmp_path: Path, content: bytes,
     path = tmp_path / "s.json"
     path.write_bytes(content)
     with pytest.raises(ScenarioError, match=line) as refused:
-        imported(path)
+        traffic_scenario(path)
     assert "\n" not in str(refused.value)
 
 
@@ -168,13 +195,13 @@ def test_a_file_that_is_not_there_is_refused() -> None:
     with pytest.raises(
         ScenarioError, match=r"nowhere.json cannot be read: No such file or directory: give the path of"
     ):
-        imported("nowhere.json")
+        traffic_scenario("nowhere.json")
 
 
 def test_dimensions_alone_do_not_sail(tmp_path: Path) -> None:
     with pytest.raises(ScenarioError, match=r"own has dimensions only and can but coast: name a ship with --ship"):
-        imported(OLD, out=tmp_path / "x.toml", hydrodynamics=True)
+        traffic_scenario(OLD, out=tmp_path / "x.toml", hydrodynamics=True)
     with pytest.raises(
         ScenarioError, match=r"ship 'guan2014_own' can only coast, she has no \[manoeuvring\]: leave out"
     ):
-        imported(OLD, out=tmp_path / "x.toml", ship="guan2014_own", hydrodynamics=True)
+        traffic_scenario(OLD, out=tmp_path / "x.toml", ship="guan2014_own", hydrodynamics=True)

@@ -17,9 +17,9 @@ from shipcollision_fmu.errors import HostError, ShipError
 from shipcollision_fmu.ship import mesh as mesh_module
 from shipcollision_fmu.ship.convex import enclosed_volume, half_spaces, is_convex
 from shipcollision_fmu.ship.hull import HullMesh, build_hull
+from shipcollision_fmu.ship.hull_table import HullTable
 from shipcollision_fmu.ship.library import load_ship, models_directory
 from shipcollision_fmu.ship.mesh import UNITS, mesh_hull
-from shipcollision_fmu.ship.particulars import HullTable
 
 L_OA, B, T, DEPTH = 200.0, 30.0, 10.0, 20.0
 TO_FILE = np.array([1.0, -1.0, -1.0])

@@ -1,0 +1,128 @@
+"""What a traffic situation in JSON may say, as far as a scenario needs it: one class per object.
+
+Schema (MIT): https://github.com/dnv-opensource/maritime-schema, schemas/traffic_situation.json, version 0.2.0, in which
+wind [m/s, deg] comes from and current flows towards. Files are made by
+https://github.com/dnv-opensource/ship-traffic-generator. Version 0.1 gives `initial`, and length and width in `static`;
+0.2 puts them in `static.dimensions`, and `initial`, or position, sog and cog in it, may be missing.
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+from pydantic import AliasChoices, BaseModel, ConfigDict, Field, ValidationError
+
+from ..errors import ScenarioError
+from ..ship.refusal import one_line
+
+__all__ = [
+    "Dimensions", "Environment", "Initial", "Leg", "Position", "Situation", "Static", "TrafficShip", "Waypoint",
+    "situation",
+]  # fmt: skip
+
+Knots = Annotated[float | None, Field(ge=0, le=60, description="the speed over ground in knots")]
+Course = Annotated[float | None, Field(ge=-360, le=360, description="clockwise from north, in degrees")]
+Metres = Annotated[float | None, Field(gt=0, le=500, description="a length in metres")]
+
+
+class Part(BaseModel):
+    """Of the JSON: what is not needed is left alone."""
+
+    model_config = ConfigDict(extra="ignore", frozen=True, allow_inf_nan=False, strict=True)
+
+
+class Position(Part):
+    lat: float = Field(ge=-85, le=85, validation_alias=AliasChoices("lat", "latitude"))
+    lon: float = Field(ge=-180, le=180, validation_alias=AliasChoices("lon", "longitude"))
+
+
+class DataPoint(Part):
+    value: float | None = None
+
+
+class Leg(Part):
+    sog: Knots = None
+    data: dict[str, DataPoint | None] | None = None
+
+    @property
+    def planned_sog(self) -> float | None:
+        """leg.data.sog takes priority over leg.sog."""
+        point = (self.data or {}).get("sog")
+        return self.sog if point is None or point.value is None else point.value
+
+
+class Waypoint(Part):
+    position: Position
+    turnRadius: float | None = None
+    leg: Leg | None = None
+
+
+class Initial(Part):
+    position: Position | None = None
+    sog: Knots = None
+    cog: Course = None
+    heading: Course = None
+
+
+class Dimensions(Part):
+    length: Metres = None
+    width: Metres = None
+    draught: Metres = None
+    a: Metres = None
+    b: Metres = None
+    c: Metres = None
+    d: Metres = None
+
+
+class Static(Dimensions):
+    dimensions: Dimensions | None = None
+    name: str | None = None
+    shipType: str | int | None = None
+    initDelay: float | None = None
+
+
+class TrafficShip(Part):
+    static: Static | None = None
+    initial: Initial | None = None
+    waypoints: list[Waypoint] | None = None
+
+
+class Environment(Part):
+    currentSpeed: float | None = Field(default=None, ge=0, le=10, description="the speed of the current [m/s]")
+    currentDirection: Course = None
+    windSpeed: float | None = Field(default=None, ge=0, le=100, description="the speed of the wind [m/s]")
+    windDirection: Course = None
+    significantWaveHeight: float | None = None
+
+
+class Situation(Part):
+    version: str | None = None
+    title: str | None = None
+    description: str | None = None
+    ownShip: TrafficShip = Field(description="the own ship")
+    targetShips: list[TrafficShip] | None = Field(default=None, description="a list of the target ships")
+    environment: Environment | None = None
+
+
+def situation(path: Path) -> Situation:
+    """The file's content, or what the member trafficSituation of a larger document holds."""
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise ScenarioError(f"{path} cannot be read: {error.strerror}: give the path of a JSON file") from None
+    except UnicodeDecodeError as error:
+        raise ScenarioError(f"{path.name}: is not UTF-8 text (byte {error.start}): save it as UTF-8") from None
+    except (ValueError, RecursionError) as error:
+        raise ScenarioError(f"{path.name}: is not valid JSON: {error}") from None
+    if isinstance(content, dict) and isinstance(content.get("trafficSituation"), dict):
+        content = content["trafficSituation"]
+    if not isinstance(content, dict) or "ownShip" not in content:
+        raise ScenarioError(
+            f"{path.name}: is no traffic situation, it has no ownShip: give a file of trafficgen or maritime-schema"
+        )
+    try:
+        return Situation.model_validate(content)
+    except ValidationError as error:
+        raise ScenarioError(f"{path.name}: {one_line(error, Situation)}") from None

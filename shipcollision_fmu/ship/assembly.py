@@ -1,0 +1,129 @@
+"""A ship from its file: matrices put together, what is missing estimated by a named formula.
+
+    k_xx = 0.37 B      k_yy = k_zz = 0.25 L_pp        radii of gyration about CG
+    m_x, m_y, m_z = 0.05, 0.85, 1.0 of the mass       j_x, j_y, j_z = 0.2, 1.0, 0.21 of I_xx, I_yy, I_zz
+
+The fractions in surge, sway and yaw are those of Pedersen & Zhang for impacts; the others are rules of thumb. They
+belong to motions of about a second. Manoeuvring values differ (j_z is three times as large), and a ship has one added
+mass, so where an MMG set brings its own m_x, m_y, J_z, those are it. With them goes z_y = T/2, the depth at which the
+sway added mass acts; the fractions for impacts are used in the literature with z_y = 0.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ..errors import ShipError
+from .frames import Array
+from .inertia import added_mass_matrix, is_positive_definite, rigid_body_inertia
+from .seakeeping import seakeeping
+from .ship import Ship
+from .ship_file import ShipFile
+from .windage import windage
+
+__all__ = ["assembled"]
+
+FRACTIONS = {"m_x": 0.05, "m_y": 0.85, "m_z": 1.0, "j_x": 0.2, "j_y": 1.0, "j_z": 0.21}
+"""Added mass over mass, added inertia over rigid-body inertia about CG, where the file says nothing."""
+
+
+def assembled(content: ShipFile, file: str) -> Ship:
+    """The ship that a validated file describes; `file` names it in messages.
+
+    Raises ShipError when the inertia that comes out is not positive definite.
+    """
+    p = content.particulars
+    estimated = list(content.estimated)
+
+    def or_estimate(value: float | None, formula: str, otherwise: float) -> float:
+        if value is None:
+            estimated.append(formula)
+            return otherwise
+        return value
+
+    L_oa = or_estimate(p.L_oa, "L_oa = L_pp", p.L_pp)
+    radii = np.array([
+        or_estimate(p.k_xx, "k_xx = 0.37 B", 0.37 * p.B),
+        or_estimate(p.k_yy, "k_yy = 0.25 L_pp", 0.25 * p.L_pp),
+        or_estimate(p.k_zz, "k_zz = 0.25 L_pp", 0.25 * p.L_pp),
+    ])  # fmt: skip
+    r_bg = np.array(p.r_bg if p.r_bg is not None else [0.0, 0.0, 0.0], dtype=float)
+    if p.r_bg is None:
+        estimated.append("r_bg = (0, 0, 0)")
+
+    M_RB = rigid_body_inertia(p.mass, r_bg, radii)
+    M_A = _added_mass(content, p.mass * radii**2, estimated, file)
+    M = M_RB + M_A
+    if not is_positive_definite(M):
+        raise ShipError(
+            f"{file}: the inertia M_RB + M_A is not positive definite (diagonal {np.diag(M).tolist()}): check r_bg, "
+            "the radii of gyration and [added_mass]"
+        )
+    for array in (r_bg, M_RB, M_A, M):
+        array.flags.writeable = False
+    ship = Ship(
+        name=content.ship.name, kind=content.ship.kind, source=content.ship.source,
+        L_pp=p.L_pp, L_oa=L_oa, B=p.B, T=p.T, mass=p.mass, rho=p.rho, r_bg=r_bg, M_RB=M_RB, M_A=M_A, M=M,
+        GM_T=p.GM_T, GM_L=p.GM_L, hull=content.hull, manoeuvring=content.manoeuvring, propeller=content.propeller,
+        rudder=content.rudder, engine=content.engine, seakeeping=content.seakeeping, wind=content.wind,
+        estimated=tuple(estimated),
+    )  # fmt: skip
+    return ship if ship.manoeuvring is None else replace(ship, estimated=(*estimated, *_of_the_sailing_ship(ship)))
+
+
+def _of_the_sailing_ship(ship: Ship) -> tuple[str, ...]:
+    """What heave, roll, pitch and wind need and the file does not say; a coasting ship has no use for it."""
+    try:
+        floating = seakeeping(ship).estimated
+    except ShipError:  # said when 4 or 6 degrees of freedom are asked for
+        floating = ()
+    return (*floating, *windage(ship).estimated)
+
+
+def _added_mass(content: ShipFile, inertia_g: Array, estimated: list[str], file: str) -> Array:
+    """M_A about CO from the full matrix, the fractions, or the MMG set; adds to `estimated`."""
+    p, table, mmg = content.particulars, content.added_mass, content.manoeuvring
+    if table.M_A is not None:
+        return _checked_M_A(np.array(table.M_A, dtype=float), file)
+    brought: dict[str, float] = {}
+    if mmg is not None and mmg.m_x is not None and mmg.m_y is not None and mmg.J_z is not None:
+        mass_unit = 0.5 * p.rho * p.L_pp**2 * p.T
+        brought = {"m_x": mmg.m_x * mass_unit, "m_y": mmg.m_y * mass_unit, "j_z": mmg.J_z * mass_unit * p.L_pp**2}
+    whole = dict(zip(FRACTIONS, [p.mass] * 3 + inertia_g.tolist(), strict=True))
+    values = {}
+    for key, default in FRACTIONS.items():
+        if key in brought:
+            values[key] = brought[key]
+            continue
+        fraction = getattr(table, key)
+        if fraction is None:
+            fraction = default
+            estimated.append(f"{key} = {default} {'mass' if key[0] == 'm' else 'I_' + 2 * key[-1]}")
+        values[key] = fraction * whole[key]
+    z_y = table.z_y
+    if z_y is None:
+        z_y = 0.5 * p.T if brought else 0.0
+        estimated.append("z_y = T/2" if brought else "z_y = 0")
+    return added_mass_matrix(**values, z_y=z_y)
+
+
+def _checked_M_A(M_A: Array, file: str) -> Array:
+    """M_A as given, made exactly symmetric. Raises ShipError when it is not an added mass."""
+    largest = float(np.abs(M_A).max())
+    i, j = np.unravel_index(int(np.abs(M_A - M_A.T).argmax()), M_A.shape)
+    if abs(M_A[i, j] - M_A[j, i]) > 1e-9 * largest:
+        raise ShipError(
+            f"{file}: [added_mass] M_A is not symmetric: M_A[{i}][{j}] = {M_A[i, j]:g} and M_A[{j}][{i}] = "
+            f"{M_A[j, i]:g} must be equal"
+        )
+    M_A = 0.5 * (M_A + M_A.T)
+    scale = np.array([1.0 / np.sqrt(d if d > 0.0 else largest or 1.0) for d in np.diag(M_A)])
+    least = float(np.linalg.eigvalsh(M_A * np.outer(scale, scale))[0])
+    if least < -1e-9:
+        raise ShipError(
+            f"{file}: [added_mass] M_A is not positive semi-definite (least eigenvalue {least:.3g} when scaled to a "
+            "unit diagonal, must be at least 0): the water would give energy away; added masses are positive here"
+        )
+    return M_A

@@ -1,0 +1,88 @@
+"""[hull] of a ship file: the shape that touches other ships."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+
+from .particulars import NotNegative, Positive, Table, Vector
+
+__all__ = ["HullTable"]
+
+Axis = Literal["+x", "-x", "+y", "-y", "+z", "-z"]
+
+MESH_KEYS = frozenset({"file", "unit", "scale", "forward", "up", "origin", "max_parts"})
+"""Keys of [hull] that go with shape = "mesh" only."""
+
+
+class HullTable(Table):
+    """[hull]: the shape that touches other ships. Its meaning is drawn in ship/hull.py."""
+
+    shape: Literal["parametric", "box", "mesh"] = Field(description='"parametric", "box" or "mesh"')
+    depth: Positive = Field(description="the depth, keel to deck [m]")
+    bow_length: NotNegative = Field(default=0.0, description="the length of the bow from its shoulder to the stem [m]")
+    bow_exponent: Annotated[float, Field(ge=1.0, le=10.0)] = Field(
+        default=2.0, description="p of the deck line y = B/2 (1 - s^p); from 1, a wedge, to 10, almost blunt"
+    )
+    stem_rake_deg: Annotated[float, Field(ge=0.0, le=60.0)] = Field(
+        default=0.0, description="the stem's rake from the vertical [deg], top forward"
+    )
+    stern_length: NotNegative = Field(default=0.0, description="the length over which the stern narrows [m]")
+    stern_exponent: Annotated[float, Field(ge=1.0, le=10.0)] = Field(
+        default=2.0, description="p of the stern's deck line; as bow_exponent"
+    )
+    transom_fraction: Annotated[float, Field(gt=0.0, le=1.0)] = Field(default=0.5, description="transom breadth / B")
+    flare_deg: Annotated[float, Field(ge=0.0, le=60.0)] = Field(
+        default=0.0, description="the bow's flare above the waterline [deg] from the vertical"
+    )
+    bilge: NotNegative = Field(default=0.0, description="the height and breadth of the chamfer at the keel [m]")
+    trim_x: float = Field(default=0.0, description="the shift of the whole hull forward of CO [m]")
+    file: Annotated[str, Field(min_length=1)] | None = Field(
+        default=None, description="the hull's .obj or .stl file, relative to the ship file"
+    )
+    unit: Literal["m", "cm", "mm", "ft", "in"] = Field(default="m", description="the unit of length of the mesh file")
+    scale: Positive | None = Field(default=None, description="metres per unit of the mesh file, instead of unit")
+    forward: Axis = Field(default="+x", description="the mesh file's axis that points to the bow")
+    up: Axis = Field(default="+z", description="the mesh file's axis that points up")
+    origin: Vector = Field(default=[0.0, 0.0, 0.0], description="CO in the mesh file's coordinates and unit")
+    max_parts: Annotated[int, Field(ge=1, le=64)] = Field(
+        default=16, description="the most convex parts that the mesh is cut into"
+    )
+
+    @model_validator(mode="after")
+    def _mesh_keys_go_with_a_mesh(self) -> HullTable:
+        if self.shape != "mesh":
+            if others := sorted(self.model_fields_set & MESH_KEYS):
+                raise ValueError(f'[hull] shape = "{self.shape}" has no {", ".join(others)}: only "mesh" has')
+            return self
+        if others := sorted(self.model_fields_set - MESH_KEYS - {"shape", "depth"}):
+            raise ValueError(f'[hull] shape = "mesh" has no {", ".join(others)}: the file says it all')
+        if self.file is None:
+            raise ValueError('[hull] file is missing: shape = "mesh" needs the name of an .obj or .stl file')
+        if self.scale is not None and "unit" in self.model_fields_set:
+            raise ValueError(f'[hull] unit = "{self.unit}" and scale = {self.scale} are two units: remove one')
+        if self.forward[1] == self.up[1]:
+            raise ValueError(
+                f'[hull] forward = "{self.forward}" and up = "{self.up}" lie along one axis: name two different ones'
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _fits_its_shape(self) -> HullTable:
+        if self.shape == "mesh":
+            return self
+        if self.shape == "box":
+            others = sorted(self.model_fields_set - {"shape", "depth"})
+            if others:
+                raise ValueError(
+                    f'[hull] shape = "box" has no {", ".join(others)}: give depth only, or shape = "parametric"'
+                )
+        else:
+            for key in ("bow_length", "stern_length"):
+                if getattr(self, key) <= 0.0:
+                    raise ValueError(
+                        f'[hull] {key} = {getattr(self, key)} m must be greater than 0 with shape = "parametric": '
+                        f"it is {type(self).model_fields[key].description}"
+                    )
+        return self

@@ -1,0 +1,175 @@
+"""A whole ship file, validated: its tables one by one, and that they go together.
+
+A mass, a C_b and an inertia that contradict each other are refused: a ship heavier than the box of water it displaces,
+or a container ship with half its displacement, spoils every number computed from it. Published data do contain such
+ships (Guan et al. 2014, Table 1, prints dead-weights as mass), hence `allow_inconsistent = "why"`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from pydantic import Field, PrivateAttr, ValidationError, model_validator
+
+from ..errors import ShipError
+from .estimate import Dimensions, completed
+from .hull_table import HullTable
+from .manoeuvring_tables import EngineTable, ManoeuvringTable, PropellerTable, RudderTable
+from .particulars import AddedMassTable, ParticularsTable, SeakeepingTable, ShipTable, Table, WindTable
+from .refusal import one_line
+
+__all__ = ["ShipFile", "ship_file"]
+
+C_B_LIMITS = (0.40, 0.90)
+"""Block coefficients of displacement ships; fine yachts and full barges lie just inside."""
+
+C_B_TOLERANCE = 0.02
+"""Relative difference allowed between a given C_b and the one from the mass: published C_b have two digits."""
+
+
+class ShipFile(Table):
+    """A whole ship file."""
+
+    ship: ShipTable = Field(description="the table [ship] with name, kind and source")
+    particulars: ParticularsTable = Field(description="the table [particulars] with L_pp, B, T and mass")
+    added_mass: AddedMassTable = Field(default_factory=AddedMassTable, description="the table [added_mass]")
+    hull: HullTable = Field(description='the table [hull], at least shape = "box" and depth')
+    manoeuvring: ManoeuvringTable | None = None
+    propeller: PropellerTable | None = None
+    rudder: RudderTable | None = None
+    engine: EngineTable | None = None
+    seakeeping: SeakeepingTable = Field(default_factory=SeakeepingTable, description="the table [seakeeping]")
+    wind: WindTable = Field(default_factory=WindTable, description="the table [wind]")
+
+    _estimated: tuple[str, ...] = PrivateAttr(default=())
+
+    @property
+    def estimated(self) -> tuple[str, ...]:
+        """What `[manoeuvring] estimate = true` has put into the tables, and how."""
+        return self._estimated
+
+    @model_validator(mode="after")
+    def _mass_fits_the_dimensions(self) -> ShipFile:
+        p = self.particulars
+        box = p.rho * p.L_pp * p.B * p.T
+        C_b = p.mass / box
+        low, high = C_B_LIMITS
+        remedy = 'give the displacement and its draught, or say why it is kept: allow_inconsistent = "..."'
+        if p.allow_inconsistent is not None:
+            return self
+        if C_b > 1.0:
+            raise ValueError(
+                f"[particulars] mass = {p.mass:.6g} kg is more than rho L_pp B T = {box:.6g} kg, all the water that a "
+                f"box of these dimensions displaces: {remedy}"
+            )
+        if not low <= C_b <= high:
+            raise ValueError(
+                f"[particulars] mass = {p.mass:.6g} kg means C_b = mass / (rho L_pp B T) = {C_b:.3f}, outside "
+                f"{low:.2f} to {high:.2f}: {remedy}"
+            )
+        if p.C_b is not None and abs(p.C_b / C_b - 1.0) > C_B_TOLERANCE:
+            raise ValueError(
+                f"[particulars] C_b = {p.C_b} contradicts mass / (rho L_pp B T) = {C_b:.3f} by more than "
+                f"{C_B_TOLERANCE:.0%}: remove C_b, or {remedy}"
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _centre_of_gravity_is_aboard(self) -> ShipFile:
+        p = self.particulars
+        limits = (p.L_pp / 2, p.B / 2, max(p.T, self.hull.depth))
+        for axis, value, limit in zip("xyz", p.r_bg or (0.0, 0.0, 0.0), limits, strict=True):
+            if abs(value) > limit:
+                raise ValueError(f"[particulars] r_bg: {axis} = {value} m puts CG outside the ship: at most {limit} m")
+        return self
+
+    @model_validator(mode="after")
+    def _hull_fits_the_dimensions(self) -> ShipFile:
+        p, hull = self.particulars, self.hull
+        if hull.depth <= p.T:
+            raise ValueError(
+                f"[hull] depth = {hull.depth} m must be greater than the draught T = {p.T} m: the deck would be awash"
+            )
+        if hull.shape == "parametric":
+            L = p.L_oa or p.L_pp
+            midbody = L - hull.bow_length - hull.stern_length
+            if midbody <= 0.0:
+                raise ValueError(
+                    f"[hull] bow_length + stern_length = {hull.bow_length + hull.stern_length} m leave no parallel "
+                    f"midbody in {L} m of length: shorten them"
+                )
+            if hull.bilge >= min(p.T, p.B / 2):
+                raise ValueError(f"[hull] bilge = {hull.bilge} m must be less than T = {p.T} m and B/2 = {p.B / 2} m")
+        return self
+
+    @model_validator(mode="after")
+    def _one_added_mass(self) -> ShipFile:
+        if self.manoeuvring is not None and self.manoeuvring.m_x is not None:
+            twice = [key for key in ("m_x", "m_y", "j_z", "M_A") if getattr(self.added_mass, key) is not None]
+            if twice:
+                raise ValueError(
+                    f"[added_mass] {', '.join(twice)} and [manoeuvring] m_x, m_y, J_z are two added masses of one "
+                    "ship: remove one of the two sets"
+                )
+        return self
+
+    @model_validator(mode="after")
+    def _mmg_set_is_whole(self) -> ShipFile:
+        if self.manoeuvring is not None:
+            lacking = [t for t in ("propeller", "rudder", "engine") if getattr(self, t) is None]
+            if len(lacking) in (1, 2):
+                raise ValueError(
+                    f"[manoeuvring] needs {', '.join(f'[{t}]' for t in lacking)} as well: propeller, rudder and engine "
+                    "work together; add them, or remove all three and the ship can only drift"
+                )
+        return self
+
+
+def ship_file(data: Mapping[str, Any], file: str) -> ShipFile:
+    """The validated content of a ship file; `file` names it in messages.
+
+    Raises ShipError with one line: file, key, what is wrong, its value, the limit, the remedy.
+    """
+    table = data.get("manoeuvring")
+    if isinstance(table, Mapping) and table.get("estimate") is True:
+        return _estimated_file(data, file)
+    return _validated(data, file)
+
+
+_ESTIMATED = ("manoeuvring", "propeller", "rudder", "engine")
+"""Tables that `[manoeuvring] estimate = true` completes."""
+
+
+def _estimated_file(data: Mapping[str, Any], file: str) -> ShipFile:
+    """The content with its MMG set completed. First what is given is checked, then it takes part in the estimate."""
+    rest = {key: value for key, value in data.items() if key not in _ESTIMATED}
+    content = _validated(rest, file)
+    p, added = content.particulars, content.added_mass
+    d = Dimensions(p.L_pp, p.B, p.T, p.mass / (p.rho * p.L_pp * p.B * p.T), p.r_bg[0] if p.r_bg else 0.0, p.rho)
+    unit = 2.0 * d.C_b * d.B / d.L  # the mass over 1/2 rho L^2 T
+    own_masses: tuple[float, float] | None = None
+    if added.M_A is not None:
+        own_masses = (added.M_A[0][0] / p.mass * unit, added.M_A[1][1] / p.mass * unit)
+    elif added.m_x is not None and added.m_y is not None and added.j_z is not None:
+        own_masses = (added.m_x * unit, added.m_y * unit)
+    try:
+        tables, _ = completed(d, {}, own_masses)
+        for name in _ESTIMATED:
+            own = data.get(name, {})
+            tables[name] = {**tables[name], **own} if isinstance(own, Mapping) else own
+        checked = _validated({**rest, **tables}, file)
+        given = {name: getattr(checked, name).model_dump(include=set(data.get(name, {}))) for name in _ESTIMATED}
+        tables, notes = completed(d, given, own_masses)
+    except ShipError as error:
+        raise ShipError(f"{file}: {error}") from None
+    content = _validated({**rest, **tables}, file)
+    content._estimated = tuple(notes)
+    return content
+
+
+def _validated(data: Mapping[str, Any], file: str) -> ShipFile:
+    try:
+        return ShipFile.model_validate(data)
+    except ValidationError as error:
+        raise ShipError(f"{file}: {one_line(error, ShipFile)}") from None
