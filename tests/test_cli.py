@@ -89,7 +89,7 @@ def test_run_stores_and_shows_what_happened(folder: Path, how: list[str]) -> Non
     assert "stored in runs/encounter" in result.stdout
     assert "[m/s]" in result.stdout
     assert {path.name for path in (folder / "runs" / "encounter").iterdir()} == {
-        "states.csv", "contacts.csv", "events.json", "summary.json", "timing.json",
+        "states.csv", "contacts.csv", "signals.csv", "events.json", "bodies.json", "summary.json", "timing.json",
     }  # fmt: skip
 
 

@@ -18,7 +18,7 @@ from .component import Group
 from .master import System
 from .wiring import IMPULSE, STATE, named
 
-__all__ = ["CONTACT_COLUMNS", "Impact", "Record", "Recorder"]
+__all__ = ["CONTACT_COLUMNS", "SIGNALS", "Impact", "Record", "Recorder"]
 
 SLOTS = 8
 _XYZ = ("x", "y", "z")
@@ -29,6 +29,8 @@ CONTACT_COLUMNS = (
 )  # fmt: skip
 """Real columns of contacts.csv: the point and the normal (from ship_a to ship_b) in n, the impulse on ship_b in n."""
 _CONTACT_NUMBERS = ("ship_a", "ship_b", "impact", "scratch")
+SIGNALS = ("clearance", "energy.dissipated", "energy.normal", "energy.tangential")
+"""Columns of signals.csv after the time: variables of the collision FMU [m, J]."""
 _IMPACT = ("impact.time", "impact.closing_speed", "impact.angle", *named("impact", _NED))
 
 
@@ -48,6 +50,7 @@ class Record:
     """A run as recorded.
 
     states     structured array, a row per communication point: time and 12 states per ship
+    signals    structured array, a row per communication point: time and SIGNALS
     contacts   structured array, a row per contact point and step; time is the step's end
     issued     per communication point k that ends a step with contact: cumulative impulses (ships, 6) after it
     impacts    by number of the collision; one is missing when another began in the same communication step
@@ -59,6 +62,7 @@ class Record:
     """
 
     states: npt.NDArray[Any]
+    signals: npt.NDArray[Any]
     contacts: npt.NDArray[Any]
     issued: dict[int, Array]
     impacts: dict[int, Impact]
@@ -94,11 +98,10 @@ class Recorder:
         self._numbers = collision.integers([variable for slot in slots for variable in named(slot, _CONTACT_NUMBERS)])
         self._impact = collision.reals(_IMPACT)
         self._issued = collision.reals([variable for name in names for variable in named(name, IMPULSE)])
-        self._energy = collision.reals(named("energy", ("dissipated", "normal", "tangential")))
+        self._watched = collision.reals(SIGNALS)
         self._fender = collision.reals(named("fender", ("stored", "dissipated")))
         self._solver = collision.integers(["solver.unconverged", "solver.scaled"])
-        self._clearance = collision.reals(["clearance"])
-        self._least_clearance = float("inf")
+        self._signals = np.zeros((steps + 1, 1 + len(SIGNALS)))
         self._seen = _Contacts()
         self._impacts = 0
 
@@ -109,8 +112,8 @@ class Recorder:
         width = len(STATE)
         for i, buffer in enumerate(self._buffers):
             row[1 + i * width : 1 + (i + 1) * width] = buffer[:width]
-        self._clearance.read()
-        self._least_clearance = min(self._least_clearance, self._clearance.values[0])
+        self._watched.read()
+        self._signals[k] = (row[0], *self._watched.values)
         self._counts.read()
         count, impacts = self._counts.values
         if impacts > self._impacts:
@@ -122,18 +125,19 @@ class Recorder:
 
     def finished(self) -> Record:
         """The record of the whole run."""
-        columns = ["time"] + [f"{name}.{variable}" for name in self._names for variable in STATE]
-        states = self._states.view([(column, np.float64) for column in columns])[:, 0]
+        states = _table(self._states, [f"{name}.{variable}" for name in self._names for variable in STATE])
+        signals = _table(self._signals, SIGNALS)
         text = f"U{max(map(len, self._bodies))}"
         contact_type = [
             ("time", np.float64), ("ship_a", text), ("ship_b", text), ("impact", np.int64), ("scratch", np.int64),
             *((column, np.float64) for column in CONTACT_COLUMNS),
         ]  # fmt: skip
-        dissipated, normal, tangential = _read(self._energy)
+        dissipated, normal, tangential = (float(signals[column][-1]) for column in SIGNALS[1:])
         stored, lost = _read(self._fender)
         unconverged, scaled = _read(self._solver)
         return Record(
             states=states,
+            signals=signals,
             contacts=np.array(self._seen.rows, dtype=contact_type),
             issued=self._seen.issued,
             impacts=self._seen.impacts,
@@ -142,7 +146,7 @@ class Recorder:
             solver=(unconverged, scaled),
             issued_finally=np.array(_read(self._issued)).reshape(-1, 6),
             applied=np.array([buffer[len(STATE) :] for buffer in self._buffers]),
-            clearance=self._least_clearance,
+            clearance=float(signals["clearance"].min()),
         )
 
     def _record_contacts(self, k: int, count: int) -> None:
@@ -154,6 +158,10 @@ class Recorder:
             values = self._reals.values[i * width : (i + 1) * width]
             self._seen.rows.append((time, self._bodies[a - 1], self._bodies[b - 1], impact, scratch, *values))
         self._seen.issued[k] = np.array(_read(self._issued)).reshape(-1, 6)
+
+
+def _table(rows: Array, columns: Sequence[str]) -> npt.NDArray[Any]:
+    return rows.view([(column, np.float64) for column in ("time", *columns)])[:, 0]
 
 
 def _read(group: Group) -> list[Any]:

@@ -25,6 +25,7 @@ from ..fmi.interface import SHIPS, Interface
 from ..fmi.package import VERSIONS
 from ..fmi.ship_collision import INTERFACE as COLLISION
 from ..fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
+from .bodies import bodies
 from .component import Component, InProcessComponent
 from .events import events
 from .fmi3_component import Fmi3Component
@@ -52,6 +53,8 @@ class Run:
 
     states, contacts    NumPy structured arrays; the columns are those of states.csv and contacts.csv
     events, summary     what is in events.json and summary.json
+    signals             structured array, that of signals.csv: clearance and dissipated energy over time
+    bodies              what is in bodies.json: hulls, inertias and obstacles
     timing              what differs between runs of the same thing: mode, wall time [s], real-time factor
     """
 
@@ -59,6 +62,8 @@ class Run:
     contacts: npt.NDArray[Any]
     events: dict[str, Any]
     summary: dict[str, Any]
+    signals: npt.NDArray[Any]
+    bodies: dict[str, Any]
     timing: dict[str, Any] = field(compare=False)
 
     def write(self, out: str | Path) -> None:
@@ -71,6 +76,8 @@ class Run:
             "contacts.csv": _csv(self.contacts),
             "events.json": _json(self.events),
             "summary.json": _json(self.summary),
+            "signals.csv": _csv(self.signals),
+            "bodies.json": _json(self.bodies),
             "timing.json": _json(self.timing),
         })  # fmt: skip
 
@@ -115,6 +122,8 @@ def simulate(
         contacts=record.contacts,
         events=found,
         summary=summary(scenario, ships, record, found),
+        signals=record.signals,
+        bodies=bodies(ships, scenario.obstacles),
         timing={
             "mode": "in process" if in_process else "FMU" if fmi == 2 else f"FMU, FMI {fmi}.0",
             "wall_time": wall_time,

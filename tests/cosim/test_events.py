@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from shipcollision_fmu.cosim.events import events
-from shipcollision_fmu.cosim.recorder import CONTACT_COLUMNS, Impact, Record
+from shipcollision_fmu.cosim.recorder import CONTACT_COLUMNS, SIGNALS, Impact, Record
 from shipcollision_fmu.cosim.wiring import STATE
 from shipcollision_fmu.ship.library import load_ship
 
@@ -33,6 +33,7 @@ def record(rows: list[tuple[Any, ...]], issued: dict[int, list[list[float]]], im
     states["time"] = np.arange(6) * STEP
     return Record(
         states=states,
+        signals=np.zeros(6, dtype=[("time", float), *((name, float) for name in SIGNALS)]),
         contacts=np.array(rows, dtype=[*contact_type, *((column, float) for column in CONTACT_COLUMNS)]),
         issued={k: np.array(value) for k, value in issued.items()},
         impacts=impacts,

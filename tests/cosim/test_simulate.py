@@ -66,13 +66,15 @@ def test_running_twice_gives_the_same_files(scenario_file: Write, tmp_path: Path
         ran(path, in_process=False, out=tmp_path / name)
     first = compared_files(tmp_path / "first")
     assert first == compared_files(tmp_path / "second")
-    assert sorted(first) == ["contacts.csv", "events.json", "states.csv", "summary.json"]
+    assert sorted(first) == [
+        "bodies.json", "contacts.csv", "events.json", "signals.csv", "states.csv", "summary.json",
+    ]  # fmt: skip
     assert json.loads((tmp_path / "first" / "timing.json").read_text())["mode"] == "FMU"
 
 
 def test_numbers_in_csv_read_back_as_the_same_doubles(scenario_file: Write, tmp_path: Path) -> None:
     run = ran(scenario_file(), out=tmp_path / "run")
-    for name, table in (("states", run.states), ("contacts", run.contacts)):
+    for name, table in (("states", run.states), ("contacts", run.contacts), ("signals", run.signals)):
         with (tmp_path / "run" / f"{name}.csv").open() as file:
             rows = list(csv.DictReader(file))
         assert len(rows) == len(table) > 0

@@ -1,0 +1,53 @@
+"""bodies.json: what the ships and obstacles of a run look like and weigh, so that the run's folder needs nothing else.
+
+    ships        by name: the model's name and kind, L_pp, L_oa, B, T [m], the hull's shape ("parametric" | "box" |
+                 "mesh"), the inertia M_RB + M_A about CO in b (6, 6) [kg, kg m, kg m2], the hull's surface
+    obstacles    by name: kind, position of its b in n [m], heading [rad], its surface in its b
+
+A surface is vertices (n, 3) [m], z down, and triangles (m, 3), indices from 0, counter-clockwise seen from outside:
+that of the very solid which contact is computed with, before it is cut into convex parts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from ..collision.obstacles import ObstacleTable, obstacle
+from ..ship.hull import HullMesh, build_hull
+from ..ship.ship import Ship
+
+__all__ = ["bodies"]
+
+
+def bodies(ships: Mapping[str, Ship], obstacles: Mapping[str, ObstacleTable]) -> dict[str, Any]:
+    """{"ships": {...}, "obstacles": {...}} as JSON-able data."""
+    return {
+        "ships": {name: _ship(ship) for name, ship in ships.items()},
+        "obstacles": {name: _obstacle(name, table) for name, table in obstacles.items()},
+    }
+
+
+def _ship(ship: Ship) -> dict[str, Any]:
+    return {
+        "ship": ship.name,
+        "kind": ship.kind,
+        **{key: float(getattr(ship, key)) for key in ("L_pp", "L_oa", "B", "T")},
+        "shape": ship.hull.shape,
+        "inertia": ship.M.tolist(),
+        **_surface(build_hull(ship.L_oa, ship.B, ship.T, ship.hull)),
+    }
+
+
+def _obstacle(name: str, table: ObstacleTable) -> dict[str, Any]:
+    made = obstacle(name, table)
+    return {
+        "kind": made.kind,
+        "position": made.position.tolist(),
+        "heading": made.heading,
+        **_surface(made.solid),
+    }
+
+
+def _surface(hull: HullMesh) -> dict[str, Any]:
+    return {"vertices": hull.vertices.tolist(), "triangles": hull.triangles.tolist()}
