@@ -1,0 +1,1 @@
+"""A run made visible. See README.md beside this file."""
