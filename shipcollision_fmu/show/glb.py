@@ -1,0 +1,94 @@
+"""Writes glTF 2.0 in its binary form (.glb): one JSON document and one buffer. Khronos, glTF 2.0 specification.
+
+Numbers go into the buffer in single precision; those in the JSON are written so that they read back the same.
+"""
+
+from __future__ import annotations
+
+import json
+import struct
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+__all__ = ["Document"]
+
+FLOAT, UNSIGNED_SHORT, UNSIGNED_INT = 5126, 5123, 5125
+VERTICES, INDICES = 34962, 34963
+_TYPES = {1: "SCALAR", 3: "VEC3", 4: "VEC4"}
+
+
+class Document:
+    """A glTF document under construction. Every `add` gives the index of what was added."""
+
+    def __init__(self, generator: str) -> None:
+        self._json: dict[str, Any] = {"asset": {"version": "2.0", "generator": generator}}
+        self._chunks: list[bytes] = []
+        self._size = 0
+
+    def __setitem__(self, key: str, value: Any) -> None:
+        self._json[key] = value
+
+    def add(self, kind: str, item: dict[str, Any]) -> int:
+        """Append to a list of the document, such as "nodes"."""
+        items = self._json.setdefault(kind, [])
+        items.append(item)
+        return len(items) - 1
+
+    def vertices(self, values: npt.ArrayLike) -> int:
+        """Accessor of vertex data (n,) or (n, 3)."""
+        return self._floats(values, VERTICES)
+
+    def keys(self, values: npt.ArrayLike) -> int:
+        """Accessor of times (n,) or values (n, 3 or 4) of an animation."""
+        return self._floats(values, None)
+
+    def indices(self, triangles: npt.NDArray[np.int64]) -> int:
+        """Accessor of the corners of triangles (m, 3)."""
+        flat = triangles.reshape(-1)
+        short = int(flat.max()) < 65535  # 65535 itself restarts a primitive
+        view = self._view(flat.astype("<u2" if short else "<u4").tobytes(), INDICES)
+        return self.add(
+            "accessors",
+            {
+                "bufferView": view, "componentType": UNSIGNED_SHORT if short else UNSIGNED_INT, "count": len(flat),
+                "type": "SCALAR", "min": [int(flat.min())], "max": [int(flat.max())],
+            },
+        )  # fmt: skip
+
+    def written(self) -> bytes:
+        """The .glb file."""
+        buffer = b"".join(self._chunks)
+        self._json["buffers"] = [{"byteLength": len(buffer)}]
+        text = json.dumps(self._json, separators=(",", ":"), allow_nan=False, ensure_ascii=False).encode()
+        text += b" " * (-len(text) % 4)
+        size = 12 + 8 + len(text) + 8 + len(buffer)
+        return b"".join([
+            struct.pack("<4sII", b"glTF", 2, size),
+            struct.pack("<I4s", len(text), b"JSON"), text,
+            struct.pack("<I4s", len(buffer), b"BIN\0"), buffer,
+        ])  # fmt: skip
+
+    def _floats(self, values: npt.ArrayLike, target: int | None) -> int:
+        array = np.asarray(values, dtype="<f4") + np.float32(0.0)  # no negative zeros
+        if not np.isfinite(array).all():
+            raise ValueError("a number of the scene is not finite in single precision")
+        table = array.reshape(len(array), -1)
+        return self.add(
+            "accessors",
+            {
+                "bufferView": self._view(table.tobytes(), target), "componentType": FLOAT, "count": len(table),
+                "type": _TYPES[table.shape[1]],
+                "min": [float(x) for x in table.min(axis=0)], "max": [float(x) for x in table.max(axis=0)],
+            },
+        )  # fmt: skip
+
+    def _view(self, data: bytes, target: int | None) -> int:
+        view: dict[str, Any] = {"buffer": 0, "byteOffset": self._size, "byteLength": len(data)}
+        if target is not None:
+            view["target"] = target
+        data += b"\0" * (-len(data) % 4)
+        self._chunks.append(data)
+        self._size += len(data)
+        return self.add("bufferViews", view)

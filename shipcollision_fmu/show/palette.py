@@ -1,0 +1,63 @@
+"""The colours of things, linear RGB as glTF and OpenSceneGraph light them, and how rough they are.
+
+Ships are told apart by their topsides; plots use the same hue, see page/theme.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+__all__ = ["SHIP_COLOURS", "Paint", "linear", "paint_of", "topsides"]
+
+SHIP_COLOURS = ("#2f6fb7", "#c8102e", "#2e8b57", "#b8860b", "#7a4fa3", "#3a8f9e")
+"""Topsides (sRGB) of the first, second ... ship; from the seventh on they repeat."""
+
+
+@dataclass(frozen=True)
+class Paint:
+    """Name, base colour (sRGB, #rrggbb), roughness, metalness, and how much of its colour it gives off itself."""
+
+    name: str
+    colour: str
+    roughness: float = 0.7
+    metalness: float = 0.0
+    glow: float = 0.0
+
+
+_PAINTS = {
+    paint.name: paint
+    for paint in (
+        Paint("antifouling", "#7d2a22", 0.8),
+        Paint("boot-top", "#e9e6df", 0.6),
+        Paint("deck", "#5d6b62", 0.9),
+        Paint("house", "#eeece6", 0.6),
+        Paint("windows", "#1b2730", 0.15, 0.4),
+        Paint("funnel", "#d99a2b", 0.6),
+        Paint("mast", "#d8d4c8", 0.6),
+        Paint("hatch", "#8a4b3a", 0.8),
+        Paint("pipe", "#a9a39a", 0.5, 0.3),
+        Paint("container-a", "#b5482f", 0.8),
+        Paint("container-b", "#3d6f8f", 0.8),
+        Paint("container-c", "#c9a13b", 0.8),
+        Paint("container-d", "#7c8a7a", 0.8),
+        Paint("concrete", "#9b978d", 0.95),
+        Paint("scratch", "#ff7a2e", 0.5, 0.0, 0.35),
+    )
+}
+
+
+def paint_of(name: str) -> Paint:
+    """The paint of a part; KeyError for a part that nobody has thought of."""
+    return _PAINTS[name]
+
+
+def topsides(index: int) -> Paint:
+    """The paint of the topsides of ship `index`, from 0."""
+    return Paint(f"topsides {index}", SHIP_COLOURS[index % len(SHIP_COLOURS)], 0.45)
+
+
+def linear(colour: str) -> tuple[float, float, float]:
+    """Linear RGB of an sRGB colour #rrggbb. IEC 61966-2-1."""
+    parts = [int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5)]
+    r, g, b = (c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in parts)
+    return (r, g, b)
