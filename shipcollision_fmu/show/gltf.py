@@ -25,12 +25,12 @@ import numpy as np
 from .. import __version__
 from ..ship.convex import Indices
 from ..ship.frames import Array
-from .fittings import Fitting
 from .glb import Document
 from .palette import Paint, linear, paint_of, topsides
+from .parts import Shape, fitting_shapes, hull_shapes
 from .ribbons import Ribbon, ribbon
 from .scene import Obstacle, Scene, Scratch, Ship
-from .surface import Surface, bands, corner_normals, solid_triangles
+from .surface import Surface, corner_normals, solid_triangles
 
 __all__ = ["glb"]
 
@@ -39,8 +39,6 @@ STRETCHES = 600
 """Nodes that all scratches together are cut into, about."""
 MOST_STRETCHES = 48
 """Of one scratch."""
-Shape = tuple[str, Surface]
-"""A part of a mesh: the name of its paint, and its surface."""
 
 
 def glb(scene: Scene) -> bytes:
@@ -61,9 +59,7 @@ class _Writer:
         scene, document = self._scene, self._document
         children = [self._ship(i, ship) for i, ship in enumerate(scene.ships)]
         children += [self._obstacle(obstacle) for obstacle in scene.obstacles]
-        root = document.add(
-            "nodes", {"name": "n", "rotation": [HALF_ROOT, 0.0, 0.0, HALF_ROOT], "children": children}
-        )
+        root = document.add("nodes", {"name": "n", "rotation": [HALF_ROOT, 0.0, 0.0, HALF_ROOT], "children": children})
         document["scene"] = 0
         document.add("scenes", {"name": scene.name, "nodes": [root], "extras": _extras(scene)})
         animation = {"name": "run", "samplers": self._samplers, "channels": self._channels}
@@ -74,9 +70,9 @@ class _Writer:
 
     def _ship(self, index: int, ship: Ship) -> int:
         document, track = self._document, ship.track
-        children = [self._node("hull", self._mesh(_hull_shapes(ship), {"topsides": topsides(index)}))]
+        children = [self._node("hull", self._mesh(hull_shapes(ship), {"topsides": topsides(index)}))]
         if ship.fittings:
-            children.append(self._node("fittings", self._mesh(_fitting_shapes(ship.fittings), {})))
+            children.append(self._node("fittings", self._mesh(fitting_shapes(ship.fittings), {})))
         for scratch in self._scene.scratches:
             if scratch.ship == ship.name:
                 children += self._stretches(scratch, ship)
@@ -184,26 +180,6 @@ class _Writer:
         sampler = {"input": self._times[key], "output": self._document.keys(values), "interpolation": interpolation}
         self._samplers.append(sampler)
         self._channels.append({"sampler": len(self._samplers) - 1, "target": {"node": node, "path": path}})
-
-
-def _hull_shapes(ship: Ship) -> list[Shape]:
-    """The hull by paint: bands of height, and a deck where the top is level."""
-    top, boot, bottom = bands(ship.hull, [-0.10 * ship.T, 0.02 * ship.T])
-    z = ship.hull.vertices[:, 2].min()
-    level = (top.vertices[top.triangles][..., 2] < z + 0.01).all(axis=1)
-    deck, sides = Surface(top.vertices, top.triangles[level]), Surface(top.vertices, top.triangles[~level])
-    return [("topsides", sides), ("deck", deck), ("boot-top", boot), ("antifouling", bottom)]
-
-
-def _fitting_shapes(fittings: Sequence[Fitting]) -> list[Shape]:
-    """Fittings joined by what they are."""
-    shapes = []
-    for part in dict.fromkeys(fitting.part for fitting in fittings):
-        surfaces = [fitting.surface for fitting in fittings if fitting.part == part]
-        offsets = np.cumsum([0, *(len(surface.vertices) for surface in surfaces[:-1])])
-        triangles = [surface.triangles + offset for surface, offset in zip(surfaces, offsets, strict=True)]
-        shapes.append((part, Surface(np.vstack([s.vertices for s in surfaces]), np.vstack(triangles))))
-    return shapes
 
 
 def _joined(surface: Surface) -> tuple[Array, Array, Indices]:

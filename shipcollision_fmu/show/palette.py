@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-__all__ = ["SHIP_COLOURS", "Paint", "linear", "paint_of", "topsides"]
+__all__ = ["SHIP_COLOURS", "Paint", "display", "linear", "paint_of", "topsides"]
 
 SHIP_COLOURS = ("#2f6fb7", "#c8102e", "#2e8b57", "#b8860b", "#7a4fa3", "#3a8f9e")
 """Topsides (sRGB) of the first, second ... ship; from the seventh on they repeat."""
@@ -56,8 +56,13 @@ def topsides(index: int) -> Paint:
     return Paint(f"topsides {index}", SHIP_COLOURS[index % len(SHIP_COLOURS)], 0.45)
 
 
+def display(colour: str) -> tuple[float, float, float]:
+    """Red, green, blue from 0 to 1, as on the screen, of #rrggbb."""
+    r, g, b = (int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5))
+    return (r, g, b)
+
+
 def linear(colour: str) -> tuple[float, float, float]:
     """Linear RGB of an sRGB colour #rrggbb. IEC 61966-2-1."""
-    parts = [int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5)]
-    r, g, b = (c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in parts)
+    r, g, b = (c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in display(colour))
     return (r, g, b)
