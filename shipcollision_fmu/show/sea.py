@@ -7,11 +7,14 @@ mirrored and move nothing. Colours are linear shares of red, green and blue.
 from __future__ import annotations
 
 import numpy as np
+import numpy.typing as npt
 
 from ..ship.frames import Array
 from .raster import Eye
 
 __all__ = ["clarity", "distance", "sky", "surface"]
+
+Singles = npt.NDArray[np.float32]
 
 GRAVITY = 9.81
 DEEP = np.array([0.035, 0.185, 0.265], dtype=np.float32)
@@ -61,20 +64,21 @@ def clarity(way: Array) -> Array:
     return np.exp(-np.maximum(way, 0.0) / VISIBILITY)
 
 
-def _between(start: Array, end: Array, share: Array) -> Array:
+def _between(start: Singles, end: Singles, share: Array) -> Array:
     mixed: Array = start + (end - start) * share[..., None]
     return mixed
 
 
 def _slopes(place: Array, pixel: Array, time: float) -> Array:
     """Slope north and east (k, 2) of the waves at places (k, 2); none shorter than four pixels [m]."""
-    slope = np.zeros_like(place)
+    north, east, pixel = place[:, 0].copy(), place[:, 1].copy(), pixel.astype(np.float32)
+    slope_north, slope_east = np.zeros_like(north), np.zeros_like(north)
     for i, (length, heading) in enumerate(zip(_LENGTHS, _HEADINGS, strict=True)):
         seen = np.flatnonzero(pixel < 0.25 * length)
-        k, along = 2 * np.pi / length, np.array([np.cos(heading), np.sin(heading)], dtype=np.float32)
-        phase = np.float32(k) * (place[seen] @ along) + np.float32(
-            (2.4 * i - np.sqrt(GRAVITY * k) * time) % (2 * np.pi)
-        )
-        share = np.clip(length / (4.0 * pixel[seen]) - 1.0, 0.0, 1.0).astype(np.float32)
-        slope[seen] += (_STEEPNESS * share * np.cos(phase))[:, None] * along
-    return slope
+        k, c, s = (np.float32(x) for x in (2 * np.pi / length, np.cos(heading), np.sin(heading)))
+        passed = np.float32((2.4 * i - np.sqrt(GRAVITY * k) * time) % (2 * np.pi))
+        steep = _STEEPNESS * np.minimum(length / (4 * pixel[seen]) - 1, 1).astype(np.float32)
+        steep *= np.cos(k * c * north[seen] + k * s * east[seen] + passed)
+        slope_north[seen] += c * steep
+        slope_east[seen] += s * steep
+    return np.column_stack([slope_north, slope_east])
