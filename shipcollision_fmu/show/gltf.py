@@ -32,7 +32,7 @@ from .ribbons import Ribbon, ribbon
 from .scene import Obstacle, Scene, Scratch, Ship
 from .surface import Surface, corner_normals, solid_triangles
 
-__all__ = ["glb"]
+__all__ = ["extras", "glb"]
 
 HALF_ROOT = 0.7071067811865476
 STRETCHES = 600
@@ -61,7 +61,7 @@ class _Writer:
         children += [self._obstacle(obstacle) for obstacle in scene.obstacles]
         root = document.add("nodes", {"name": "n", "rotation": [HALF_ROOT, 0.0, 0.0, HALF_ROOT], "children": children})
         document["scene"] = 0
-        document.add("scenes", {"name": scene.name, "nodes": [root], "extras": _extras(scene)})
+        document.add("scenes", {"name": scene.name, "nodes": [root], "extras": extras(scene)})
         animation = {"name": "run", "samplers": self._samplers, "channels": self._channels}
         document.add("animations", animation)
         return document.written()
@@ -203,7 +203,8 @@ def _runs(appears: Array, count: int) -> list[Indices]:
     return runs
 
 
-def _extras(scene: Scene) -> dict[str, Any]:
+def extras(scene: Scene) -> dict[str, Any]:
+    """What of a scene has no place in glTF itself, as JSON-able data."""
     return {
         "description": scene.description,
         "frames": "n: north, east, down from origin [m]; children of a ship: forward, starboard, down from midship",

@@ -1,0 +1,98 @@
+"""replay.html: the scene in one file that any browser plays, without a network and from a file: address.
+
+What is in it: the bundle of src/ (three.js, uPlot, and our own modules), which the package's build makes; the very
+bytes of scene.glb, in base64; and the scene's curves, events and effects as JSON. All text of the run is JSON that the
+page only ever shows as text; `<` is escaped, so that no name can end the element that it stands in. A content security
+policy forbids the page every address.
+"""
+
+from __future__ import annotations
+
+import base64
+import html
+import json
+from importlib.resources import files
+from typing import Any
+
+import numpy as np
+
+from ... import __version__
+from ...errors import HostError
+from ..gltf import extras, glb
+from ..palette import topsides
+from ..scene import Scene
+from ..signals import Signals
+
+__all__ = ["replay_html"]
+
+_POLICY = (
+    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; connect-src blob:; "
+    "base-uri 'none'; form-action 'none'"
+)
+_TEMPLATE = """<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta http-equiv="Content-Security-Policy" content="{policy}">
+<title>{title}</title>
+<link rel="icon" href="data:,">
+<style>{style}</style>
+</head>
+<body>
+<script type="application/json" id="scene-data">{data}</script>
+<script type="text/plain" id="scene-glb">{glb}</script>
+<script>{script}</script>
+</body>
+</html>
+"""
+
+
+def replay_html(scene: Scene) -> str:
+    """The page of a scene; the same text for the same scene. Raises HostError when the bundle has not been built."""
+    return _TEMPLATE.format(
+        policy=_POLICY,
+        title=html.escape(scene.name),
+        style=_bundled("page.css"),
+        data=json.dumps(_data(scene), separators=(",", ":"), allow_nan=False).replace("<", "\\u003c"),
+        glb=base64.b64encode(glb(scene)).decode(),
+        script=_bundled("page.js"),
+    )
+
+
+def _bundled(name: str) -> str:
+    file = files(__package__) / "bundle" / name
+    if not file.is_file():
+        raise HostError(
+            "the page's bundle is missing, which is made when the package is installed: run `python -m pip install .` "
+            "(or `-e .`) in the project's folder"
+        )
+    return file.read_text(encoding="utf-8")
+
+
+def _data(scene: Scene) -> dict[str, Any]:
+    clearance = scene.signals.of("clearance")
+    return {
+        **extras(scene),
+        "name": scene.name,
+        "version": __version__,
+        "ships": [
+            {"name": s.name, "model": s.model, "kind": s.kind, "L_oa": s.L_oa, "colour": topsides(i).colour}
+            for i, s in enumerate(scene.ships)
+        ],
+        "scratches": [
+            {"id": s.id, "ship": s.ship, "other": s.other, "times": s.times.tolist()} for s in scene.scratches
+        ],
+        "least_clearance": min((float(curve.values.min()) for curve in clearance), default=None),
+        "signals": _signals(scene.signals),
+    }
+
+
+def _signals(signals: Signals) -> dict[str, Any]:
+    """Times and curves, one after the other, in single precision, in base64."""
+    numbers = np.concatenate([signals.times, *(curve.values for curve in signals.curves)]).astype("<f4")
+    return {
+        "rows": len(signals.times),
+        "curves": [{"quantity": c.quantity, "ship": c.ship, "unit": c.unit} for c in signals.curves],
+        "values": base64.b64encode(numbers.tobytes()).decode(),
+    }

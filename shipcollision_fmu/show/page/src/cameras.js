@@ -1,0 +1,169 @@
+// Where the camera looks: at everything, along with a ship, at the impact, or wherever it is turned to.
+import * as THREE from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { toWorld } from "./tracks.js";
+
+const UP = new THREE.Vector3(0, 1, 0);
+
+export class Cameras {
+  constructor(canvas, ships, data, changed) {
+    this.ships = ships; // [{node, info, track}], poses current
+    this.data = data;
+    this.camera = new THREE.PerspectiveCamera(38, 1, 1, 40000);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.maxPolarAngle = 0.497 * Math.PI; // stays above the water
+    this.controls.minDistance = 8;
+    this.controls.maxDistance = 15000;
+    this.controls.zoomSpeed = 1.4;
+    this.controls.addEventListener("change", changed);
+    this.mode = "all";
+  }
+
+  /** What can be chosen: [value, label]. */
+  get choices() {
+    const ships = this.ships.map(({ info }, i) => [`ship-${i}`, `Follow ${info.name}`]);
+    const impact = this.data.effects.length ? [["impact", "Impact"]] : [];
+    return [["all", "Overview"], ...impact, ...ships, ["free", "Free"]];
+  }
+
+  /** The point in the world that a mode keeps in view, or null. */
+  anchor(mode, time) {
+    if (mode.startsWith("ship-")) return this.ships[Number(mode.slice(5))].node.getWorldPosition(new THREE.Vector3());
+    if (mode === "impact") {
+      const effect = this.effectAt(time);
+      const { node } = this.ships.find(({ info }) => info.name === effect.ship);
+      return node.localToWorld(new THREE.Vector3(...effect.point));
+    }
+    return null;
+  }
+
+  /** The latest explosion, or the first one if there has been none. */
+  effectAt(time) {
+    const explosions = this.data.effects.filter(({ kind }) => kind === "explosion");
+    return explosions.filter((effect) => effect.time <= time).at(-1) ?? explosions[0];
+  }
+
+  choose(mode, time) {
+    this.mode = mode;
+    if (mode === "free") return;
+    const at = mode === "all" ? this.overview(time) : this.closeUp(mode, time);
+    this.controls.target.copy(at.target);
+    this.camera.position.copy(at.position);
+    this.last = this.anchor(mode, time);
+    this.controls.update();
+  }
+
+  /** Moves with what is followed; the user's turning and zooming stay. */
+  follow(time) {
+    const anchor = this.anchor(this.mode, time);
+    if (anchor && this.last) {
+      const moved = anchor.clone().sub(this.last);
+      this.controls.target.add(moved);
+      this.camera.position.add(moved);
+    }
+    this.last = anchor;
+    this.controls.update();
+    const distance = this.camera.position.distanceTo(this.controls.target);
+    const near = Math.max(0.4, 0.03 * distance);
+    if (Math.abs(this.camera.near - near) > 0.1 * near) {
+      this.camera.near = near;
+      this.camera.updateProjectionMatrix();
+    }
+  }
+
+  resize(width, height) {
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+  }
+
+  /** All ships from the present to the first impact, seen from where they hide each other least. */
+  overview(time) {
+    const points = [];
+    const position = new THREE.Vector3();
+    const quaternion = new THREE.Quaternion();
+    const { start, end, events } = this.data;
+    const impact = events.find((event) => event.time >= time) ?? events.at(-1);
+    const moments = [time - start, (impact ? Math.max(impact.time, time) : Math.min(end, time + 30)) - start];
+    for (const { track, info } of this.ships) {
+      for (const moment of moments) {
+        track.at(moment, position, quaternion);
+        for (const along of [-0.5, 0.5]) {
+          const ahead = new THREE.Vector3(along * info.L_oa, 0, 0).applyQuaternion(quaternion);
+          points.push(toWorld(ahead.add(position)));
+        }
+      }
+    }
+    const middle = new THREE.Box3().setFromPoints(points).getCenter(new THREE.Vector3());
+    const target = new THREE.Vector3(middle.x, 6, middle.z);
+    const centres = this.ships.map(({ track }) => {
+      track.at(moments[1], position, quaternion);
+      return toWorld(position.clone());
+    });
+    const direction = this.bestDirection(centres, quaternion);
+    return { target, position: this.backOff(target, direction, points) };
+  }
+
+  /** The horizontal direction, raised by 17 deg, from which ships lie side by side and the struck side shows. */
+  bestDirection(centres) {
+    const effect = this.data.effects[0];
+    const outwards = new THREE.Vector3();
+    if (effect) {
+      const { track } = this.ships.find(({ info }) => info.name === effect.ship);
+      const quaternion = new THREE.Quaternion();
+      track.at(effect.time - this.data.start, new THREE.Vector3(), quaternion);
+      toWorld(outwards.fromArray(effect.outwards).applyQuaternion(quaternion)).normalize();
+    }
+    let best = null;
+    let highest = -Infinity;
+    for (let i = 0; i < 24; i++) {
+      const angle = (i / 24) * 2 * Math.PI;
+      const from = new THREE.Vector3(Math.cos(angle), 0, Math.sin(angle));
+      const side = new THREE.Vector3(-from.z, 0, from.x);
+      let apart = 0;
+      for (const a of centres) for (const b of centres) apart = Math.max(apart, Math.abs(a.clone().sub(b).normalize().dot(side)));
+      const score = apart + 0.9 * Math.min(from.dot(outwards), 0.75);
+      if (score > highest + 1e-9) {
+        highest = score;
+        best = from;
+      }
+    }
+    return best.addScaledVector(UP, Math.tan((17 * Math.PI) / 180)).normalize();
+  }
+
+  /** The nearest place from the target in a direction from which all points are in the picture. */
+  backOff(target, direction, points) {
+    const forward = direction.clone().negate();
+    const right = new THREE.Vector3().crossVectors(forward, UP).normalize();
+    const above = new THREE.Vector3().crossVectors(right, forward);
+    const tanY = Math.tan((this.camera.fov * Math.PI) / 360) * 0.72;
+    const tanX = Math.tan((this.camera.fov * Math.PI) / 360) * this.camera.aspect * 0.86;
+    let distance = 60;
+    for (const point of points) {
+      const v = point.clone().sub(target);
+      const depth = v.dot(forward);
+      distance = Math.max(distance, Math.abs(v.dot(right)) / tanX - depth, Math.abs(v.dot(above)) / tanY - depth);
+    }
+    return target.clone().addScaledVector(direction, distance);
+  }
+
+  closeUp(mode, time) {
+    const target = this.anchor(mode, time);
+    const out = new THREE.Vector3();
+    let distance;
+    if (mode === "impact") {
+      const effect = this.effectAt(time);
+      const { node, info } = this.ships.find((ship) => ship.info.name === effect.ship);
+      const outwards = new THREE.Vector3(...effect.outwards);
+      outwards.add(new THREE.Vector3(-1.1, 0, 0)); // from the quarter: the other ship comes from abeam
+      out.copy(outwards.transformDirection(node.matrixWorld));
+      distance = Math.max(60, 0.85 * info.L_oa);
+    } else {
+      const { node, info } = this.ships[Number(mode.slice(5))];
+      out.set(-1, 0.75, 0).transformDirection(node.matrixWorld);
+      distance = 1.7 * info.L_oa;
+    }
+    out.y = 0;
+    out.normalize().addScaledVector(UP, 0.32).normalize();
+    return { target, position: target.clone().addScaledVector(out, distance) };
+  }
+}

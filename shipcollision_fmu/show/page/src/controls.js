@@ -1,0 +1,94 @@
+// The bar below the picture: play, the time slider with a mark per collision, speed, camera, switches.
+import { element, icon } from "./dom.js";
+import { clockTime } from "./format.js";
+import { toggleTheme } from "./theme.js";
+
+const PLAY = "M6 3.5v13l11-6.5z";
+const PAUSE = "M5.5 4h3.2v12H5.5zM11.3 4h3.2v12h-3.2z";
+const BACK = "M5 4h2v12H5zM16 4v12L8 10z";
+const FORWARD = "M13 4h2v12h-2zM4 4l8 6-8 6z";
+const WAVES = "M2 7c2-2 4-2 5.3 0s3.4 2 5.3 0 3.4-2 5.4 0v2c-2-2-3.500-2-5.400 0s-4 2-5.300 0-3.300-2-5.300 0zM2 12c2-2 4-2 5.3 0s3.4 2 5.3 0 3.4-2 5.4 0v2c-2-2-3.500-2-5.400 0s-4 2-5.300 0-3.300-2-5.300 0z";
+const MOON = "M12.500 2.500a8 8 0 1 0 5 11.500 6.500 6.500 0 0 1-5-11.500z";
+const PANEL = "M2.500 3.500h15v13h-15zM12 5v10h4V5z";
+const HELP = "M10 2a8 8 0 1 0 0 16 8 8 0 0 0 0-16zm-.9 11.500h1.800v1.800H9.100zM10 4.800c2 0 3.300 1.200 3.300 2.800 0 2.400-2.400 2.500-2.400 4.600H9.100c0-3 2.300-3.100 2.300-4.500 0-.7-.5-1.200-1.400-1.200s-1.500.5-1.500 1.400H6.700c0-1.900 1.400-3.100 3.300-3.100z";
+
+const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 5, 10, 20, 50];
+
+export const PLAYBACK = 45; // a run longer than this many seconds starts at a speed that shows it in about that time
+
+function startSpeed(duration) {
+  return SPEEDS.find((speed) => speed >= 1 && duration / speed <= PLAYBACK) ?? SPEEDS.at(-1);
+}
+
+function button(label, key, path, onclick, more = {}) {
+  const hint = key ? `${label} (${key})` : label;
+  return element("button", { type: "button", class: "icon", title: hint, "aria-label": label, onclick, ...more }, icon(path));
+}
+
+export function makeControls(data, clock, viewer, digits, actions) {
+  const play = button("Play", "space", PLAY, () => clock.toggle(), { id: "play" });
+  const slider = element("input", {
+    type: "range", id: "time", min: clock.start, max: clock.end, step: "any", "aria-label": "Time",
+    oninput: () => clock.seek(Number(slider.value)),
+  });
+  const share = (time) => (time - clock.start) / (clock.end - clock.start);
+  const marks = element(
+    "div",
+    { class: "marks" },
+    ...data.events.map((event) => {
+      const mark = element("i");
+      mark.style.left = `${(100 * share(event.time)).toFixed(3)}%`;
+      return mark;
+    }),
+  );
+  const shown = element("output", { id: "now" });
+  const total = element("span", { class: "total", text: `/ ${clockTime(clock.end, digits)}` });
+  const speed = element("select", { "aria-label": "Speed", title: "Speed", onchange: () => clock.setSpeed(Number(speed.value)) },
+    ...SPEEDS.map((value) => element("option", { value, text: `${value}\u00d7` })));
+  const camera = element("select", { id: "camera", "aria-label": "Camera", title: "Camera (C)", onchange: () => viewer.chooseCamera(camera.value) },
+    ...viewer.cameras.choices.map(([value, text]) => element("option", { value, text })));
+  const plain = button("Plain sea, for weak computers", "S", WAVES, () => setPlain(plain.getAttribute("aria-pressed") !== "true"), { id: "plain", "aria-pressed": "false" });
+
+  function setPlain(isPlain) {
+    plain.setAttribute("aria-pressed", String(isPlain));
+    viewer.setPlain(isPlain);
+  }
+
+  clock.setSpeed(startSpeed(clock.end - clock.start));
+  clock.watch(({ time, playing, speed: current }) => {
+    slider.value = time;
+    slider.style.setProperty("--share", `${100 * share(time)}%`);
+    shown.textContent = clockTime(time, digits);
+    speed.value = String(current);
+    const label = playing ? "Pause" : "Play";
+    if (play.getAttribute("aria-label") !== label) {
+      play.setAttribute("aria-label", label);
+      play.replaceChildren(icon(playing ? PAUSE : PLAY));
+    }
+  });
+
+  const node = element(
+    "div",
+    { class: "bar" },
+    element("div", { class: "transport" },
+      button("Previous collision", "P", BACK, actions.previous), play, button("Next collision", "N", FORWARD, actions.next)),
+    element("div", { class: "timeline" }, slider, marks),
+    element("div", { class: "clock" }, shown, total),
+    element("div", { class: "choices" }, speed, camera, plain,
+      button("Light or dark", "T", MOON, toggleTheme, { id: "theme" }),
+      button("Curves and collisions", "V", PANEL, actions.panel), button("Keys", "?", HELP, actions.help)),
+  );
+  return {
+    node,
+    setPlain,
+    togglePlain: () => plain.click(),
+    nextCamera() {
+      camera.selectedIndex = (camera.selectedIndex + 1) % camera.options.length;
+      viewer.chooseCamera(camera.value);
+    },
+    chooseCamera(mode) {
+      camera.value = mode;
+      viewer.chooseCamera(mode);
+    },
+  };
+}

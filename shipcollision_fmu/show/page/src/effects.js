@@ -1,0 +1,186 @@
+// Explosion, debris, fire and smoke. Every particle's place is a function of the time since the effect began and of its
+// own random numbers, which follow from the effect's seed: the slider scrubs both ways, and every page shows the same.
+// All in the ship's b (forward, starboard, down), so that effects move with the ship.
+import * as THREE from "three";
+
+const COUNT = { explosion: 90, debris: 70, fire: 90, smoke: 130 };
+const LINGER = { explosion: 3, debris: 9, fire: 2, smoke: 16 }; // after the last particle is sent out [s]
+
+/** Random numbers in [0, 1) from a seed (mulberry32). */
+function randomNumbers(seed) {
+  let state = (seed * 0x9e3779b9) >>> 0;
+  return () => {
+    state = (state + 0x6d2b79f5) >>> 0;
+    let x = Math.imul(state ^ (state >>> 15), 1 | state);
+    x = (x + Math.imul(x ^ (x >>> 7), 61 | x)) ^ x;
+    return ((x ^ (x >>> 14)) >>> 0) / 4294967296;
+  };
+}
+
+const COMMON = /* glsl */ `
+  attribute vec4 aSeed;
+  uniform float uAge, uDuration, uSize, uHeight;
+  uniform vec3 uOut;
+  varying vec2 vCorner;
+  varying vec4 vColour;   // colour, opacity
+  varying float vGlow;    // 1: light, 0: paint
+  varying float vSeed;
+  const vec3 UP = vec3(0.0, 0.0, -1.0);
+  vec3 onSphere(vec2 s) {
+    float z = 2.0 * s.x - 1.0, a = 6.2831853 * s.y;
+    return vec3(sqrt(max(0.0, 1.0 - z * z)) * vec2(cos(a), sin(a)), z);
+  }
+  vec3 heat(float a) {
+    vec3 hot = mix(vec3(3.2, 2.5, 1.5), vec3(2.2, 0.75, 0.12), smoothstep(0.0, 0.35, a));
+    return mix(hot, vec3(0.10, 0.08, 0.07), smoothstep(0.25, 0.75, a));
+  }
+`;
+
+// Each sets: place (in b, from the effect's point), radius [m], vColour, vGlow; radius 0 hides the particle.
+const MOTION = {
+  explosion: /* glsl */ `
+    float life = 1.0 + 1.6 * aSeed.y;
+    float a = (uAge - 0.18 * aSeed.x) / life;
+    vec3 direction = normalize(onSphere(aSeed.zw) + 0.8 * uOut + 0.5 * UP);
+    float push = 1.0 - exp(-3.5 * a);
+    place = direction * uSize * (0.3 + 2.6 * aSeed.x) * push + UP * uSize * 1.2 * a * a;
+    radius = uSize * (0.45 + 1.25 * sqrt(max(a, 0.0))) * (0.6 + 0.7 * aSeed.z);
+    vColour = vec4(heat(a), 0.85 * (1.0 - a) * smoothstep(0.0, 0.04, a));
+    vGlow = 1.0 - smoothstep(0.25, 0.6, a);
+    if (a <= 0.0 || a >= 1.0) radius = 0.0;`,
+  debris: /* glsl */ `
+    float age = uAge - 0.1 * aSeed.x;
+    vec3 direction = normalize(0.9 * onSphere(aSeed.zw) + 1.1 * uOut + 0.9 * UP);
+    vec3 velocity = direction * uSize * (0.8 + 3.2 * aSeed.y * aSeed.y) * (1.0 / (1.0 + 0.08 * age));
+    place = velocity * age - UP * 4.905 * age * age;
+    radius = uSize * (0.03 + 0.07 * aSeed.x);
+    float cool = smoothstep(0.0, 1.6, age);
+    vColour = vec4(mix(vec3(2.0, 0.7, 0.15), vec3(0.06, 0.055, 0.05), cool), 1.0);
+    vGlow = 0.7 * (1.0 - cool);
+    if (age <= 0.0 || dot(place, UP) < -uHeight) radius = 0.0;`,
+  fire: /* glsl */ `
+    float life = 0.8 + 0.9 * aSeed.y;
+    float turn = floor((uAge - aSeed.x * life) / life);
+    float birth = (turn + aSeed.x) * life;
+    float a = (uAge - birth) / life;
+    float wild = fract(aSeed.z + turn * 0.618);
+    vec3 around = onSphere(vec2(wild, aSeed.w));
+    place = 0.55 * uSize * around * (1.0 - 0.5 * a) + 0.25 * uSize * uOut + UP * uSize * (0.2 + 2.3 * a)
+          + 0.25 * uSize * a * vec3(sin(6.0 * a + 9.0 * wild), cos(5.0 * a + 7.0 * aSeed.w), 0.0);
+    radius = uSize * (0.75 - 0.55 * a) * (0.6 + 0.6 * aSeed.w);
+    vColour = vec4(heat(0.08 + 0.5 * a), 0.55 * (1.0 - a) * smoothstep(0.0, 0.15, a));
+    vGlow = 0.95;
+    float fade = 1.0 - smoothstep(0.6, 1.0, birth / uDuration);
+    radius *= 0.35 + 0.65 * fade;
+    if (birth < 0.0 || birth > uDuration) radius = 0.0;`,
+  smoke: /* glsl */ `
+    float life = 9.0 + 6.0 * aSeed.y;
+    float turn = floor((uAge - aSeed.x * life) / life);
+    float birth = (turn + aSeed.x) * life;
+    float a = (uAge - birth) / life;
+    float wild = fract(aSeed.z + turn * 0.618);
+    vec3 around = onSphere(vec2(wild, aSeed.w));
+    place = 0.5 * uSize * around + 0.3 * uSize * uOut
+          + uSize * (UP * 9.0 * pow(a, 0.75) + vec3(-7.0, 2.5, 0.0) * pow(a, 1.35))
+          + uSize * 1.4 * a * vec3(sin(5.0 * a + 12.0 * wild), cos(4.0 * a + 8.0 * aSeed.w), around.z);
+    radius = uSize * (0.7 + 3.0 * a) * (0.65 + 0.6 * aSeed.w);
+    float grey = mix(0.025, 0.20, smoothstep(0.0, 0.8, a)) * (0.7 + 0.6 * wild);
+    vColour = vec4(vec3(grey), 0.42 * pow(1.0 - a, 1.2) * smoothstep(0.0, 0.08, a));
+    vGlow = 0.0;
+    if (birth < 0.0 || birth > uDuration) radius = 0.0;`,
+};
+
+const vertexShader = (motion) => /* glsl */ `
+  ${COMMON}
+  void main() {
+    vec3 place = vec3(0.0);
+    float radius = 0.0;
+    vCorner = position.xy;
+    vSeed = aSeed.x + 3.0 * aSeed.y;
+    ${motion}
+    vec4 view = modelViewMatrix * vec4(place, 1.0);
+    float spin = 6.2831853 * aSeed.w + (aSeed.z - 0.5) * 0.4 * uAge;
+    mat2 twist = mat2(cos(spin), sin(spin), -sin(spin), cos(spin));
+    view.xy += twist * position.xy * radius;
+    gl_Position = radius > 0.0 ? projectionMatrix * view : vec4(2.0, 2.0, 2.0, 1.0);
+  }`;
+
+const fragmentShader = (isSoft) => /* glsl */ `
+  varying vec2 vCorner;
+  varying vec4 vColour;
+  varying float vGlow;
+  varying float vSeed;
+  float hash(vec2 p) { return fract(sin(dot(p, vec2(41.3, 289.1))) * 17431.7); }
+  float noise(vec2 p) {
+    vec2 i = floor(p), f = fract(p);
+    f = f * f * (3.0 - 2.0 * f);
+    return mix(mix(hash(i), hash(i + vec2(1, 0)), f.x), mix(hash(i + vec2(0, 1)), hash(i + vec2(1, 1)), f.x), f.y);
+  }
+  void main() {
+    float r = length(vCorner);
+    ${
+      isSoft
+        ? "float n = 0.65 * noise(2.2 * vCorner + 31.0 * vSeed) + 0.35 * noise(5.0 * vCorner + 17.0 * vSeed);" +
+          "float shape = smoothstep(1.0, 0.15, r + 0.55 * (n - 0.5)) * smoothstep(1.0, 0.8, r);"
+        : "float shape = step(abs(vCorner.x) * 1.4 + abs(vCorner.y), 0.9);"
+    }
+    float opacity = vColour.a * shape;
+    if (opacity < 0.004) discard;
+    gl_FragColor = vec4(vColour.rgb, 1.0);
+    #include <tonemapping_fragment>
+    #include <colorspace_fragment>
+    gl_FragColor = vec4(gl_FragColor.rgb * opacity, opacity * (1.0 - vGlow)); // premultiplied
+  }`;
+
+const quad = new Float32Array([-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0]);
+
+function makeEffect(effect) {
+  const count = Math.max(8, Math.round(COUNT[effect.kind] * Math.sqrt(effect.intensity)));
+  const random = randomNumbers(effect.seed + 1);
+  const geometry = new THREE.InstancedBufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(quad, 3));
+  geometry.setIndex([0, 1, 2, 0, 2, 3]);
+  const seeds = Float32Array.from({ length: 4 * count }, random);
+  geometry.setAttribute("aSeed", new THREE.InstancedBufferAttribute(seeds, 4));
+  geometry.instanceCount = count;
+  const material = new THREE.ShaderMaterial({
+    uniforms: {
+      uAge: { value: 0 },
+      uDuration: { value: effect.duration },
+      uSize: { value: effect.size },
+      uHeight: { value: -effect.point[2] },
+      uOut: { value: new THREE.Vector3(...effect.outwards) },
+    },
+    vertexShader: vertexShader(MOTION[effect.kind]),
+    fragmentShader: fragmentShader(effect.kind !== "debris"),
+    depthWrite: false,
+    transparent: true,
+    blending: THREE.CustomBlending,
+    blendSrc: THREE.OneFactor,
+    blendDst: THREE.OneMinusSrcAlphaFactor,
+  });
+  const mesh = new THREE.Mesh(geometry, material);
+  mesh.frustumCulled = false;
+  mesh.position.fromArray(effect.point);
+  mesh.renderOrder = { smoke: 1, fire: 2, debris: 3, explosion: 4 }[effect.kind];
+  return mesh;
+}
+
+/** Adds all effects to the ships' nodes; returns what shows them at a time, and how many are at work. */
+export function addEffects(effects, nodeOf) {
+  const made = effects.map((effect) => {
+    const mesh = makeEffect(effect);
+    nodeOf(effect.ship).add(mesh);
+    return { effect, mesh };
+  });
+  return (time) => {
+    let active = 0;
+    for (const { effect, mesh } of made) {
+      const age = time - effect.time;
+      mesh.visible = age > 0 && age < effect.duration + LINGER[effect.kind];
+      mesh.material.uniforms.uAge.value = age;
+      active += mesh.visible;
+    }
+    return active;
+  };
+}

@@ -1,0 +1,117 @@
+// The replay page: reads what is embedded, builds the page, and offers `window.replay` to tests and to pages around it.
+import "./style.css";
+import { Clock } from "./clock.js";
+import { makeControls } from "./controls.js";
+import { readData, readGlb } from "./data.js";
+import { element } from "./dom.js";
+import { makeEvents } from "./events.js";
+import { clockTime } from "./format.js";
+import { listenToKeys, makeHelp } from "./keys.js";
+import { makePlots } from "./plots.js";
+import { lineColour, onTheme, startTheme, toggleTheme } from "./theme.js";
+import { makeViewer } from "./viewer.js";
+
+const SLACK = 1e-6;
+
+/** What the address asks for: #t=12.5&camera=impact&theme=dark&plain&bare&play */
+function asked() {
+  return new URLSearchParams(location.hash.slice(1));
+}
+
+function makeTitle(data) {
+  const ships = data.ships.map((ship) => {
+    const dot = element("i");
+    const paint = () => (dot.style.background = lineColour(ship.colour));
+    onTheme(paint);
+    paint();
+    const size = `${ship.model}, ${ship.kind}, ${Math.round(ship.L_oa)} m`;
+    return element("li", {}, dot, element("b", { text: ship.name }), element("span", { text: size }));
+  });
+  return element("header", { class: "title" }, element("h1", { text: data.name }),
+    element("p", { text: data.description }), element("ul", {}, ...ships));
+}
+
+async function start() {
+  const data = readData();
+  const hash = asked();
+  startTheme(hash.get("theme") ?? undefined);
+  const digits = data.end - data.start < 600 ? 2 : 1;
+  const clock = new Clock(data.start, data.end);
+  const canvas = element("canvas", { id: "picture", tabindex: "0", "aria-label": "The ships, at the time of the slider" });
+  const stage = element("main", { class: "stage" }, canvas, makeTitle(data));
+  document.body.append(stage);
+  document.body.classList.toggle("bare", hash.has("bare"));
+
+  const viewer = await makeViewer(canvas, data, readGlb());
+  const go = (time) => (clock.pause(), clock.seek(time));
+  const help = makeHelp();
+  const actions = {
+    next: () => go((data.events.find((event) => event.time > clock.time + SLACK) ?? { time: clock.end }).time),
+    previous: () => go((data.events.findLast((event) => event.time < clock.time - SLACK) ?? { time: clock.start }).time),
+    panel: () => document.body.classList.toggle("wide"),
+    help: () => (help.open ? help.close() : help.showModal()),
+    theme: toggleTheme,
+    camera: () => controls.nextCamera(),
+    plain: () => controls.togglePlain(),
+  };
+  const controls = makeControls(data, clock, viewer, digits, actions);
+  const jump = (event) => (go(event.time), controls.chooseCamera("impact"));
+  const panel = element("aside", { class: "panel" },
+    element("section", {}, element("h2", { text: "Collisions" }), element("div", { class: "events" }, makeEvents(data, clock, digits, jump))),
+    element("section", {}, element("h2", { text: "Curves" }), makePlots(data, clock)),
+    element("footer", { text: `shipcollision-fmu ${data.version}` }));
+  stage.append(controls.node);
+  document.body.append(panel, help);
+  listenToKeys(clock, actions);
+
+  const alive = element("div", { class: "sr-only", role: "status" });
+  document.body.append(alive);
+  clock.watch(({ time, playing }) => {
+    viewer.show(time);
+    if (!playing) alive.textContent = clockTime(time, digits);
+  });
+
+  function obey() {
+    const wishes = asked();
+    if (wishes.has("plain")) controls.setPlain(true);
+    if (wishes.has("t")) clock.seek(Number(wishes.get("t")));
+    const camera = wishes.get("camera");
+    if (viewer.cameras.choices.some(([value]) => value === camera)) controls.chooseCamera(camera);
+    if (wishes.has("play")) clock.play();
+  }
+  obey();
+  window.addEventListener("hashchange", obey);
+
+  viewer.draw();
+  window.replay = {
+    data,
+    get time() {
+      return clock.time;
+    },
+    seek: (time) => clock.seek(time),
+    play: () => clock.play(),
+    pause: () => clock.pause(),
+    camera: (mode) => controls.chooseCamera(mode),
+    plain: (isPlain) => controls.setPlain(isPlain),
+    /** Draws now and says what is in the picture. */
+    drawn() {
+      viewer.draw();
+      const points = data.scratches.flatMap((scratch) => scratch.times).filter((time) => time <= clock.time + SLACK);
+      return {
+        time: clock.time, poses: viewer.poses(), scratchPoints: points.length,
+        scratchTriangles: viewer.shown.triangles, effects: viewer.shown.effects,
+      };
+    },
+    project: (point) => viewer.project(point),
+  };
+  document.body.dataset.ready = "true";
+}
+
+start().catch((error) => {
+  const message = document.createElement("p");
+  message.className = "failure";
+  message.textContent = `The picture cannot be shown: ${error.message}. It needs WebGL 2.`;
+  document.body.append(message);
+  document.body.dataset.ready = "failed";
+  throw error;
+});

@@ -1,0 +1,140 @@
+// The picture: the .glb as it is, with sea, sky, wakes, effects and growing scratches around it.
+import * as THREE from "three";
+import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
+import { Cameras } from "./cameras.js";
+import { addEffects } from "./effects.js";
+import { growScratches } from "./scratches.js";
+import { makeSea } from "./sea.js";
+import { makeSky, SUN } from "./sky.js";
+import { toWorld, Track } from "./tracks.js";
+import { makeWake } from "./wake.js";
+
+const SHADOW_REACH = 420; // around what the camera looks at [m]
+
+/** A viewer of the scene on a canvas; `show(time)` asks for a picture. */
+export async function makeViewer(canvas, data, glb) {
+  const renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: false, preserveDrawingBuffer: true });
+  renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+  renderer.toneMapping = THREE.ACESFilmicToneMapping;
+  renderer.toneMappingExposure = 1.05;
+  renderer.shadowMap.enabled = true;
+  renderer.shadowMap.type = THREE.PCFShadowMap;
+
+  const gltf = await new GLTFLoader().parseAsync(glb, "");
+  const world = new THREE.Scene();
+  world.add(gltf.scene);
+  const sky = makeSky();
+  const sea = makeSea();
+  world.fog = new THREE.Fog(sea.haze, 4000, 22000);
+  world.add(sky.dome, sky.sun, sky.sun.target, sky.ambient, sea.mesh);
+  const { shadow } = sky.sun;
+  shadow.mapSize.set(2048, 2048);
+  shadow.bias = -0.0005;
+  shadow.normalBias = 0.4;
+  Object.assign(shadow.camera, { left: -SHADOW_REACH, right: SHADOW_REACH, top: SHADOW_REACH, bottom: -SHADOW_REACH, near: 10, far: 3000 });
+  sky.sun.castShadow = true;
+
+  const clip = gltf.animations[0];
+  const mixer = new THREE.AnimationMixer(gltf.scene);
+  const action = mixer.clipAction(clip);
+  action.play();
+  action.paused = true; // its time is set, not run
+
+  const ships = [];
+  gltf.scene.traverse((node) => {
+    if (node.userData.ship !== undefined) ships.push({ node, info: { ...node.userData, name: node.userData.ship }, track: new Track(clip, node) });
+    if (node.isMesh && node.userData.scratch === undefined) {
+      node.castShadow = true;
+      node.receiveShadow = true;
+    }
+  });
+  ships.sort((a, b) => data.ships.findIndex(({ name }) => name === a.info.name) - data.ships.findIndex(({ name }) => name === b.info.name));
+  const nodeOf = (name) => ships.find(({ info }) => info.name === name).node;
+  const wakes = ships.map(({ track, info }) => makeWake(track, info));
+  world.add(...wakes.map(({ mesh }) => mesh));
+  const showScratches = growScratches(gltf.scene);
+  const showEffects = addEffects(data.effects, nodeOf);
+
+  let time = data.start;
+  let wanted = false;
+  const shown = { triangles: 0, effects: 0, frames: 0 };
+  const cameras = new Cameras(canvas, ships, data, () => want());
+
+  function pose() {
+    action.time = Math.min(Math.max(time - data.start, 0), clip.duration);
+    mixer.update(0);
+    gltf.scene.updateMatrixWorld(true);
+    shown.triangles = showScratches(time - data.start);
+    shown.effects = showEffects(time);
+  }
+
+  function draw() {
+    wanted = false;
+    pose();
+    cameras.follow(time);
+    const { camera, controls } = cameras;
+    for (const wake of wakes) if (wake.mesh.visible) wake.update(time - data.start);
+    sea.update(time, camera);
+    sky.sun.target.position.copy(controls.target);
+    sky.sun.position.copy(controls.target).addScaledVector(SUN, 1200);
+    renderer.render(world, camera);
+    shown.frames++;
+  }
+
+  function want() {
+    if (wanted) return;
+    wanted = true;
+    requestAnimationFrame(draw);
+  }
+
+  function resize() {
+    const { clientWidth, clientHeight } = canvas;
+    if (!clientWidth || !clientHeight) return;
+    renderer.setSize(clientWidth, clientHeight, false);
+    cameras.resize(clientWidth, clientHeight);
+    want();
+  }
+
+  pose();
+  resize();
+  cameras.choose("all", time);
+  new ResizeObserver(resize).observe(canvas);
+
+  return {
+    canvas,
+    cameras,
+    ships,
+    shown,
+    draw,
+    show(newTime) {
+      time = newTime;
+      want();
+    },
+    chooseCamera(mode) {
+      pose();
+      cameras.choose(mode, time);
+      want();
+    },
+    /** Plain: no waves, no wake, no shadows, and no more pixels than the screen's own. For weak computers. */
+    setPlain(isPlain) {
+      sea.setPlain(isPlain);
+      for (const wake of wakes) wake.mesh.visible = !isPlain;
+      sky.sun.castShadow = !isPlain;
+      renderer.setPixelRatio(isPlain ? 1 : Math.min(window.devicePixelRatio, 2));
+      resize();
+      want();
+    },
+    /** Where a point in n [m] is in the picture: [x, y] in CSS pixels from the canvas's top left. */
+    project([north, east, down]) {
+      const [n0, e0, d0] = data.origin;
+      const point = toWorld(new THREE.Vector3(north - n0, east - e0, down - d0)).project(cameras.camera);
+      return [((point.x + 1) / 2) * canvas.clientWidth, ((1 - point.y) / 2) * canvas.clientHeight];
+    },
+    /** Position in n [m] and quaternion of R_nb of each ship as it is drawn. */
+    poses() {
+      return Object.fromEntries(
+        ships.map(({ node, info }) => [info.name, { position: node.position.toArray().map((x, i) => x + data.origin[i]), quaternion: node.quaternion.toArray() }]),
+      );
+    },
+  };
+}
