@@ -99,7 +99,7 @@ export class Cameras {
       track.at(moments[1], position, quaternion);
       return toWorld(position.clone());
     });
-    const direction = this.bestDirection(centres, quaternion);
+    const direction = this.bestDirection(centres);
     return { target, position: this.backOff(target, direction, points) };
   }
 
@@ -146,6 +146,16 @@ export class Cameras {
     return target.clone().addScaledVector(direction, distance);
   }
 
+  /** From outside the struck side, across the ship that strikes rather than along her. */
+  clearOf(effect, node, point) {
+    const outwards = new THREE.Vector3(...effect.outwards).transformDirection(node.matrixWorld);
+    const scratch = this.data.scratches.find(({ id, ship }) => id === effect.scratch && ship === effect.ship);
+    const other = this.ships.find(({ info }) => info.name === scratch?.other);
+    const towards = other ? other.node.getWorldPosition(new THREE.Vector3()).sub(point).setY(0).normalize() : null;
+    const turned = [-1.0, 1.0].map((angle) => outwards.clone().applyAxisAngle(UP, angle));
+    return towards && turned[1].dot(towards) < turned[0].dot(towards) ? turned[1] : turned[0];
+  }
+
   closeUp(mode, time) {
     const target = this.anchor(mode, time);
     const out = new THREE.Vector3();
@@ -153,9 +163,7 @@ export class Cameras {
     if (mode === "impact") {
       const effect = this.effectAt(time);
       const { node, info } = this.ships.find((ship) => ship.info.name === effect.ship);
-      const outwards = new THREE.Vector3(...effect.outwards);
-      outwards.add(new THREE.Vector3(-1.1, 0, 0)); // from the quarter: the other ship comes from abeam
-      out.copy(outwards.transformDirection(node.matrixWorld));
+      out.copy(this.clearOf(effect, node, target));
       distance = Math.max(60, 0.85 * info.L_oa);
     } else {
       const { node, info } = this.ships[Number(mode.slice(5))];

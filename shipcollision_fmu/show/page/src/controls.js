@@ -51,6 +51,7 @@ export function makeControls(data, clock, viewer, digits, actions) {
 
   function setPlain(isPlain) {
     plain.setAttribute("aria-pressed", String(isPlain));
+    document.body.classList.toggle("plain", isPlain);
     viewer.setPlain(isPlain);
   }
 

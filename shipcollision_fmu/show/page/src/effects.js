@@ -3,7 +3,7 @@
 // All in the ship's b (forward, starboard, down), so that effects move with the ship.
 import * as THREE from "three";
 
-const COUNT = { explosion: 90, debris: 70, fire: 90, smoke: 130 };
+const COUNT = { explosion: 56, debris: 70, fire: 60, smoke: 100 };
 const LINGER = { explosion: 3, debris: 9, fire: 2, smoke: 16 }; // after the last particle is sent out [s]
 
 /** Random numbers in [0, 1) from a seed (mulberry32). */
@@ -31,7 +31,7 @@ const COMMON = /* glsl */ `
     return vec3(sqrt(max(0.0, 1.0 - z * z)) * vec2(cos(a), sin(a)), z);
   }
   vec3 heat(float a) {
-    vec3 hot = mix(vec3(3.2, 2.5, 1.5), vec3(2.2, 0.75, 0.12), smoothstep(0.0, 0.35, a));
+    vec3 hot = mix(vec3(1.5, 1.0, 0.42), vec3(1.0, 0.32, 0.05), smoothstep(0.0, 0.35, a));
     return mix(hot, vec3(0.10, 0.08, 0.07), smoothstep(0.25, 0.75, a));
   }
 `;
@@ -45,8 +45,8 @@ const MOTION = {
     float push = 1.0 - exp(-3.5 * a);
     place = direction * uSize * (0.3 + 2.6 * aSeed.x) * push + UP * uSize * 1.2 * a * a;
     radius = uSize * (0.45 + 1.25 * sqrt(max(a, 0.0))) * (0.6 + 0.7 * aSeed.z);
-    vColour = vec4(heat(a), 0.85 * (1.0 - a) * smoothstep(0.0, 0.04, a));
-    vGlow = 1.0 - smoothstep(0.25, 0.6, a);
+    vColour = vec4(heat(a), 0.62 * (1.0 - a) * smoothstep(0.0, 0.04, a));
+    vGlow = 0.8 * (1.0 - smoothstep(0.15, 0.5, a));
     if (a <= 0.0 || a >= 1.0) radius = 0.0;`,
   debris: /* glsl */ `
     float age = uAge - 0.1 * aSeed.x;
@@ -68,8 +68,8 @@ const MOTION = {
     place = 0.55 * uSize * around * (1.0 - 0.5 * a) + 0.25 * uSize * uOut + UP * uSize * (0.2 + 2.3 * a)
           + 0.25 * uSize * a * vec3(sin(6.0 * a + 9.0 * wild), cos(5.0 * a + 7.0 * aSeed.w), 0.0);
     radius = uSize * (0.75 - 0.55 * a) * (0.6 + 0.6 * aSeed.w);
-    vColour = vec4(heat(0.08 + 0.5 * a), 0.55 * (1.0 - a) * smoothstep(0.0, 0.15, a));
-    vGlow = 0.95;
+    vColour = vec4(heat(0.1 + 0.5 * a), 0.42 * (1.0 - a) * smoothstep(0.0, 0.15, a));
+    vGlow = 0.75;
     float fade = 1.0 - smoothstep(0.6, 1.0, birth / uDuration);
     radius *= 0.35 + 0.65 * fade;
     if (birth < 0.0 || birth > uDuration) radius = 0.0;`,
@@ -120,7 +120,8 @@ const fragmentShader = (isSoft) => /* glsl */ `
     float r = length(vCorner);
     ${
       isSoft
-        ? "float n = 0.65 * noise(2.2 * vCorner + 31.0 * vSeed) + 0.35 * noise(5.0 * vCorner + 17.0 * vSeed);" +
+        ? "if (r > 1.0) discard;" +
+          "float n = noise(2.6 * vCorner + 31.0 * vSeed);" +
           "float shape = smoothstep(1.0, 0.15, r + 0.55 * (n - 0.5)) * smoothstep(1.0, 0.8, r);"
         : "float shape = step(abs(vCorner.x) * 1.4 + abs(vCorner.y), 0.9);"
     }

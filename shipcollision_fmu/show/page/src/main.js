@@ -9,11 +9,11 @@ import { clockTime } from "./format.js";
 import { listenToKeys, makeHelp } from "./keys.js";
 import { makePlots } from "./plots.js";
 import { lineColour, onTheme, startTheme, toggleTheme } from "./theme.js";
-import { makeViewer } from "./viewer.js";
+import { drawsInSoftware, makeViewer } from "./viewer.js";
 
 const SLACK = 1e-6;
 
-/** What the address asks for: #t=12.5&camera=impact&theme=dark&plain&bare&play */
+/** What the address asks for: #t=12.5&camera=impact&theme=dark&plain=yes&bare&play; plain=no insists on the full picture */
 function asked() {
   return new URLSearchParams(location.hash.slice(1));
 }
@@ -42,7 +42,8 @@ async function start() {
   document.body.append(stage);
   document.body.classList.toggle("bare", hash.has("bare"));
 
-  const viewer = await makeViewer(canvas, data, readGlb());
+  const plain = hash.has("plain") ? hash.get("plain") !== "no" : drawsInSoftware();
+  const viewer = await makeViewer(canvas, data, readGlb(), !plain);
   const go = (time) => (clock.pause(), clock.seek(time));
   const help = makeHelp();
   const actions = {
@@ -73,12 +74,13 @@ async function start() {
 
   function obey() {
     const wishes = asked();
-    if (wishes.has("plain")) controls.setPlain(true);
+    if (wishes.has("plain")) controls.setPlain(wishes.get("plain") !== "no");
     if (wishes.has("t")) clock.seek(Number(wishes.get("t")));
     const camera = wishes.get("camera");
     if (viewer.cameras.choices.some(([value]) => value === camera)) controls.chooseCamera(camera);
     if (wishes.has("play")) clock.play();
   }
+  if (plain) controls.setPlain(true);
   obey();
   window.addEventListener("hashchange", obey);
 

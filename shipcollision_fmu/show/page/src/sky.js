@@ -1,19 +1,21 @@
 // Sky, sun and haze. The sky is a function of direction alone, written once and shared with the sea, which mirrors it.
 import * as THREE from "three";
 
+export const HAZE = new THREE.Color(0.60, 0.71, 0.81);
+
+/** Where the sun stands, as seen from anywhere; set once, when it is known from where the ships are looked at first. */
 export const SUN = new THREE.Vector3(-0.62, 0.42, -0.5).normalize();
-export const HAZE = new THREE.Color(0.66, 0.75, 0.83);
+export const SUN_UNIFORM = { value: SUN };
 
 export const SKY_GLSL = /* glsl */ `
-  const vec3 SUN = vec3(${SUN.toArray().map((x) => x.toFixed(6)).join(", ")});
+  uniform vec3 uSun;
   const vec3 HAZE = vec3(${HAZE.toArray().map((x) => x.toFixed(6)).join(", ")});
   vec3 skyColour(vec3 direction) {
     float height = max(direction.y, 0.0);
-    float towards = max(dot(direction, SUN), 0.0);
-    vec3 zenith = vec3(0.09, 0.27, 0.58);
-    vec3 colour = mix(HAZE, zenith, 1.0 - exp(-3.2 * height));
-    colour = mix(colour, vec3(1.0, 0.86, 0.68), 0.45 * pow(towards, 6.0) * exp(-2.0 * height));
-    return colour;
+    float towards = max(dot(direction, uSun), 0.0);
+    vec3 zenith = vec3(0.07, 0.22, 0.52);
+    vec3 colour = mix(HAZE, zenith, 1.0 - exp(-4.0 * height));
+    return mix(colour, vec3(1.0, 0.84, 0.64), 0.4 * pow(towards, 6.0) * exp(-2.0 * height));
   }
 `;
 
@@ -23,6 +25,7 @@ export function makeSky() {
     new THREE.SphereGeometry(1, 32, 24),
     new THREE.ShaderMaterial({
       side: THREE.BackSide,
+      uniforms: { uSun: SUN_UNIFORM },
       depthWrite: false,
       depthTest: false,
       vertexShader: /* glsl */ `
@@ -50,7 +53,7 @@ export function makeSky() {
             cloud = smoothstep(0.52, 0.85, cloud) * smoothstep(0.02, 0.22, d.y);
             colour = mix(colour, vec3(0.95, 0.96, 0.97), 0.55 * cloud);
           }
-          float towards = max(dot(d, SUN), 0.0);
+          float towards = max(dot(d, uSun), 0.0);
           colour += vec3(1.0, 0.93, 0.8) * (smoothstep(0.9994, 0.9998, towards) * 6.0 + 0.35 * pow(towards, 400.0));
           gl_FragColor = vec4(colour, 1.0);
           #include <tonemapping_fragment>
@@ -61,7 +64,7 @@ export function makeSky() {
   dome.frustumCulled = false;
   dome.renderOrder = -10;
 
-  const sun = new THREE.DirectionalLight(0xfff1dc, 3.1);
-  const ambient = new THREE.HemisphereLight(0xbfd6ee, 0x3d5663, 1.35);
+  const sun = new THREE.DirectionalLight(0xfff0da, 3.0);
+  const ambient = new THREE.HemisphereLight(0xcfe0f2, 0x50707f, 1.9);
   return { dome, sun, ambient };
 }

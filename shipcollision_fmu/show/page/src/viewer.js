@@ -11,14 +11,31 @@ import { makeWake } from "./wake.js";
 
 const SHADOW_REACH = 420; // around what the camera looks at [m]
 
-/** A viewer of the scene on a canvas; `show(time)` asks for a picture. */
-export async function makeViewer(canvas, data, glb) {
-  const renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: false, preserveDrawingBuffer: true });
+/** Puts the sun behind the shoulder of whoever looks first, so that the sides that are seen are lit. */
+function setSun({ camera, controls }) {
+  const from = camera.position.clone().sub(controls.target);
+  const azimuth = Math.atan2(from.z, from.x) + 0.9;
+  SUN.set(Math.cos(azimuth), 0.62, Math.sin(azimuth)).normalize();
+}
+
+/** Whether the processor draws, for want of a graphics card: then pictures are made with less care. */
+export function drawsInSoftware() {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  const info = gl?.getExtension("WEBGL_debug_renderer_info");
+  const name = info ? gl.getParameter(info.UNMASKED_RENDERER_WEBGL) : "";
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+}
+
+/** A viewer of the scene on a canvas, with smooth edges or without; `show(time)` asks for a picture. */
+export async function makeViewer(canvas, data, glb, isSmooth) {
+  const renderer = new THREE.WebGLRenderer({ canvas, antialias: isSmooth, alpha: false, preserveDrawingBuffer: true });
   renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
-  renderer.toneMapping = THREE.ACESFilmicToneMapping;
-  renderer.toneMappingExposure = 1.05;
+  renderer.toneMapping = THREE.NeutralToneMapping;
+  renderer.toneMappingExposure = 1.0;
   renderer.shadowMap.enabled = true;
   renderer.shadowMap.type = THREE.PCFShadowMap;
+  renderer.shadowMap.autoUpdate = false;
 
   const gltf = await new GLTFLoader().parseAsync(glb, "");
   const world = new THREE.Scene();
@@ -57,6 +74,7 @@ export async function makeViewer(canvas, data, glb) {
 
   let time = data.start;
   let wanted = false;
+  let shadowOf = "";
   const shown = { triangles: 0, effects: 0, frames: 0 };
   const cameras = new Cameras(canvas, ships, data, () => want());
 
@@ -77,6 +95,9 @@ export async function makeViewer(canvas, data, glb) {
     sea.update(time, camera);
     sky.sun.target.position.copy(controls.target);
     sky.sun.position.copy(controls.target).addScaledVector(SUN, 1200);
+    const seen = `${time} ${controls.target.toArray()}`;
+    renderer.shadowMap.needsUpdate = seen !== shadowOf;
+    shadowOf = seen;
     renderer.render(world, camera);
     shown.frames++;
   }
@@ -98,6 +119,7 @@ export async function makeViewer(canvas, data, glb) {
   pose();
   resize();
   cameras.choose("all", time);
+  setSun(cameras);
   new ResizeObserver(resize).observe(canvas);
 
   return {
@@ -120,6 +142,7 @@ export async function makeViewer(canvas, data, glb) {
       sea.setPlain(isPlain);
       for (const wake of wakes) wake.mesh.visible = !isPlain;
       sky.sun.castShadow = !isPlain;
+      shadowOf = "";
       renderer.setPixelRatio(isPlain ? 1 : Math.min(window.devicePixelRatio, 2));
       resize();
       want();
