@@ -96,7 +96,16 @@ def main(ctx: click.Context) -> None:
 @click.option("--step", type=float, metavar="S", help="Communication step in seconds, instead of the scenario's.")
 @click.option("--in-process", is_flag=True, help="Drive the models without FMI; gives the same bits.")
 @click.option("--fmi", type=_FMI, default="2", show_default=True, help="Version of the FMUs; gives the same bits.")
-def run(scenario: str, out: Path | None, algorithm: str | None, step: float | None, in_process: bool, fmi: str) -> None:
+@click.option("--page/--no-page", default=True, help="Write replay.html, which shows the run.  [default: --page]")
+def run(
+    scenario: str,
+    out: Path | None,
+    algorithm: str | None,
+    step: float | None,
+    in_process: bool,
+    fmi: str,
+    page: bool,
+) -> None:
     """Co-simulate SCENARIO and store what happened.
 
     SCENARIO is a name that `shipcollision scenarios` lists, or the path of a TOML file. Without one it is guan2014, the
@@ -122,6 +131,8 @@ def run(scenario: str, out: Path | None, algorithm: str | None, step: float | No
     for line in lines(finished):
         click.echo(line)
     click.echo(f"stored in {folder}")
+    if page:
+        _write_page(folder)
 
 
 @main.command()
@@ -323,6 +334,16 @@ def import_(
         click.echo(out.parent / name)
     for note in made.notes:
         click.echo(f"note: {note}", err=True)
+
+
+def _write_page(folder: Path) -> None:
+    """Write the page of a run and say where it is. The run is stored by now: if there is no page, that is said."""
+    from .show.page import write_page
+
+    try:
+        click.echo(f"open {write_page(folder)} in a browser to see it")
+    except ShipCollisionError as error:
+        click.echo(f"no page: {error}", err=True)
 
 
 def _fail(message: str, status: int) -> NoReturn:

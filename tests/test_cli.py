@@ -13,6 +13,7 @@ from click.testing import CliRunner, Result
 from shipcollision_fmu import __version__
 from shipcollision_fmu.cli import main
 from shipcollision_fmu.cosim import fmu_files
+from shipcollision_fmu.errors import HostError
 
 BARGE = """
 [ship]
@@ -90,7 +91,32 @@ def test_run_stores_and_shows_what_happened(folder: Path, how: list[str]) -> Non
     assert "[m/s]" in result.stdout
     assert {path.name for path in (folder / "runs" / "encounter").iterdir()} == {
         "states.csv", "contacts.csv", "signals.csv", "events.json", "bodies.json", "summary.json", "timing.json",
+        "replay.html",
     }  # fmt: skip
+    assert "open runs/encounter/replay.html in a browser" in result.stdout.splitlines()[-1]
+
+
+def test_run_writes_no_page_when_told_so_and_the_same_page_twice(folder: Path) -> None:
+    page = folder / "runs" / "encounter" / "replay.html"
+    assert called("run", "encounter.toml", "--in-process", "--no-page").exit_code == 0
+    assert not page.exists()
+    pages = []
+    for _ in range(2):
+        assert called("run", "encounter.toml", "--in-process").exit_code == 0
+        pages.append(page.read_bytes())
+    assert pages[0] == pages[1]
+
+
+def test_a_page_that_cannot_be_made_does_not_undo_the_run(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def failing(name: str) -> str:
+        raise HostError("the page's bundle is missing")
+
+    monkeypatch.setattr("shipcollision_fmu.show.page._bundled", failing)
+    result = called("run", "encounter.toml", "--in-process")
+    assert result.exit_code == 0
+    assert result.stderr.strip().endswith("no page: the page's bundle is missing")
+    assert (folder / "runs" / "encounter" / "states.csv").exists()
+    assert not (folder / "runs" / "encounter" / "replay.html").exists()
 
 
 def test_run_compares_with_what_was_published(folder: Path) -> None:

@@ -38,7 +38,7 @@ STATE = (
 """Columns of states.csv per ship, after "NAME."."""
 SIGNALS = ("clearance", "energy.dissipated")
 CONTACT_NUMBERS = ("time", "scratch", "impulse_normal", "impulse_tangential", "energy")
-REMEDY = "give the folder that `shipcollision run` names in its last line, or run the scenario again"
+REMEDY = "give a folder that `shipcollision run` has stored a run in, or run the scenario again"
 
 Vector = tuple[float, float, float]
 Row6 = Annotated[list[float], Field(min_length=6, max_length=6)]

@@ -100,35 +100,40 @@ def nearest(surface: Surface, points: Array) -> tuple[Array, Array]:
 
     At an edge, where faces meet, the normal is that of the steepest face: ships touch side by side, not from above.
     """
-    p, q, r = (surface.vertices[surface.triangles[:, k]] for k in range(3))
-    centre = (p + q + r) / 3
-    radius = np.sqrt(np.max([((x - centre) ** 2).sum(axis=1) for x in (p, q, r)], axis=0))
-    normals = face_normals(surface)
+    faces = _Faces(surface)
     found, outwards = np.empty((len(points), 3)), np.empty((len(points), 3))
     for i, point in enumerate(points):
-        away = np.sqrt(((centre - point) ** 2).sum(axis=1))
-        near = np.flatnonzero(away - radius <= (away + radius).min())
-        candidates = _nearest_of_triangles(p[near], q[near], r[near], point)
+        candidates, rows = faces.nearest(point)
         gap = np.sqrt(((candidates - point) ** 2).sum(axis=1))
-        level = np.abs(normals[near, 2])
+        level = np.abs(faces.normals[rows, 2])
         at = int(np.where(gap <= gap.min() + EDGE, level, np.inf).argmin())
-        found[i], outwards[i] = candidates[at], normals[near[at]]
+        found[i], outwards[i] = candidates[at], faces.normals[rows[at]]
     return found, outwards
 
 
-def _nearest_of_triangles(a: Array, b: Array, c: Array, x: Array) -> Array:
-    """Nearest point of each triangle (m, 3) to x: that of its plane where inside, else that of its edges."""
-    normal = np.cross(b - a, c - a)
-    normal /= np.linalg.norm(normal, axis=1)[:, None]
-    foot = x - np.einsum("ij,ij->i", x - a, normal)[:, None] * normal
-    inside = np.ones(len(a), bool)
-    edges = []
-    for start, end in ((a, b), (b, c), (c, a)):
-        along = end - start
-        inside &= np.einsum("ij,ij->i", np.cross(along, foot - start), normal) >= 0.0
-        share = np.clip(np.einsum("ij,ij->i", x - start, along) / np.einsum("ij,ij->i", along, along), 0.0, 1.0)
-        edges.append(start + share[:, None] * along)
-    best = np.stack(edges)
-    pick = ((best - x) ** 2).sum(axis=2).argmin(axis=0)
-    result: Array = np.where(inside[:, None], foot, best[pick, np.arange(len(a))])
-    return result
+class _Faces:
+    """The triangles of a surface, with what does not depend on the point that is asked for."""
+
+    def __init__(self, surface: Surface) -> None:
+        self._corners = surface.vertices[surface.triangles]  # (m, 3, 3)
+        self._edges = np.roll(self._corners, -1, axis=1) - self._corners
+        self._squares = (self._edges**2).sum(axis=2)
+        self._centres = self._corners.mean(axis=1)
+        self._radii = np.sqrt(((self._corners - self._centres[:, None]) ** 2).sum(axis=2).max(axis=1))
+        self.normals = face_normals(surface)
+        self._inwards = np.cross(self.normals[:, None], self._edges)  # of each edge, in the triangle's plane
+
+    def nearest(self, x: Array) -> tuple[Array, Indices]:
+        """Nearest point to x of every triangle that may be the nearest (j, 3), and which these are (j,).
+
+        That of the triangle's plane where it is inside, else that of the nearest edge.
+        """
+        away = np.sqrt(((self._centres - x) ** 2).sum(axis=1))
+        rows = np.flatnonzero(away - self._radii <= (away + self._radii).min())
+        corners, edges, normals = self._corners[rows], self._edges[rows], self.normals[rows]
+        foot = x - ((x - corners[:, 0]) * normals).sum(axis=1)[:, None] * normals
+        inside = (((foot[:, None] - corners) * self._inwards[rows]).sum(axis=2) >= 0.0).all(axis=1)
+        share = np.clip(((x - corners) * edges).sum(axis=2) / self._squares[rows], 0.0, 1.0)
+        on_edges = corners + share[..., None] * edges
+        pick = ((on_edges - x) ** 2).sum(axis=2).argmin(axis=1)
+        return np.where(inside[:, None], foot, on_edges[np.arange(len(rows)), pick]), rows

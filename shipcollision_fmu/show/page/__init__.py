@@ -12,22 +12,26 @@ import base64
 import html
 import json
 from importlib.resources import files
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ... import __version__
 from ...errors import HostError
+from ..files import write
 from ..gltf import extras, glb
 from ..palette import topsides
-from ..scene import Scene
+from ..scene import Scene, load_scene
 from ..signals import Signals
 
-__all__ = ["replay_html"]
+__all__ = ["PAGE", "replay_html", "write_page"]
+
+PAGE = "replay.html"
 
 _POLICY = (
-    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; connect-src blob:; "
-    "base-uri 'none'; form-action 'none'"
+    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; "
+    "connect-src blob:; base-uri 'none'; form-action 'none'"
 )
 _TEMPLATE = """<!doctype html>
 <html lang="en">
@@ -46,6 +50,11 @@ _TEMPLATE = """<!doctype html>
 </body>
 </html>
 """
+
+
+def write_page(folder: Path) -> Path:
+    """Write the page of the run in a folder into it; the page's path. Raises InputError, HostError."""
+    return write(folder / PAGE, replay_html(load_scene(folder)))
 
 
 def replay_html(scene: Scene) -> str:

@@ -1,0 +1,117 @@
+"""The replay page in Debian's Chromium, without a screen, drawn by the processor."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from selenium.webdriver import Chrome
+from selenium.webdriver.chrome.options import Options
+from selenium.webdriver.chrome.service import Service
+from selenium.webdriver.support.ui import WebDriverWait
+
+__all__ = ["Page", "chromium"]
+
+FLAGS = (
+    "--headless", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+    "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update",
+    "--disable-sync", "--disable-dev-shm-usage", "--window-size=920,560",
+)  # fmt: skip
+LONGEST_START = 30.0
+"""Wait for a page [s]: the machine may be busy with other tests."""
+AROUND = """
+    const [x, y, half] = arguments;
+    const canvas = document.getElementById("picture");
+    const gl = canvas.getContext("webgl2");
+    const scale = canvas.width / canvas.clientWidth;
+    const size = 2 * half + 1;
+    const pixels = new Uint8Array(4 * size * size);
+    gl.readPixels(Math.round(x * scale) - half, canvas.height - Math.round(y * scale) - half, size, size,
+                  gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+    return Array.from(pixels);
+"""
+WHOLE = """
+    const canvas = document.getElementById("picture");
+    const gl = canvas.getContext("webgl2");
+    const pixels = new Uint8Array(4 * canvas.width * canvas.height);
+    gl.readPixels(0, 0, canvas.width, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+    let digest = 2166136261;
+    for (const byte of pixels) digest = Math.imul(digest ^ byte, 16777619) >>> 0;
+    return digest;
+"""
+
+
+class Page:
+    """A replay page, open."""
+
+    def __init__(self, driver: Chrome, path: Path, wishes: str = "") -> None:
+        self.driver, self.path = driver, path
+        driver.get("about:blank")
+        for kind in ("performance", "browser"):
+            self._logged(kind)  # of the page before
+        driver.get(f"{path.as_uri()}{wishes and '#'}{wishes}")
+        WebDriverWait(driver, LONGEST_START, poll_frequency=0.05).until(
+            lambda d: d.execute_script("return document.body?.dataset.ready")
+        )
+        assert driver.execute_script("return document.body.dataset.ready") == "true", self.complaints()
+
+    def run(self, script: str, *arguments: Any) -> Any:
+        """Runs JavaScript in the page; its `return` comes back."""
+        return self.driver.execute_script(script, *arguments)
+
+    def slide(self, time: float) -> dict[str, Any]:
+        """Moves the time slider as a hand does, and says what is in the picture then."""
+        self.run(
+            "const slider = document.getElementById('time'); slider.value = arguments[0];"
+            "slider.dispatchEvent(new Event('input'));",
+            time,
+        )
+        drawn: dict[str, Any] = self.run("return replay.drawn()")
+        return drawn
+
+    def colour(self, point: Any, half: int = 2) -> tuple[float, float, float]:
+        """Mean red, green, blue, 0 to 255, of the pixels around where a point in n [m] is in the picture."""
+        x, y = self.run("return replay.project(arguments[0])", [float(c) for c in point])
+        pixels = self.run(AROUND, x, y, half)
+        n = len(pixels) // 4
+        red, green, blue = (sum(pixels[k::4]) / n for k in range(3))
+        return (red, green, blue)
+
+    def fingerprint(self) -> int:
+        """A digest of all pixels of the picture."""
+        return int(self.run(WHOLE))
+
+    def complaints(self) -> list[str]:
+        """Errors and warnings on the console since the last call."""
+        return [f"{entry['level']}: {entry['message']}" for entry in self._logged("browser")]
+
+    def requests(self) -> list[str]:
+        """Addresses that were asked for since the last call."""
+        messages = [json.loads(entry["message"])["message"] for entry in self._logged("performance")]
+        return [m["params"]["request"]["url"] for m in messages if m["method"] == "Network.requestWillBeSent"]
+
+    def _logged(self, kind: str) -> list[dict[str, Any]]:
+        entries: list[dict[str, Any]] = self.driver.get_log(kind)
+        return entries
+
+
+@contextmanager
+def chromium(profile: Path) -> Iterator[Chrome]:
+    """A browser with an empty profile in a folder."""
+    programs = {name: shutil.which(name) for name in ("chromium", "chromedriver")}
+    assert all(programs.values()), f"{programs}: run `apt-get install chromium chromium-driver`"
+    options = Options()
+    options.binary_location = str(programs["chromium"])
+    for flag in (*FLAGS, f"--user-data-dir={profile}"):
+        options.add_argument(flag)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+    driver = Chrome(options=options, service=Service(programs["chromedriver"]))
+    try:
+        driver.set_script_timeout(60)
+        yield driver
+    finally:
+        driver.quit()

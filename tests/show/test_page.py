@@ -1,0 +1,273 @@
+"""replay.html as a user sees it: in a browser, from a file, without a network."""
+
+from __future__ import annotations
+
+import base64
+import csv
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from selenium.webdriver import ActionChains, Chrome, Keys
+from selenium.webdriver.common.by import By
+
+from shipcollision_fmu import load_scenario, simulate
+from shipcollision_fmu.ship.frames import rotation, rotation_from_quaternion
+from shipcollision_fmu.show.gltf import glb
+from shipcollision_fmu.show.page import replay_html, write_page
+from shipcollision_fmu.show.ribbons import ribbon
+from shipcollision_fmu.show.run_folder import STATE
+from shipcollision_fmu.show.scene import Scene, load_scene
+
+from .browser import Page, chromium
+from .conftest import MakeRun
+from .foreign import with_many_collisions, with_names
+
+CENTIMETRE = 0.01
+TIMES = ("before", "during", "after")
+
+
+@pytest.fixture(scope="module")
+def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Chrome]:
+    """One browser for all pages."""
+    with chromium(tmp_path_factory.mktemp("profile")) as driver:
+        yield driver
+
+
+@pytest.fixture(scope="module", params=["guan2014", pytest.param("kvlcc2_crossing", marks=pytest.mark.slow)])
+def folder(request: pytest.FixtureRequest) -> Path:
+    """The shipped runs, with their pages written."""
+    run = Path(request.getfixturevalue(request.param))
+    write_page(run)
+    return run
+
+
+@pytest.fixture(scope="module")
+def scene(folder: Path) -> Scene:
+    return load_scene(folder)
+
+
+@pytest.fixture(scope="module")
+def page(browser: Chrome, folder: Path) -> Page:
+    return Page(browser, folder / "replay.html")
+
+
+def moments(scene: Scene, folder: Path) -> dict[str, float]:
+    """Times of rows of states.csv: before the first impact, just after it, and at the end."""
+    times = [float(row["time"]) for row in rows_of(folder)]
+    first = scene.events[0].time
+    near = [min(times, key=lambda t: abs(t - wanted)) for wanted in (0.8 * first, first + 0.6)]
+    return dict(zip(TIMES, [*near, times[-1]], strict=True))
+
+
+def rows_of(folder: Path) -> list[dict[str, str]]:
+    with (folder / "states.csv").open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_it_opens_without_a_complaint_and_asks_nobody_for_anything(page: Page) -> None:
+    page.run("replay.camera('impact'); replay.seek(1e9); replay.drawn(); replay.seek(0); replay.drawn()")
+    assert page.complaints() == []
+    asked = page.requests()
+    assert asked[0].startswith(page.path.as_uri())
+    assert [url for url in asked[1:] if not url.startswith(("data:", "blob:"))] == []
+
+
+@pytest.mark.parametrize("when", TIMES)
+def test_ships_are_where_states_csv_puts_them(page: Page, folder: Path, scene: Scene, when: str) -> None:
+    at = moments(scene, folder)[when]
+    drawn = page.slide(at)
+    assert drawn["time"] == pytest.approx(at, abs=1e-6)
+    row = next(row for row in rows_of(folder) if float(row["time"]) == at)
+    assert set(drawn["poses"]) == {ship.name for ship in scene.ships}
+    for ship in scene.ships:
+        x = np.array([float(row[f"{ship.name}.{state}"]) for state in STATE[:6]])
+        pose = drawn["poses"][ship.name]
+        shown = pose["position"] + ship.hull.vertices @ rotation_from_quaternion(pose["quaternion"]).T
+        wanted = x[:3] + ship.hull.vertices @ rotation(x[3:]).T
+        assert np.linalg.norm(shown - wanted, axis=1).max() < CENTIMETRE
+
+
+@pytest.mark.parametrize("when", TIMES)
+def test_scratches_have_grown_as_far_as_they_have(page: Page, folder: Path, scene: Scene, when: str) -> None:
+    at = moments(scene, folder)[when]
+    drawn = page.slide(at)
+    borne = [(scratch, scene.ship(scratch.ship)) for scratch in scene.scratches]
+    ribbons = [ribbon(scratch, ship.hull, ship.L_pp) for scratch, ship in borne]
+    triangles = sum(int((shape.times[shape.triangles].max(axis=1) <= at + 1e-4).sum()) for shape in ribbons)
+    assert drawn["scratchPoints"] == sum(int((scratch.times <= at + 1e-6).sum()) for scratch in scene.scratches)
+    assert drawn["scratchTriangles"] == triangles
+    assert (triangles == 0) == (when == "before")
+
+
+def test_the_impact_is_seen_where_it_happens(page: Page, folder: Path, scene: Scene) -> None:
+    """At the contact point: the struck ship's red side before, a bright flash during, and fire or smoke to the end."""
+    times = moments(scene, folder)
+    effect = scene.effects[0]
+    page.run("replay.camera('impact')")
+
+    def seen(at: float) -> tuple[float, float, float]:
+        pose = page.slide(at)["poses"][effect.ship]
+        R = rotation_from_quaternion(pose["quaternion"])
+        return page.colour(np.array(pose["position"]) + R @ (effect.point + 0.3 * effect.outwards))
+
+    before = seen(times["before"])
+    during = seen(times["during"])
+    assert before[0] < 225
+    assert during[0] > 225
+    assert during[0] > 1.15 * during[2]  # yellow or orange, not white
+    assert np.linalg.norm(np.subtract(during, before)) > 60
+    page.run("replay.camera('all')")
+
+
+def test_the_sides_are_seen_in_their_ships_colours(page: Page, scene: Scene) -> None:
+    """Where the ships' topsides are, from the side that the camera is on, and where they are not."""
+    page.run("replay.camera('all')")
+    poses = page.slide(0.0)["poses"]
+    hues = []
+    for ship in scene.ships:
+        R = rotation_from_quaternion(poses[ship.name]["quaternion"])
+        z = 0.5 * float(ship.hull.vertices[:, 2].min())
+        sides = [poses[ship.name]["position"] + R @ [0.25 * ship.L_oa, side * 0.5 * ship.B, z] for side in (-1, 1)]
+        screen = [page.run("return replay.project(arguments[0])", side.tolist()) for side in sides]
+        near = sides[int(screen[1][1] > screen[0][1])]  # the lower in the picture is the nearer
+        hues.append(page.colour(near, half=1))
+    blue, red = hues
+    assert blue[2] > 1.4 * blue[0]
+    assert red[0] > 1.8 * red[2]
+
+
+def test_scrubbing_back_brings_the_same_picture(page: Page, folder: Path, scene: Scene) -> None:
+    during = moments(scene, folder)["during"]
+    page.slide(during)
+    first = page.fingerprint()
+    page.slide(during + 1.5)
+    assert page.fingerprint() != first
+    page.slide(during)
+    assert page.fingerprint() == first
+
+
+def test_table_keys_and_curves_lead_to_their_times(page: Page, scene: Scene) -> None:
+    page.slide(0.0)
+    page.driver.find_element(By.CSS_SELECTOR, "table button").click()
+    assert page.run("return replay.time") == pytest.approx(scene.events[0].time)
+    assert page.run("return document.getElementById('camera').value") == "impact"
+    body = page.driver.find_element(By.ID, "picture")
+    body.send_keys(Keys.END)
+    assert page.run("return replay.time") == scene.end
+    body.send_keys(Keys.HOME + "n")
+    assert page.run("return replay.time") == pytest.approx(scene.events[0].time)
+    chart = page.driver.find_element(By.CSS_SELECTOR, ".plot .u-over")
+    ActionChains(page.driver).move_to_element(chart).click().perform()
+    assert page.run("return replay.time") == pytest.approx(0.5 * (scene.start + scene.end), rel=0.02)
+    dark = "return document.documentElement.dataset.theme === 'dark'"
+    was = page.run(dark)
+    body.send_keys("t")
+    assert page.run(dark) != was
+    body.send_keys("t")
+    page.run("replay.camera('all')")
+
+
+def test_playing_goes_on_to_the_end_and_stops(page: Page, scene: Scene) -> None:
+    page.slide(scene.end - 0.02)
+    page.driver.find_element(By.ID, "play").click()
+    for _ in range(100):
+        if page.run("return replay.time") == scene.end:
+            break
+        time.sleep(0.05)
+    assert page.run("return replay.time") == scene.end
+    assert page.run("return document.getElementById('play').getAttribute('aria-label')") == "Play"
+
+
+def test_the_full_picture_is_drawn_without_a_complaint(browser: Chrome, guan2014: Path) -> None:
+    """Waves, wakes, shadows, smooth edges: what a machine with a graphics card shows."""
+    write_page(guan2014)
+    full = Page(browser, guan2014 / "replay.html", "plain=no&t=1.2&camera=impact")
+    full.run("replay.drawn()")
+    assert full.run("return document.getElementById('plain').getAttribute('aria-pressed')") == "false"
+    first = full.fingerprint()
+    full.run("replay.plain(true); replay.drawn()")
+    assert full.fingerprint() != first
+    assert full.complaints() == []
+
+
+def test_names_are_shown_as_text_only(browser: Chrome, guan2014: Path, tmp_path: Path) -> None:
+    names = {
+        "own": "<script>window.ran = 1</script>",
+        "target": '"><img src=x onerror="window.ran = 1">',
+        "guan2014": "</title></script><script>window.ran = 1</script>",
+    }
+    strange = Page(browser, write_page(with_names(guan2014, tmp_path / "run", names)))
+    assert strange.run("return window.ran") is None
+    assert strange.run("return document.querySelectorAll('script').length") == 3
+    assert strange.run("return document.querySelectorAll('img').length") == 0
+    shown = strange.run("return document.querySelector('.title').textContent")
+    assert all(name in shown for name in names.values())
+    assert strange.run("return document.title") == names["guan2014"]
+    drawn = strange.slide(6.0)
+    assert set(drawn["poses"]) == {names["own"], names["target"]}
+    assert drawn["effects"] == 4
+    assert strange.complaints() == []
+
+
+def test_no_contact_is_said_in_words(browser: Chrome, meeting: MakeRun) -> None:
+    apart = Page(browser, write_page(meeting(("speed = 4.0", "speed = 0.5"))))
+    assert "No contact. The hulls came within" in apart.run("return document.querySelector('.events').textContent")
+    assert apart.slide(3.0)["scratchPoints"] == 0
+    assert apart.run("return [...document.getElementById('camera').options].map((o) => o.value)") == [
+        "all", "ship-0", "ship-1", "free",
+    ]  # fmt: skip
+    apart.driver.find_element(By.ID, "picture").send_keys("np")
+    assert apart.complaints() == []
+
+
+def test_a_hundred_collisions_are_listed_and_shown(browser: Chrome, guan2014: Path, tmp_path: Path) -> None:
+    path = write_page(with_many_collisions(guan2014, tmp_path / "run", 100))
+    assert path.stat().st_size < 5e6
+    many = Page(browser, path)
+    assert many.run("return document.querySelectorAll('.events tbody tr').length") == 100
+    scene = load_scene(tmp_path / "run")
+    drawn = many.slide(3.0)
+    assert drawn["scratchPoints"] == sum(int((s.times <= 3.0 + 1e-6).sum()) for s in scene.scratches) > 100
+    assert many.complaints() == []
+
+
+@pytest.mark.slow
+def test_ten_minutes_open_in_five_seconds_and_stay_small(browser: Chrome, tmp_path: Path) -> None:
+    text = load_scenario_text("kvlcc2_crossing").replace("duration = 150.0", "duration = 600.0")
+    (tmp_path / "long.toml").write_text(text)
+    before = time.perf_counter()
+    simulate(load_scenario(tmp_path / "long.toml"), in_process=True, out=tmp_path / "run")
+    ran = time.perf_counter() - before
+    before = time.perf_counter()
+    path = write_page(tmp_path / "run")
+    written = time.perf_counter() - before
+    assert len(rows_of(tmp_path / "run")) == 12_001
+    assert path.stat().st_size < 10e6
+    assert written < ran
+    before = time.perf_counter()
+    page = Page(browser, path)
+    assert time.perf_counter() - before < 5.0
+    assert page.slide(600.0)["time"] == 600.0
+    assert page.complaints() == []
+
+
+def load_scenario_text(name: str) -> str:
+    """The text of a shipped scenario's file."""
+    return (Path(__file__).parents[2] / "models" / "scenarios" / f"{name}.toml").read_text(encoding="utf-8")
+
+
+def test_the_page_holds_the_very_glb_and_the_same_scene_gives_the_same_page(guan2014: Path) -> None:
+    scene = load_scene(guan2014)
+    page = replay_html(scene)
+    assert base64.b64encode(glb(scene)).decode() in page
+    assert replay_html(load_scene(guan2014)) == page
+
+
+def test_licences_of_what_is_bundled_are_in_the_page(guan2014: Path) -> None:
+    page = replay_html(load_scene(guan2014))
+    assert "Copyright © 2010-20" in page  # three.js
+    assert "Leon Sorokin" in page  # uPlot
+    assert page.count("Permission is hereby granted") >= 2
