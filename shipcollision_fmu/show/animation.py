@@ -74,9 +74,11 @@ def frame_times(scene: Scene) -> npt.NDArray[np.float64]:
 
 def gif(scene: Scene, size: tuple[int, int] = SIZE, progress: Progress | None = None) -> bytes:
     """The film as a GIF that repeats, of `size` (width, height) [pixels]."""
-    images = [image.convert("RGB") for image in _images(scene, size, progress)]
+    from PIL import Image
+
+    images = list(_images(scene, size, progress))
     palette = _palette(images)
-    indexed = [image.quantize(palette=palette, dither=0) for image in images]
+    indexed = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
     data = io.BytesIO()
     durations = [round(1000 / RATE)] * (len(indexed) - 1) + [1500]
     indexed[0].save(
@@ -108,12 +110,13 @@ def still(scene: Scene, time: float, size: tuple[int, int] = STILL_SIZE) -> byte
     if not scene.start <= time <= scene.end:
         raise InputError(f"time {time:g} s is not in the run: give one from {scene.start:g} to {scene.end:g} s")
     data = io.BytesIO()
-    _captioned(Film(scene, *size).frame(time), scene, time).quantize(256, dither=0).save(data, "PNG", optimize=True)
+    _indexed(_captioned(Film(scene, *size).frame(time), scene, time), 256).save(data, "PNG", optimize=True)
     return data.getvalue()
 
 
 def _images(scene: Scene, size: tuple[int, int], progress: Progress | None) -> Iterator[Image.Image]:
-    film, times = Film(scene, *size), frame_times(scene)
+    first = min((float(scratch.times[0]) for scratch in scene.scratches), default=None)
+    film, times = Film(scene, *size, fixed=first), frame_times(scene)
     for i, time in enumerate(times):
         yield _captioned(film.frame(float(time)), scene, float(time))
         if progress is not None:
@@ -129,7 +132,14 @@ def _palette(images: list[Image.Image]) -> Image.Image:
     sheet = Image.new("RGB", (width, height * len(chosen)))
     for i, image in enumerate(chosen):
         sheet.paste(image, (0, i * height))
-    return sheet.quantize(COLOURS, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
+    return _indexed(sheet, COLOURS)
+
+
+def _indexed(image: Image.Image, colours: int) -> Image.Image:
+    """With a palette of its own: median cut, then moved to the middle of what each colour stands for."""
+    from PIL import Image
+
+    return image.quantize(colours, method=Image.Quantize.MEDIANCUT, kmeans=4, dither=Image.Dither.NONE)
 
 
 def _captioned(pixels: Pixels, scene: Scene, time: float) -> Image.Image:

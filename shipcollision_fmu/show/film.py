@@ -11,7 +11,7 @@ from ..ship.frames import Array, rotation, rotation_from_quaternion
 from .camera import ANGLE, camera_of
 from .palette import display, paint_of
 from .parts import Part, obstacle_parts, ship_parts
-from .picture import Faces, Line, picture
+from .picture import Backdrop, Faces, Line, backdrop, picture
 from .puffs import Puffs, puffs
 from .raster import Eye
 from .scene import Scene, Ship
@@ -27,11 +27,16 @@ LIFT = 0.15
 
 
 class Film:
-    """A scene ready to be drawn in pictures of `width` x `height` pixels."""
+    """A scene ready to be drawn in pictures of `width` x `height` pixels.
 
-    def __init__(self, scene: Scene, width: int, height: int) -> None:
+    With `fixed`, a time [s], the camera stays where it is then and the waves stand still: one sees who moves, and most of
+    a picture is that before it, which makes a small file.
+    """
+
+    def __init__(self, scene: Scene, width: int, height: int, fixed: float | None = None) -> None:
         self._scene, self._width, self._height = scene, width, height
         self._camera = camera_of(scene)
+        self._behind = None if fixed is None else self._backdrop(fixed)
         self._bodies = [_Body(ship_parts(ship, i)) for i, ship in enumerate(scene.ships)]
         self._fixed = [
             _Body(obstacle_parts(obstacle)).placed(rotation((0.0, 0.0, obstacle.heading)), obstacle.position)
@@ -40,15 +45,16 @@ class Film:
 
     def frame(self, time: float) -> Pixels:
         """The picture at `time` [s], (height, width, 3) of red, green and blue."""
-        eye, target = self._camera.at(time)
         moved = [body.placed(*_pose(ship, time)) for body, ship in zip(self._bodies, self._scene.ships, strict=True)]
         faces = Faces(
             np.concatenate([faces.corners for faces in (*moved, *self._fixed)]),
             np.concatenate([faces.colours for faces in (*moved, *self._fixed)]),
         )
-        return picture(
-            Eye(eye, target, ANGLE, self._width, self._height), faces, self._lines(time), self._clouds(time), time
-        )
+        behind = self._behind or self._backdrop(time)
+        return picture(behind, faces, self._lines(time), self._clouds(time))
+
+    def _backdrop(self, time: float) -> Backdrop:
+        return backdrop(Eye(*self._camera.at(time), ANGLE, self._width, self._height), time)
 
     def _lines(self, time: float) -> list[Line]:
         """Scratches as far as they are drawn by then."""

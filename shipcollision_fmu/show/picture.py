@@ -21,7 +21,7 @@ from . import sea
 from .puffs import Puffs
 from .raster import Eye, nearest
 
-__all__ = ["Faces", "Line", "picture"]
+__all__ = ["Backdrop", "Faces", "Line", "backdrop", "picture"]
 
 SAMPLES = 2
 SUN = np.array([-0.42, 0.50, -0.76])
@@ -50,14 +50,34 @@ class Line:
     colour: tuple[float, float, float]
 
 
-def picture(
-    eye: Eye, faces: Faces, lines: Sequence[Line], clouds: Iterable[tuple[Array, Puffs]], time: float
-) -> npt.NDArray[np.uint8]:
-    """The picture that `eye` has at `time` [s], (height, width, 3). `clouds`: origin (3,) in n and puffs of effects."""
-    fine = replace(eye, width=SAMPLES * eye.width, height=SAMPLES * eye.height)
-    colour, depth = _solids(fine, faces, lines)
+@dataclass(frozen=True, eq=False)
+class Backdrop:
+    """Sky and sea as an eye sees them: colour (height, width, 3), depth of the sea, inf for the sky, and length of a ray
+    of depth 1 (height, width)."""
+
+    eye: Eye
+    colour: Array
+    depth: Array
+    stretch: Array
+
+
+def backdrop(eye: Eye, time: float) -> Backdrop:
+    """Sky and sea with the waves of `time` [s]."""
     rays = eye.rays()
-    colour, depth = _with_sea(eye, rays, colour, depth, time)
+    depth = sea.distance(eye, rays)
+    wet = np.isfinite(depth)
+    colour = sea.sky(rays)
+    colour[wet] = sea.surface(eye, rays[wet], depth[wet], time)
+    return Backdrop(eye, colour, depth, np.linalg.norm(rays, axis=-1))
+
+
+def picture(
+    behind: Backdrop, faces: Faces, lines: Sequence[Line], clouds: Iterable[tuple[Array, Puffs]]
+) -> npt.NDArray[np.uint8]:
+    """The picture before a backdrop, (height, width, 3). `clouds`: origin (3,) in n and puffs of effects."""
+    eye = behind.eye
+    fine = replace(eye, width=SAMPLES * eye.width, height=SAMPLES * eye.height)
+    colour, depth = _before(behind, *_solids(fine, faces, lines))
     for origin, puffs in clouds:
         _add(eye, colour, depth, origin + puffs.offset, puffs)
     return np.asarray(np.round(255.0 * np.clip(colour, 0.0, 1.0)), dtype=np.uint8)
@@ -93,21 +113,17 @@ def _ribbon(eye: Eye, line: Line) -> Array:
     return np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
 
 
-def _with_sea(eye: Eye, rays: Array, colour: Array, depth: Array, time: float) -> tuple[Array, Array]:
-    """Sea and sky behind and before the solids; colour and depth per pixel, averaged over the samples."""
-    water = sea.distance(eye, rays)
-    wet = np.isfinite(water)
-    ground = sea.sky(rays)
-    ground[wet] = sea.surface(eye, rays[wet], water[wet], time)
-    mixed = ground.repeat(SAMPLES, axis=0).repeat(SAMPLES, axis=1)
+def _before(behind: Backdrop, colour: Array, depth: Array) -> tuple[Array, Array]:
+    """Solids, found at the samples, before sea and sky or shining through the sea: colour and depth per pixel."""
+    mixed = behind.colour.repeat(SAMPLES, axis=0).repeat(SAMPLES, axis=1)
     row, column = np.nonzero(np.isfinite(depth))
     pixel = (row // SAMPLES, column // SAMPLES)
-    way = (depth[row, column] - water[pixel]) * np.linalg.norm(rays[pixel], axis=-1)
+    way = (depth[row, column] - behind.depth[pixel]) * behind.stretch[pixel]
     share = np.where(way > 0.0, SURFACE * sea.clarity(way), 1.0)
     mixed[row, column] += share[:, None] * (colour[row, column] - mixed[row, column])
-    height, width, _ = ground.shape
+    height, width, _ = behind.colour.shape
     averaged = mixed.reshape(height, SAMPLES, width, SAMPLES, 3).mean(axis=(1, 3))
-    return averaged, np.minimum(depth[::SAMPLES, ::SAMPLES], water)
+    return averaged, np.minimum(depth[::SAMPLES, ::SAMPLES], behind.depth)
 
 
 _SPRITE = 96
