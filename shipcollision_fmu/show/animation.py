@@ -82,7 +82,7 @@ def gif(scene: Scene, size: tuple[int, int] = SIZE, progress: Progress | None = 
     data = io.BytesIO()
     durations = [round(1000 / RATE)] * (len(indexed) - 1) + [1500]
     indexed[0].save(
-        data, "GIF", save_all=True, append_images=indexed[1:], duration=durations, loop=0, optimize=False, disposal=1
+        data, "GIF", save_all=True, append_images=indexed[1:], duration=durations, loop=0, optimize=True, disposal=1
     )
     return data.getvalue()
 

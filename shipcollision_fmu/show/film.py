@@ -29,8 +29,8 @@ LIFT = 0.15
 class Film:
     """A scene ready to be drawn in pictures of `width` x `height` pixels.
 
-    With `fixed`, a time [s], the camera stays where it is then and the waves stand still: one sees who moves, and most of
-    a picture is that before it, which makes a small file.
+    With `fixed`, a time [s], the camera stays where it is then and the waves stand still: one sees who moves, and most
+    of a picture is that before it, which makes a small file.
     """
 
     def __init__(self, scene: Scene, width: int, height: int, fixed: float | None = None) -> None:

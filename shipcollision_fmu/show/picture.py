@@ -35,7 +35,7 @@ LINE_LIFT = 0.01
 
 @dataclass(frozen=True, eq=False)
 class Faces:
-    """Triangles (m, 3, 3) in n [m], seen from both sides, and their colours (m, 3)."""
+    """Triangles (m, 3, 3) in n [m] of closed surfaces, seen from outside only, and their colours (m, 3)."""
 
     corners: Array
     colours: Array
@@ -52,8 +52,8 @@ class Line:
 
 @dataclass(frozen=True, eq=False)
 class Backdrop:
-    """Sky and sea as an eye sees them: colour (height, width, 3), depth of the sea, inf for the sky, and length of a ray
-    of depth 1 (height, width)."""
+    """Sky and sea as an eye sees them: colour (height, width, 3), depth of the sea, inf for the sky, and length of a
+    ray of depth 1 (height, width)."""
 
     eye: Eye
     colour: Array
@@ -85,19 +85,17 @@ def picture(
 
 def _solids(eye: Eye, faces: Faces, lines: Sequence[Line]) -> tuple[Array, Array]:
     """Colours (height, width, 3) of the solids and lines, and their depth, inf where there is none."""
-    ribbons = [_ribbon(eye, line) for line in lines]
-    seen = nearest(eye, np.concatenate([faces.corners, *ribbons]))
-    painted = [np.broadcast_to(line.colour, (len(ribbon), 3)) for line, ribbon in zip(lines, ribbons, strict=True)]
-    colours = np.concatenate([faces.colours * _light(faces.corners)[:, None], *painted, np.zeros((1, 3))])
-    return colours[seen.triangle], seen.depth  # NOTHING, -1, is the last
-
-
-def _light(corners: Array) -> Array:
-    """Share of its colour that each triangle shows."""
+    corners = faces.corners
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    normals /= np.maximum(np.linalg.norm(normals, axis=1), 1e-12)[:, None]
-    light: Array = AMBIENT + (1.0 - AMBIENT) * np.clip(normals @ SUN, 0.0, 1.0)
-    return light
+    front = np.einsum("ij,ij->i", normals, corners[:, 0] - eye.position) < 0.0
+    corners, normals = corners[front], normals[front]
+    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    light = AMBIENT + (1.0 - AMBIENT) * np.clip(normals @ SUN, 0.0, 1.0)
+    ribbons = [_ribbon(eye, line) for line in lines]
+    seen = nearest(eye, np.concatenate([corners, *ribbons]))
+    painted = [np.broadcast_to(line.colour, (len(ribbon), 3)) for line, ribbon in zip(lines, ribbons, strict=True)]
+    colours = np.concatenate([faces.colours[front] * light[:, None], *painted, np.zeros((1, 3))])
+    return colours[seen.triangle], seen.depth  # NOTHING, -1, is the last
 
 
 def _ribbon(eye: Eye, line: Line) -> Array:
@@ -121,8 +119,7 @@ def _before(behind: Backdrop, colour: Array, depth: Array) -> tuple[Array, Array
     way = (depth[row, column] - behind.depth[pixel]) * behind.stretch[pixel]
     share = np.where(way > 0.0, SURFACE * sea.clarity(way), 1.0)
     mixed[row, column] += share[:, None] * (colour[row, column] - mixed[row, column])
-    height, width, _ = behind.colour.shape
-    averaged = mixed.reshape(height, SAMPLES, width, SAMPLES, 3).mean(axis=(1, 3))
+    averaged: Array = sum(mixed[i::SAMPLES, j::SAMPLES] for i in range(SAMPLES) for j in range(SAMPLES)) / SAMPLES**2
     return averaged, np.minimum(depth[::SAMPLES, ::SAMPLES], behind.depth)
 
 

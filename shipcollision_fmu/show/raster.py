@@ -78,9 +78,10 @@ def nearest(eye: Eye, triangles: Array) -> Nearest:
     corners = corners[kept]
     owner, x, y = _covered(corners[..., :2], eye.width, eye.height)
     plane = _inverse_depth(corners)
-    inverse = np.einsum("ij,ij->i", plane[owner], np.column_stack([x + 0.5, y + 0.5, np.ones(len(x))]))
+    a, b, c = plane.T
+    inverse = a[owner] * (x + 0.5) + b[owner] * (y + 0.5) + c[owner]
     pixel = y * eye.width + x
-    order = np.argsort(inverse, kind="stable")  # the nearest comes last, and the last one stays
+    order = np.argsort(inverse)  # the nearest comes last, and the last one stays
     triangle = np.full(eye.width * eye.height, NOTHING, dtype=np.int64)
     depth = np.full(eye.width * eye.height, np.inf)
     triangle[pixel[order]] = kept[owner[order]]
@@ -112,16 +113,15 @@ def _covered(corners: Array, width: int, height: int) -> tuple[Ints, Ints, Ints]
     top = np.clip(np.ceil(corners[..., 1].min(axis=1) - 0.5), 0, height).astype(np.int64)
     bottom = np.clip(np.ceil(corners[..., 1].max(axis=1) - 0.5), 0, height).astype(np.int64)
     owner, y = _ranges(top, bottom)
-    start, end = corners[owner], np.roll(corners, -1, axis=1)[owner]
-    middle = y[:, None] + 0.5
-    rise = end[..., 1] - start[..., 1]
-    cut = (start[..., 1] <= middle) != (end[..., 1] <= middle)
-    share = (middle - start[..., 1]) / np.where(cut, rise, 1.0)
-    x = np.where(cut, start[..., 0] + share * (end[..., 0] - start[..., 0]), np.nan)
-    seen = cut.any(axis=1)
-    owner, y, x = owner[seen], y[seen], x[seen]
-    left = np.clip(np.ceil(np.nanmin(x, axis=1) - 0.5), 0, width).astype(np.int64)
-    right = np.clip(np.ceil(np.nanmax(x, axis=1) - 0.5), 0, width).astype(np.int64)
+    middle = y + 0.5
+    first, last = np.full(len(y), np.inf), np.full(len(y), -np.inf)
+    for start, end in ((0, 1), (1, 2), (2, 0)):
+        (x0, y0), (x1, y1) = corners[owner, start].T, corners[owner, end].T
+        cut = (y0 <= middle) != (y1 <= middle)
+        x = x0 + (middle - y0) / np.where(cut, y1 - y0, 1.0) * (x1 - x0)
+        first, last = np.where(cut, np.minimum(first, x), first), np.where(cut, np.maximum(last, x), last)
+    left = np.clip(np.ceil(first - 0.5), 0, width).astype(np.int64)
+    right = np.clip(np.ceil(last - 0.5), 0, width).astype(np.int64)
     row, column = _ranges(left, right)
     return owner[row], column, y[row]
 
