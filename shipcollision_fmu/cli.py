@@ -136,6 +136,44 @@ def run(
 
 
 @main.command()
+@click.argument("folder", metavar="DIR", type=_PATH)
+@click.option("--open", "in_browser", is_flag=True, help="Open the page in the browser.")
+@click.option("--osg", is_flag=True, help="scene.osgt and camera.path, for OpenSceneGraph's osgviewer.")
+@click.option("--glb", is_flag=True, help="scene.glb, glTF for Blender, Unity, Unreal and viewers.")
+@click.option("--plots", is_flag=True, help="Figures for a report, PNG and SVG. Needs Matplotlib.")
+@click.option("--gif", is_flag=True, help="impact.gif, a film of the first contact. Needs Pillow.")
+@click.option("--mp4", is_flag=True, help="impact.mp4, the same. Needs Pillow and imageio-ffmpeg.")
+@click.option("--still", type=float, metavar="S", help="still.png, the picture at S seconds. Needs Pillow.")
+def show(
+    folder: Path, in_browser: bool, osg: bool, glb: bool, plots: bool, gif: bool, mp4: bool, still: float | None
+) -> None:
+    """Show the finished run in the folder DIR.
+
+    Without an option its page, replay.html, is written anew and what there is to see is listed. With options, what they
+    name is written into the folder.
+    """
+    import webbrowser
+
+    from .show import outputs
+
+    scene = outputs.load_scene(folder)
+    asked = {"osg": osg, "glb": glb, "plots": plots, "gif": gif, "mp4": mp4, "still": still is not None}
+    kinds = [kind for kind, wanted in asked.items() if wanted]
+    for kind in kinds or ["page"]:
+        with _progress(kind) as progress:
+            made = outputs.made(kind, scene, folder, still, progress)
+        for line in made:
+            click.echo(line)
+    if in_browser:
+        page = folder / outputs.PAGE if not kinds else outputs.page(scene, folder)
+        if not webbrowser.open(page.resolve().as_uri()):
+            _fail(f"found no browser to open {page}: open it yourself", 1)
+    elif not kinds:
+        for line in outputs.listed(scene, folder):
+            click.echo(line)
+
+
+@main.command()
 @click.option("--out", type=_PATH, default=Path("build"), show_default=True, help="Folder.")
 @click.option("--fmi", type=_FMI, default="2", show_default=True, help="Version of FMI.")
 def build(out: Path, fmi: str) -> None:

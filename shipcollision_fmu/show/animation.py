@@ -18,6 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import InputError
+from .extras import require
 from .files import write
 from .film import Film
 from .palette import display, topsides
@@ -38,26 +39,30 @@ RATE = 10.0
 """Pictures per second; a whole number of the hundredths of a second that GIF counts in."""
 BEFORE, AFTER = 2.0, 10.0
 """Time shown before and after the first contact [s]."""
-COLOURS = 192
+COLOURS = 240
 """Of the palette, made from PALETTE_FRAMES of the pictures and shared by all, so that nothing flickers."""
-PALETTE_FRAMES = 6
+PALETTE_FRAMES = 12
 
 
 def write_gif(scene: Scene, folder: Path, progress: Progress | None = None) -> Path:
-    """Write impact.gif into a folder; returns its path. Raises ModuleNotFoundError without Pillow."""
+    """Write impact.gif into a folder; returns its path. Raises HostError, also without Pillow."""
+    require("PIL", "a GIF")
     return write(folder / "impact.gif", gif(scene, progress=progress))
 
 
 def write_mp4(scene: Scene, folder: Path, progress: Progress | None = None) -> Path:
-    """Write impact.mp4 into a folder; returns its path. Raises ModuleNotFoundError without the extra mp4."""
+    """Write impact.mp4 into a folder; returns its path. Raises HostError, also without Pillow or imageio-ffmpeg."""
+    require("PIL", "an MP4")
+    require("imageio_ffmpeg", "an MP4")
     return write(folder / "impact.mp4", mp4(scene, progress=progress))
 
 
 def write_still(scene: Scene, folder: Path, time: float) -> Path:
     """Write still.png, the picture at `time` [s], into a folder; returns its path.
 
-    Raises InputError when the run does not have that time, ModuleNotFoundError without Pillow.
+    Raises InputError when the run does not have that time, HostError, also without Pillow.
     """
+    require("PIL", "a still")
     return write(folder / "still.png", still(scene, time))
 
 
@@ -124,14 +129,21 @@ def _images(scene: Scene, size: tuple[int, int], progress: Progress | None) -> I
 
 
 def _palette(images: list[Image.Image]) -> Image.Image:
-    """An image with the palette that suits pictures from all over the film."""
+    """An image with the palette that suits pictures from all over the film.
+
+    Of all but the last only the middle counts, where the contact is: else the sea took nearly all colours.
+    """
     from PIL import Image
 
     chosen = [images[i] for i in np.unique(np.linspace(0, len(images) - 1, PALETTE_FRAMES).round().astype(int))]
     width, height = chosen[0].size
-    sheet = Image.new("RGB", (width, height * len(chosen)))
-    for i, image in enumerate(chosen):
-        sheet.paste(image, (0, i * height))
+    middle = (width // 3, height // 4, width - width // 3, height - height // 4)
+    pieces = [*(image.crop(middle) for image in chosen), chosen[-1]]
+    sheet = Image.new("RGB", (width, sum(piece.height for piece in pieces)))
+    y = 0
+    for piece in pieces:
+        sheet.paste(piece.resize((width, piece.height), Image.Resampling.NEAREST), (0, y))
+        y += piece.height
     return _indexed(sheet, COLOURS)
 
 

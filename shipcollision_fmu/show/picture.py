@@ -119,7 +119,10 @@ def _before(behind: Backdrop, colour: Array, depth: Array) -> tuple[Array, Array
     way = (depth[row, column] - behind.depth[pixel]) * behind.stretch[pixel]
     share = np.where(way > 0.0, SURFACE * sea.clarity(way), 1.0)
     mixed[row, column] += share[:, None] * (colour[row, column] - mixed[row, column])
-    averaged: Array = sum(mixed[i::SAMPLES, j::SAMPLES] for i in range(SAMPLES) for j in range(SAMPLES)) / SAMPLES**2
+    averaged = np.zeros_like(behind.colour)
+    for i in range(SAMPLES):
+        for j in range(SAMPLES):
+            averaged += mixed[i::SAMPLES, j::SAMPLES] / SAMPLES**2
     return averaged, np.minimum(depth[::SAMPLES, ::SAMPLES], behind.depth)
 
 

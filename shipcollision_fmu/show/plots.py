@@ -19,6 +19,7 @@ import numpy as np
 
 from ..collision.clipping import convex_polygon
 from ..ship.frames import Array, rotation_from_quaternion
+from .extras import require
 from .files import write
 from .palette import topsides
 from .scene import Obstacle, Scene, Ship
@@ -50,7 +51,8 @@ _STYLE: dict[Any, Any] = {
 
 
 def write_plots(scene: Scene, folder: Path) -> list[Path]:
-    """Write the figures into `folder`/plots; returns the paths. Raises ModuleNotFoundError without Matplotlib."""
+    """Write the figures into `folder`/plots; returns the paths. Raises HostError, also without Matplotlib."""
+    require("matplotlib", "a figure")
     paths = []
     for name, images in figures(scene).items():
         paths += [write(folder / FOLDER / f"{name}.{kind}", data) for kind, data in images.items()]

@@ -1,0 +1,68 @@
+"""What a run can be shown as: the kinds that `shipcollision show` knows, and what each one writes beside the run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from . import animation, osg
+from .files import write
+from .gltf import glb
+from .page import PAGE, replay_html
+from .plots import FOLDER, write_plots
+from .scene import Scene, load_scene
+
+__all__ = ["PAGE", "listed", "load_scene", "made", "page"]
+
+_LISTED = {
+    PAGE: "the page: open it in a browser",
+    "scene.glb": "glTF 2.0, --glb",
+    "scene.osgt": "OpenSceneGraph, --osg",
+    FOLDER: "figures, --plots",
+    "impact.gif": "film, --gif",
+    "impact.mp4": "film, --mp4",
+    "still.png": "picture, --still S",
+}
+
+
+def page(scene: Scene, folder: Path) -> Path:
+    """Write the page; returns its path."""
+    return write(folder / PAGE, replay_html(scene))
+
+
+def made(kind: str, scene: Scene, folder: Path, still: float | None, progress: Callable[[int, int], None]) -> list[str]:
+    """Write what `kind` names into `folder` and return the lines that say where it is. `still` [s]: when, of a still.
+
+    Raises HostError when it cannot be written or a package is missing, InputError for a time that is not in the run.
+    """
+    if kind == "page":
+        return [str(page(scene, folder))]
+    if kind == "glb":
+        return [str(write(folder / "scene.glb", glb(scene)))]
+    if kind == "osg":
+        paths = osg.write_osg(scene, folder)
+        return [str(paths[-1]), "to see it (Debian: apt install openscenegraph):", f"  {osg.viewer_line(folder)}"]
+    if kind == "plots":
+        return [str(path) for path in write_plots(scene, folder)]
+    if kind == "gif":
+        return [str(animation.write_gif(scene, folder, progress))]
+    if kind == "mp4":
+        return [str(animation.write_mp4(scene, folder, progress))]
+    assert kind == "still" and still is not None
+    return [str(animation.write_still(scene, folder, still))]
+
+
+def listed(scene: Scene, folder: Path) -> list[str]:
+    """Lines on the run and on what there is to see of it in the folder."""
+    ships = ", ".join(_plain(ship.name) for ship in scene.ships)
+    count = len(scene.events)
+    collisions = f"{count or 'no'} collision{'' if count == 1 else 's'}"
+    lines = [f"{_plain(scene.name)}: {scene.end - scene.start:g} s, {collisions}, ships {ships}"]
+    for name, what in _LISTED.items():
+        there = "" if (folder / name).exists() else " (not written yet)"
+        lines.append(f"  {name:<12} {what}{there}")
+    return lines
+
+
+def _plain(name: str) -> str:
+    return "".join(c if c.isprintable() else " " for c in name)
