@@ -33,7 +33,7 @@ class Ribbon:
 
 def ribbon(scratch: Scratch, hull: Surface, length: float) -> Ribbon:
     """The ribbon of a scratch on a ship's hull; breadth and the least length follow the ship's `length` [m]."""
-    half = float(np.clip(0.0015 * length, 0.02, 0.4))
+    half = float(np.clip(0.0016 * length, 0.02, 0.6))
     times, middle, normals = _middle(scratch, half)
     along = np.gradient(middle, axis=0)
     across = np.cross(along, normals)

@@ -206,7 +206,7 @@ def test_names_are_shown_as_text_only(browser: Chrome, guan2014: Path, tmp_path:
     shown = strange.run("return document.querySelector('.title').textContent")
     assert all(name in shown for name in names.values())
     assert strange.run("return document.title") == names["guan2014"]
-    drawn = strange.slide(6.0)
+    drawn = strange.slide(3.0)
     assert set(drawn["poses"]) == {names["own"], names["target"]}
     assert drawn["effects"] == 4
     assert strange.complaints() == []

@@ -86,7 +86,14 @@ def _data(scene: Scene) -> dict[str, Any]:
         "name": scene.name,
         "version": __version__,
         "ships": [
-            {"name": s.name, "model": s.model, "kind": s.kind, "L_oa": s.L_oa, "colour": topsides(i).colour}
+            {
+                "name": s.name,
+                "model": s.model,
+                "kind": s.kind,
+                "L_oa": s.L_oa,
+                "colour": topsides(i).colour,
+                "height": -float(s.hull.vertices[:, 2].min()),
+            }  # fmt: skip
             for i, s in enumerate(scene.ships)
         ],
         "scratches": [

@@ -66,6 +66,7 @@ function makePlot(plot, data, clock, colourOf, cursor) {
       width: 320,
       height: HEIGHT,
       padding: [6, 10, 0, 0],
+      pxAlign: 0,
       legend: { show: false },
       cursor: { sync: { key: cursor.key }, drag: { x: true, y: false, dist: 6 }, points: { size: 5 }, y: false },
       scales: {

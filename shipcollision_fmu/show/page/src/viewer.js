@@ -18,6 +18,17 @@ function setSun({ camera, controls }) {
   SUN.set(Math.cos(azimuth), 0.62, Math.sin(azimuth)).normalize();
 }
 
+/** The ships in the order of the scene: node, what is known of them, track. */
+function shipsOf(gltf, data) {
+  const found = [];
+  gltf.scene.traverse((node) => {
+    if (node.userData.ship === undefined) return;
+    const known = data.ships.find(({ name }) => name === node.userData.ship);
+    found.push({ node, info: { ...node.userData, ...known }, track: new Track(gltf.animations[0], node) });
+  });
+  return found.sort((a, b) => data.ships.findIndex(({ name }) => name === a.info.name) - data.ships.findIndex(({ name }) => name === b.info.name));
+}
+
 /** Whether the processor draws, for want of a graphics card: then pictures are made with less care. */
 export function drawsInSoftware() {
   const gl = document.createElement("canvas").getContext("webgl2");
@@ -40,8 +51,11 @@ export async function makeViewer(canvas, data, glb, isSmooth) {
   const gltf = await new GLTFLoader().parseAsync(glb, "");
   const world = new THREE.Scene();
   world.add(gltf.scene);
+  const ships = shipsOf(gltf, data);
   const sky = makeSky();
-  const sea = makeSea();
+  const sea = makeSea(ships.map(({ info }) => ({
+    halfLength: 0.48 * info.L_oa, halfBreadth: 0.47 * info.B, height: info.height, colour: info.colour,
+  })));
   world.fog = new THREE.Fog(sea.haze, 4000, 22000);
   world.add(sky.dome, sky.sun, sky.sun.target, sky.ambient, sea.mesh);
   const { shadow } = sky.sun;
@@ -57,15 +71,12 @@ export async function makeViewer(canvas, data, glb, isSmooth) {
   action.play();
   action.paused = true; // its time is set, not run
 
-  const ships = [];
   gltf.scene.traverse((node) => {
-    if (node.userData.ship !== undefined) ships.push({ node, info: { ...node.userData, name: node.userData.ship }, track: new Track(clip, node) });
     if (node.isMesh && node.userData.scratch === undefined) {
       node.castShadow = true;
       node.receiveShadow = true;
     }
   });
-  ships.sort((a, b) => data.ships.findIndex(({ name }) => name === a.info.name) - data.ships.findIndex(({ name }) => name === b.info.name));
   const nodeOf = (name) => ships.find(({ info }) => info.name === name).node;
   const wakes = ships.map(({ track, info }) => makeWake(track, info));
   world.add(...wakes.map(({ mesh }) => mesh));
@@ -92,7 +103,10 @@ export async function makeViewer(canvas, data, glb, isSmooth) {
     cameras.follow(time);
     const { camera, controls } = cameras;
     for (const wake of wakes) if (wake.mesh.visible) wake.update(time - data.start);
-    sea.update(time, camera);
+    sea.update(time, camera, ships.map(({ node }) => ({
+      position: node.getWorldPosition(new THREE.Vector3()),
+      ahead: new THREE.Vector3(1, 0, 0).transformDirection(node.matrixWorld),
+    })));
     sky.sun.target.position.copy(controls.target);
     sky.sun.position.copy(controls.target).addScaledVector(SUN, 1200);
     const seen = `${time} ${controls.target.toArray()}`;
