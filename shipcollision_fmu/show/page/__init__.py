@@ -22,7 +22,7 @@ from ...errors import HostError
 from ..files import write
 from ..gltf import extras, glb
 from ..palette import topsides
-from ..scene import Scene, load_scene
+from ..scene import Scene, Ship, load_scene
 from ..signals import Signals
 
 __all__ = ["PAGE", "replay_html", "write_page"]
@@ -85,22 +85,24 @@ def _data(scene: Scene) -> dict[str, Any]:
         **extras(scene),
         "name": scene.name,
         "version": __version__,
-        "ships": [
-            {
-                "name": s.name,
-                "model": s.model,
-                "kind": s.kind,
-                "L_oa": s.L_oa,
-                "colour": topsides(i).colour,
-                "height": -float(s.hull.vertices[:, 2].min()),
-            }  # fmt: skip
-            for i, s in enumerate(scene.ships)
-        ],
+        "ships": [_ship(i, ship) for i, ship in enumerate(scene.ships)],
         "scratches": [
             {"id": s.id, "ship": s.ship, "other": s.other, "times": s.times.tolist()} for s in scene.scratches
         ],
         "least_clearance": min((float(curve.values.min()) for curve in clearance), default=None),
         "signals": _signals(scene.signals),
+    }
+
+
+def _ship(index: int, ship: Ship) -> dict[str, Any]:
+    """What the page shows of a ship in words; `height` is that of the deck above the waterline [m]."""
+    return {
+        "name": ship.name,
+        "model": ship.model,
+        "kind": ship.kind,
+        "L_oa": ship.L_oa,
+        "colour": topsides(index).colour,
+        "height": -float(ship.hull.vertices[:, 2].min()),
     }
 
 
