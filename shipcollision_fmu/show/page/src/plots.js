@@ -8,6 +8,8 @@ import { isDark, lineColour, onTheme } from "./theme.js";
 
 const HEIGHT = 108;
 const same = (x) => x;
+/** A number on an axis: as short as it goes, without groups, which look like decimals elsewhere. */
+const mark = (value) => String(Number(value.toPrecision(6))).replace("-", "\u2212");
 
 // Title, unit, what of the scene it shows, factor or function to that unit, digits, least range of the axis.
 const PLOTS = [
@@ -60,7 +62,7 @@ function makePlot(plot, data, clock, colourOf, cursor) {
 
   const ink = () => (isDark() ? "#9fb0bd" : "#5a6b78");
   const rule = () => (isDark() ? "rgba(255,255,255,0.07)" : "rgba(20,40,60,0.09)");
-  const axis = { stroke: ink, grid: { stroke: rule, width: 1 }, ticks: { show: false }, font: "11px system-ui, sans-serif" };
+  const axis = { stroke: ink, grid: { stroke: rule, width: 1 }, ticks: { show: false }, font: "11px system-ui, sans-serif", values: (_, marks) => marks.map(mark) };
   const chart = new uPlot(
     {
       width: 320,

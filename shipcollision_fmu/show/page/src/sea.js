@@ -41,7 +41,7 @@ export function makeSea(ships) {
           vec2 ahead = uPlaces[i].zw;
           mat2 toShip = mat2(ahead.x, -ahead.y, ahead.y, ahead.x);
           vec2 o = toShip * (from.xz - uPlaces[i].xy), d = toShip * broken.xz;
-          vec3 origin = vec3(o, from.y), ray = vec3(d, broken.y);
+          vec3 origin = vec3(o, from.y), ray = vec3(d, broken.y) + 1e-6; // never 0
           vec3 low = (vec3(-uSizes[i].xy, 0.0) - origin) / ray, high = (uSizes[i] - origin) / ray;
           vec3 enter = min(low, high), leave = max(low, high);
           float t = max(max(enter.x, enter.y), enter.z), end = min(min(leave.x, leave.y), leave.z);

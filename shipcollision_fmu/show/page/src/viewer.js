@@ -14,7 +14,7 @@ const SHADOW_REACH = 420; // around what the camera looks at [m]
 /** Puts the sun behind the shoulder of whoever looks first, so that the sides that are seen are lit. */
 function setSun({ camera, controls }) {
   const from = camera.position.clone().sub(controls.target);
-  const azimuth = Math.atan2(from.z, from.x) + 0.9;
+  const azimuth = Math.atan2(from.z, from.x) + 0.6;
   SUN.set(Math.cos(azimuth), 0.62, Math.sin(azimuth)).normalize();
 }
 
