@@ -16,6 +16,4 @@ def require(module: str, what: str) -> None:
     """Raise HostError, with the command that helps, when `module` is not installed. `what`: needs it, in words."""
     if find_spec(module) is None:
         package = _PACKAGES[module]
-        raise HostError(
-            f"{what} needs the package {package}, which is not installed: run `python -m pip install {package}`"
-        )
+        raise HostError(f"{what} needs the package {package}: run `python -m pip install {package}`")

@@ -41,7 +41,7 @@ LONGEST_LINE = 200
 LIFT = 0.15
 """Of a scratch off the plating [m], which would hide it in part."""
 DENT = 1.5
-"""Arm of the cross that marks a scratch of one point [m]."""
+"""Arm of the cross that marks a scratch that is shorter than it [m]."""
 LINE_WIDTH = 4.0
 CAMERA_ERROR = 0.05
 """What thinning may move the camera by [m]."""
@@ -196,8 +196,8 @@ def _array(kind: str, binding: str, rows: Array) -> Item:
 def _scratch(scratch: Scratch, delay: float) -> Item:
     """A line that grows: child i of the sequence is drawn from the i-th time on, child 0, nothing, before the first."""
     points = scratch.points + LIFT * scratch.normals
-    if len(points) == 1:
-        points, mode, counts, times = _cross(points[0], scratch.normals[0]), "LINES", [4], scratch.times
+    if np.linalg.norm(np.diff(points, axis=0), axis=1).sum() < DENT:
+        points, mode, counts, times = _cross(points[0], scratch.normals[0]), "LINES", [4], scratch.times[:1]
     else:
         mode = "LINE_STRIP"
         chosen = np.unique(np.round(np.linspace(1, len(points) - 1, LONGEST_LINE)).astype(int))

@@ -48,8 +48,7 @@ def made(kind: str, scene: Scene, folder: Path, still: float | None, progress: C
         return [str(animation.write_gif(scene, folder, progress))]
     if kind == "mp4":
         return [str(animation.write_mp4(scene, folder, progress))]
-    assert kind == "still" and still is not None
-    return [str(animation.write_still(scene, folder, still))]
+    return [str(animation.write_still(scene, folder, scene.start if still is None else still))]
 
 
 def listed(scene: Scene, folder: Path) -> list[str]:
