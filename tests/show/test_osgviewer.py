@@ -139,7 +139,7 @@ def test_the_impact_is_seen(guan2014: Path, tmp_path: Path) -> None:
     assert said == []
     assert agreement(red(before), expected(scene, eye, scene.start, "topsides 1")) > 0.9
     assert agreement(blue(before), expected(scene, eye, scene.start, "topsides 0")) > 0.85
-    assert (fire(during, before) & ~place).sum() < 0.3 * (fire(during, before) & place).sum()
+    assert (fire(during, before) & ~place).sum() < (fire(during, before) & place).sum()  # ochre that has moved
 
 
 def test_the_end_is_seen(guan2014: Path, tmp_path: Path) -> None:
