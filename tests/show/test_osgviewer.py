@@ -115,7 +115,7 @@ def blue(pixels: np.ndarray) -> np.ndarray:
 
 
 def fire(pixels: np.ndarray, before: np.ndarray) -> np.ndarray:
-    """Yellow and orange flames, where there was another colour before: some containers are ochre."""
+    """Yellow and orange flames, where there was another colour before."""
     r, g, b = np.moveaxis(pixels.astype(int), 2, 0)
     changed = np.abs(pixels.astype(int) - before).max(axis=2) > 40
     return changed & (r > 190) & (g > 95) & (b < 110) & (r > g + 20)
@@ -129,8 +129,10 @@ def around(eye: Eye, point: np.ndarray, radius: float) -> np.ndarray:
 
 
 def test_the_impact_is_seen(guan2014: Path, tmp_path: Path) -> None:
-    """Before: two ships. During: fire where they touch. Nothing is complained of."""
+    """Before: two ships. During: fire where they touch. Nothing is complained of. The decks are bare: some containers
+    have the colour of fire."""
     scene = load_scene(guan2014)
+    scene = replace(scene, ships=tuple(replace(ship, fittings=()) for ship in scene.ships))
     with viewer(scene, tmp_path) as (shown, said):
         eye = eye_at(tmp_path, 0.0)
         before = wait(shown, lambda pixels: bool(red(pixels).sum() > 500), "the target")
@@ -139,7 +141,7 @@ def test_the_impact_is_seen(guan2014: Path, tmp_path: Path) -> None:
     assert said == []
     assert agreement(red(before), expected(scene, eye, scene.start, "topsides 1")) > 0.9
     assert agreement(blue(before), expected(scene, eye, scene.start, "topsides 0")) > 0.85
-    assert (fire(during, before) & ~place).sum() < (fire(during, before) & place).sum()  # ochre that has moved
+    assert (fire(during, before) & ~place).sum() < 0.5 * (fire(during, before) & place).sum()
 
 
 def test_the_end_is_seen(guan2014: Path, tmp_path: Path) -> None:
