@@ -12,6 +12,8 @@ from __future__ import annotations
 
 import io
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -30,7 +32,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from matplotlib.lines import Line2D
 
-__all__ = ["FOLDER", "figures", "write_plots"]
+__all__ = ["FOLDER", "drawn", "saved", "write_plots"]
 
 FOLDER = "plots"
 WIDTH = 7.2
@@ -54,29 +56,37 @@ def write_plots(scene: Scene, folder: Path) -> list[Path]:
     """Write the figures into `folder`/plots; returns the paths. Raises HostError, also without Matplotlib."""
     require("matplotlib", "a figure")
     paths = []
-    for name, images in figures(scene).items():
-        paths += [write(folder / FOLDER / f"{name}.{kind}", data) for kind, data in images.items()]
+    for name, figure in drawn(scene).items():
+        paths += [write(folder / FOLDER / f"{name}.{kind}", saved(figure, kind)) for kind in ("png", "svg")]
     return paths
 
 
-def figures(scene: Scene) -> dict[str, dict[str, bytes]]:
-    """The files of each figure, by name and by kind, "png" and "svg"."""
-    import matplotlib
+def drawn(scene: Scene) -> dict[str, Figure]:
+    """The figures by name."""
     from matplotlib.figure import Figure
 
     made = {}
-    with matplotlib.rc_context(_STYLE), warnings.catch_warnings():
-        warnings.filterwarnings("ignore", "Glyph .* missing from", UserWarning)  # a name may be in any script
+    with _style():
         for name, draw in (("track", _track), ("motion", _motion), ("energy", _energy)):
-            figure = Figure(layout="constrained")
-            draw(figure, scene)
-            made[name] = {"png": _saved(figure, "png"), "svg": _saved(figure, "svg")}
+            made[name] = Figure(layout="constrained")
+            draw(made[name], scene)
     return made
 
 
-def _saved(figure: Figure, kind: str) -> bytes:
+@contextmanager
+def _style() -> Iterator[None]:
+    import matplotlib
+
+    with matplotlib.rc_context(_STYLE), warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "Glyph .* missing from", UserWarning)  # a name may be in any script
+        yield
+
+
+def saved(figure: Figure, kind: str) -> bytes:
+    """The figure's file of that kind, "png" or "svg"; the same bytes for the same figure."""
     data = io.BytesIO()
-    figure.savefig(data, format=kind, metadata={"Date": None} if kind == "svg" else {"Software": None})
+    with _style():
+        figure.savefig(data, format=kind, metadata={"Date": None} if kind == "svg" else {"Software": None})
     return data.getvalue()
 
 
