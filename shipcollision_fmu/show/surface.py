@@ -18,6 +18,8 @@ FLAT = 1e-9
 """Twice the area over the squared longest edge below which a triangle counts as none: it has no normal."""
 EDGE = 0.01
 """Faces whose distance differs by less than this meet at an edge, as far as a picture is concerned [m]."""
+TOGETHER = 32
+"""Neighbouring points that are looked at together."""
 CREASE = np.cos(np.radians(35.0))
 """Faces that meet at less than 35 deg are shaded as one round surface."""
 
@@ -102,12 +104,9 @@ def nearest(surface: Surface, points: Array) -> tuple[Array, Array]:
     """
     faces = _Faces(surface)
     found, outwards = np.empty((len(points), 3)), np.empty((len(points), 3))
-    for i, point in enumerate(points):
-        candidates, rows = faces.nearest(point)
-        gap = np.sqrt(((candidates - point) ** 2).sum(axis=1))
-        level = np.abs(faces.normals[rows, 2])
-        at = int(np.where(gap <= gap.min() + EDGE, level, np.inf).argmin())
-        found[i], outwards[i] = candidates[at], faces.normals[rows[at]]
+    for start in range(0, len(points), TOGETHER):
+        rows = slice(start, start + TOGETHER)
+        found[rows], outwards[rows] = faces.nearest(points[rows])
     return found, outwards
 
 
@@ -123,17 +122,30 @@ class _Faces:
         self.normals = face_normals(surface)
         self._inwards = np.cross(self.normals[:, None], self._edges)  # of each edge, in the triangle's plane
 
-    def nearest(self, x: Array) -> tuple[Array, Indices]:
-        """Nearest point to x of every triangle that may be the nearest (j, 3), and which these are (j,).
+    def nearest(self, points: Array) -> tuple[Array, Array]:
+        """Nearest points (k, 3) and normals there (k, 3), of neighbouring points (k, 3)."""
+        near = self._near(points)
+        on_faces = self._nearest_of_each(points[:, None], near)  # (k, j, 3)
+        gaps = np.sqrt(((on_faces - points[:, None]) ** 2).sum(axis=2))
+        level = np.abs(self.normals[near, 2])
+        pick = np.where(gaps <= gaps.min(axis=1)[:, None] + EDGE, level, np.inf).argmin(axis=1)
+        return on_faces[np.arange(len(points)), pick], self.normals[near[pick]]
 
-        That of the triangle's plane where it is inside, else that of the nearest edge.
-        """
-        away = np.sqrt(((self._centres - x) ** 2).sum(axis=1))
-        rows = np.flatnonzero(away - self._radii <= (away + self._radii).min())
+    def _near(self, points: Array) -> Indices:
+        """Rows of all triangles that may be the nearest to one of the points."""
+        middle = points.mean(axis=0)
+        spread = np.sqrt(((points - middle) ** 2).sum(axis=1).max())
+        away = np.sqrt(((self._centres - middle) ** 2).sum(axis=1))
+        return np.flatnonzero(away - self._radii <= (away + self._radii).min() + 2.0 * spread + EDGE)
+
+    def _nearest_of_each(self, x: Array, rows: Indices) -> Array:
+        """Nearest point of each triangle (j) to x (k, 1, 3): that of its plane if inside, else that of an edge."""
         corners, edges, normals = self._corners[rows], self._edges[rows], self.normals[rows]
-        foot = x - ((x - corners[:, 0]) * normals).sum(axis=1)[:, None] * normals
-        inside = (((foot[:, None] - corners) * self._inwards[rows]).sum(axis=2) >= 0.0).all(axis=1)
-        share = np.clip(((x - corners) * edges).sum(axis=2) / self._squares[rows], 0.0, 1.0)
-        on_edges = corners + share[..., None] * edges
-        pick = ((on_edges - x) ** 2).sum(axis=2).argmin(axis=1)
-        return np.where(inside[:, None], foot, on_edges[np.arange(len(rows)), pick]), rows
+        foot = x - ((x - corners[:, 0]) * normals).sum(axis=2)[..., None] * normals
+        inside = (((foot[:, :, None] - corners) * self._inwards[rows]).sum(axis=3) >= 0.0).all(axis=2)
+        from_corners = x[:, :, None] - corners
+        share = np.clip((from_corners * edges).sum(axis=3) / self._squares[rows], 0.0, 1.0)
+        on_edges = corners + share[..., None] * edges  # (k, j, 3, 3)
+        pick = ((on_edges - x[:, :, None]) ** 2).sum(axis=3).argmin(axis=2)
+        on_edge = np.take_along_axis(on_edges, pick[..., None, None], axis=2)[:, :, 0]
+        return np.where(inside[..., None], foot, on_edge)

@@ -19,7 +19,7 @@ __all__ = ["Page", "chromium"]
 FLAGS = (
     "--headless", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
     "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update",
-    "--disable-sync", "--disable-dev-shm-usage", "--window-size=920,560",
+    "--disable-sync", "--disable-dev-shm-usage",
 )  # fmt: skip
 LONGEST_START = 30.0
 """Wait for a page [s]: the machine may be busy with other tests."""
@@ -48,16 +48,24 @@ WHOLE = """
 class Page:
     """A replay page, open."""
 
-    def __init__(self, driver: Chrome, path: Path, wishes: str = "") -> None:
+    def __init__(self, driver: Chrome, path: Path, wishes: str = "", size: tuple[int, int] = (920, 560)) -> None:
         self.driver, self.path = driver, path
-        driver.get("about:blank")
+        self._address, self._size = f"{path.as_uri()}{wishes and '#'}{wishes}", size
+        self.open()
+
+    def open(self) -> None:
+        """Opens the page, unless the browser has it open."""
+        if self.driver.current_url == self._address:
+            return
+        self.driver.set_window_size(*self._size)
+        self.driver.get("about:blank")
         for kind in ("performance", "browser"):
             self._logged(kind)  # of the page before
-        driver.get(f"{path.as_uri()}{wishes and '#'}{wishes}")
-        WebDriverWait(driver, LONGEST_START, poll_frequency=0.05).until(
+        self.driver.get(self._address)
+        WebDriverWait(self.driver, LONGEST_START, poll_frequency=0.05).until(
             lambda d: d.execute_script("return document.body?.dataset.ready")
         )
-        assert driver.execute_script("return document.body.dataset.ready") == "true", self.complaints()
+        assert self.run("return document.body.dataset.ready") == "true", self.complaints()
 
     def run(self, script: str, *arguments: Any) -> Any:
         """Runs JavaScript in the page; its `return` comes back."""

@@ -26,6 +26,8 @@ from .conftest import MakeRun
 from .foreign import with_many_collisions, with_names
 
 CENTIMETRE = 0.01
+SMALL = (500, 440)
+"""Size of the window [pixels] where drawing takes long without a graphics card."""
 TIMES = ("before", "during", "after")
 
 
@@ -50,8 +52,15 @@ def scene(folder: Path) -> Scene:
 
 
 @pytest.fixture(scope="module")
-def page(browser: Chrome, folder: Path) -> Page:
+def opened(browser: Chrome, folder: Path) -> Page:
     return Page(browser, folder / "replay.html")
+
+
+@pytest.fixture
+def page(opened: Page) -> Page:
+    """The page of a shipped run, open; left as it was by the test before."""
+    opened.open()
+    return opened
 
 
 def moments(scene: Scene, folder: Path) -> dict[str, float]:
@@ -184,7 +193,7 @@ def test_playing_goes_on_to_the_end_and_stops(page: Page, scene: Scene) -> None:
 def test_the_full_picture_is_drawn_without_a_complaint(browser: Chrome, guan2014: Path) -> None:
     """Waves, wakes, shadows, smooth edges: what a machine with a graphics card shows."""
     write_page(guan2014)
-    full = Page(browser, guan2014 / "replay.html", "plain=no&t=1.2&camera=impact")
+    full = Page(browser, guan2014 / "replay.html", "plain=no&t=1.2&camera=impact", SMALL)
     full.run("replay.drawn()")
     assert full.run("return document.getElementById('plain').getAttribute('aria-pressed')") == "false"
     first = full.fingerprint()
@@ -226,7 +235,7 @@ def test_no_contact_is_said_in_words(browser: Chrome, meeting: MakeRun) -> None:
 def test_a_hundred_collisions_are_listed_and_shown(browser: Chrome, guan2014: Path, tmp_path: Path) -> None:
     path = write_page(with_many_collisions(guan2014, tmp_path / "run", 100))
     assert path.stat().st_size < 5e6
-    many = Page(browser, path)
+    many = Page(browser, path, size=SMALL)
     assert many.run("return document.querySelectorAll('.events tbody tr').length") == 100
     scene = load_scene(tmp_path / "run")
     drawn = many.slide(3.0)
