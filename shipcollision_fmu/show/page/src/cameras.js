@@ -9,7 +9,7 @@ export class Cameras {
   constructor(canvas, ships, data, changed) {
     this.ships = ships; // [{node, info, track}], poses current
     this.data = data;
-    this.camera = new THREE.PerspectiveCamera(38, 1, 1, 40000);
+    this.camera = new THREE.PerspectiveCamera(38, 1, 1, 80000);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.maxPolarAngle = 0.497 * Math.PI; // stays above the water
     this.controls.minDistance = 8;
@@ -29,12 +29,21 @@ export class Cameras {
   /** The point in the world that a mode keeps in view, or null. */
   anchor(mode, time) {
     if (mode.startsWith("ship-")) return this.ships[Number(mode.slice(5))].node.getWorldPosition(new THREE.Vector3());
+    if (mode === "all") return this.fleet().middle;
     if (mode === "impact") {
       const effect = this.effectAt(time);
       const { node } = this.ships.find(({ info }) => info.name === effect.ship);
       return node.localToWorld(new THREE.Vector3(...effect.point));
     }
     return null;
+  }
+
+  /** The middle of the ships as they lie now, a little above the water, and the distance from it to the farthest end. */
+  fleet() {
+    const places = this.ships.map(({ node }) => node.getWorldPosition(new THREE.Vector3()));
+    const middle = new THREE.Box3().setFromPoints(places).getCenter(new THREE.Vector3()).setY(6);
+    const span = Math.max(...places.map((place, i) => place.distanceTo(middle) + 0.5 * this.ships[i].info.L_oa));
+    return { middle, span };
   }
 
   /** The latest explosion, or the first one if there has been none. */
@@ -50,6 +59,7 @@ export class Cameras {
     this.controls.target.copy(at.target);
     this.camera.position.copy(at.position);
     this.last = this.anchor(mode, time);
+    this.lastSpan = this.fleet().span;
     this.controls.update();
   }
 
@@ -62,6 +72,12 @@ export class Cameras {
       this.camera.position.add(moved);
     }
     this.last = anchor;
+    if (this.mode === "all") {
+      const { span } = this.fleet(); // ships that part or meet fill the picture as before
+      const offset = this.camera.position.clone().sub(this.controls.target).multiplyScalar(span / this.lastSpan);
+      this.camera.position.copy(this.controls.target).add(offset);
+      this.lastSpan = span;
+    }
     this.controls.update();
     const distance = this.camera.position.distanceTo(this.controls.target);
     const near = Math.max(0.4, 0.03 * distance);
@@ -76,31 +92,21 @@ export class Cameras {
     this.camera.updateProjectionMatrix();
   }
 
-  /** All ships from the present to the first impact, seen from where they hide each other least. */
+  /** All ships as they lie now, seen from where they will hide each other least when they meet. */
   overview(time) {
-    const points = [];
-    const position = new THREE.Vector3();
-    const quaternion = new THREE.Quaternion();
+    const target = this.fleet().middle;
+    const points = this.ships.flatMap(({ node, info }) =>
+      [-0.5, 0.5].map((along) => node.localToWorld(new THREE.Vector3(along * info.L_oa, 0, 0))),
+    );
     const { start, end, events } = this.data;
     const impact = events.find((event) => event.time >= time) ?? events.at(-1);
-    const moments = [time - start, (impact ? Math.max(impact.time, time) : Math.min(end, time + 30)) - start];
-    for (const { track, info } of this.ships) {
-      for (const moment of moments) {
-        track.at(moment, position, quaternion);
-        for (const along of [-0.5, 0.5]) {
-          const ahead = new THREE.Vector3(along * info.L_oa, 0, 0).applyQuaternion(quaternion);
-          points.push(toWorld(ahead.add(position)));
-        }
-      }
-    }
-    const middle = new THREE.Box3().setFromPoints(points).getCenter(new THREE.Vector3());
-    const target = new THREE.Vector3(middle.x, 6, middle.z);
+    const moment = (impact ? Math.max(impact.time, time) : Math.min(end, time + 30)) - start;
     const centres = this.ships.map(({ track }) => {
-      track.at(moments[1], position, quaternion);
-      return toWorld(position.clone());
+      const position = new THREE.Vector3();
+      track.at(moment, position, new THREE.Quaternion());
+      return toWorld(position);
     });
-    const direction = this.bestDirection(centres);
-    return { target, position: this.backOff(target, direction, points) };
+    return { target, position: this.backOff(target, this.bestDirection(centres), points) };
   }
 
   /** The horizontal direction, raised by 17 deg, from which ships lie side by side and the struck side shows. */

@@ -112,7 +112,7 @@ async function start() {
 start().catch((error) => {
   const message = document.createElement("p");
   message.className = "failure";
-  message.textContent = `The picture cannot be shown: ${error.message}. It needs WebGL 2.`;
+  message.textContent = `The picture cannot be shown: ${error.message.replace(/\.$/, "")}. It needs WebGL 2, which this browser does not offer or has switched off.`;
   document.body.append(message);
   document.body.dataset.ready = "failed";
   throw error;

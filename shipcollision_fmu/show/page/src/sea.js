@@ -3,7 +3,7 @@
 import * as THREE from "three";
 import { HAZE, SKY_GLSL, SUN_UNIFORM } from "./sky.js";
 
-const RADIUS = 30000;
+const RADIUS = 60000; // [m]
 
 /** `ships`: of each, half length, half breadth and height of the deck above the waterline [m], and its colour. */
 export function makeSea(ships) {
@@ -12,6 +12,7 @@ export function makeSea(ships) {
   const material = new THREE.ShaderMaterial({
     uniforms: {
       uTime: { value: 0 },
+      uHaze: { value: 9000 },
       uSun: SUN_UNIFORM,
       uPlaces: { value: places },
       uSizes: { value: vectors(({ halfLength, halfBreadth, height }) => new THREE.Vector3(halfLength, halfBreadth, height)) },
@@ -25,7 +26,7 @@ export function makeSea(ships) {
         gl_Position = projectionMatrix * viewMatrix * world;
       }`,
     fragmentShader: /* glsl */ `
-      uniform float uTime;
+      uniform float uTime, uHaze;
       varying vec3 vWorld;
       const int SHIPS = ${ships.length};
       uniform vec4 uPlaces[SHIPS];
@@ -104,7 +105,7 @@ export function makeSea(ships) {
         colour = mix(colour, vec3(0.72, 0.82, 0.86), 0.45 * hulls.x * smoothstep(-0.03, 0.10, slope.x + slope.y));
         float glint = pow(max(dot(mirrored, uSun), 0.0), 260.0);
         colour += vec3(1.0, 0.9, 0.75) * glint * 1.1;
-        colour = mix(colour, HAZE, 1.0 - exp(-pow(distance_ / 9000.0, 1.4)));
+        colour = mix(colour, HAZE, 1.0 - exp(-pow(distance_ / uHaze, 1.4)));
         gl_FragColor = vec4(colour, 1.0);
         #include <tonemapping_fragment>
         #include <colorspace_fragment>
@@ -119,8 +120,9 @@ export function makeSea(ships) {
     setPlain(isPlain) {
       mesh.material = isPlain ? plain : material;
     },
-    /** `poses`: of each ship, where midship is and where ahead is, in the page's world. */
-    update(time, camera, poses) {
+    /** `poses`: of each ship, where midship is and where ahead is, in the page's world; `haze`: how far one sees [m]. */
+    update(time, camera, poses, haze) {
+      material.uniforms.uHaze.value = haze;
       poses.forEach(({ position, ahead }, i) => {
         const length = Math.hypot(ahead.x, ahead.z) || 1;
         places[i].set(position.x, position.z, ahead.x / length, ahead.z / length);

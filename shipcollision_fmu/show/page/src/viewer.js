@@ -3,6 +3,7 @@ import * as THREE from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { Cameras } from "./cameras.js";
 import { addEffects } from "./effects.js";
+import { makeLabels } from "./labels.js";
 import { growScratches } from "./scratches.js";
 import { makeSea } from "./sea.js";
 import { makeSky, SUN } from "./sky.js";
@@ -80,6 +81,8 @@ export async function makeViewer(canvas, data, glb, isSmooth) {
   const nodeOf = (name) => ships.find(({ info }) => info.name === name).node;
   const wakes = ships.map(({ track, info }) => makeWake(track, info));
   world.add(...wakes.map(({ mesh }) => mesh));
+  const labels = makeLabels(ships, canvas);
+  canvas.after(labels.node);
   const showScratches = growScratches(gltf.scene);
   const showEffects = addEffects(data.effects, nodeOf);
 
@@ -103,16 +106,19 @@ export async function makeViewer(canvas, data, glb, isSmooth) {
     cameras.follow(time);
     const { camera, controls } = cameras;
     for (const wake of wakes) if (wake.mesh.visible) wake.update(time - data.start);
+    const haze = Math.max(9000, 4 * camera.position.distanceTo(controls.target)); // it must not hide what is looked at
     sea.update(time, camera, ships.map(({ node }) => ({
       position: node.getWorldPosition(new THREE.Vector3()),
       ahead: new THREE.Vector3(1, 0, 0).transformDirection(node.matrixWorld),
-    })));
+    })), haze);
+    Object.assign(world.fog, { near: 0.45 * haze, far: 2.5 * haze });
     sky.sun.target.position.copy(controls.target);
     sky.sun.position.copy(controls.target).addScaledVector(SUN, 1200);
     const seen = `${time} ${controls.target.toArray()}`;
     renderer.shadowMap.needsUpdate = seen !== shadowOf;
     shadowOf = seen;
     renderer.render(world, camera);
+    labels.update(camera);
     shown.frames++;
   }
 
