@@ -114,8 +114,11 @@ def still(scene: Scene, time: float, size: tuple[int, int] = STILL_SIZE) -> byte
     """The picture at `time` [s] as PNG. Raises InputError when the run does not have that time."""
     if not scene.start <= time <= scene.end:
         raise InputError(f"time {time:g} s is not in the run: give one from {scene.start:g} to {scene.end:g} s")
+    from PIL import Image
+
     data = io.BytesIO()
-    _indexed(_captioned(Film(scene, *size).frame(time), scene, time), 256).save(data, "PNG", optimize=True)
+    image = _captioned(Film(scene, *size).frame(time), scene, time)
+    image.quantize(palette=_palette([image]), dither=Image.Dither.NONE).save(data, "PNG", optimize=True)
     return data.getvalue()
 
 

@@ -25,7 +25,7 @@ BEARINGS = 72
 """Bearings that are looked at for a gap."""
 NEAR = 0.1
 """Hull nearer to the place than this [lengths] does not hide it: the eye is above."""
-CLOSE = 1.3
+CLOSE = 1.45
 """Distance from the place of contact, in mean lengths of the two ships."""
 
 

@@ -19,7 +19,7 @@ import numpy.typing as npt
 from ..ship.frames import Array
 from . import sea
 from .puffs import Puffs
-from .raster import Eye, nearest
+from .raster import NOTHING, Eye, Nearest, nearest
 
 __all__ = ["Backdrop", "Faces", "Line", "backdrop", "picture"]
 
@@ -83,8 +83,8 @@ def picture(
     return np.asarray(np.round(255.0 * np.clip(colour, 0.0, 1.0)), dtype=np.uint8)
 
 
-def _solids(eye: Eye, faces: Faces, lines: Sequence[Line]) -> tuple[Array, Array]:
-    """Colours (height, width, 3) of the solids and lines, and their depth, inf where there is none."""
+def _solids(eye: Eye, faces: Faces, lines: Sequence[Line]) -> tuple[Array, Nearest]:
+    """Colours (m, 3) of the triangles of solids and lines in their light, and what is seen of them."""
     corners = faces.corners
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     front = np.einsum("ij,ij->i", normals, corners[:, 0] - eye.position) < 0.0
@@ -94,8 +94,7 @@ def _solids(eye: Eye, faces: Faces, lines: Sequence[Line]) -> tuple[Array, Array
     ribbons = [_ribbon(eye, line) for line in lines]
     seen = nearest(eye, np.concatenate([corners, *ribbons]))
     painted = [np.broadcast_to(line.colour, (len(ribbon), 3)) for line, ribbon in zip(lines, ribbons, strict=True)]
-    colours = np.concatenate([faces.colours[front] * light[:, None], *painted, np.zeros((1, 3))])
-    return colours[seen.triangle], seen.depth  # NOTHING, -1, is the last
+    return np.concatenate([faces.colours[front] * light[:, None], *painted]), seen
 
 
 def _ribbon(eye: Eye, line: Line) -> Array:
@@ -111,19 +110,16 @@ def _ribbon(eye: Eye, line: Line) -> Array:
     return np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
 
 
-def _before(behind: Backdrop, colour: Array, depth: Array) -> tuple[Array, Array]:
+def _before(behind: Backdrop, colours: Array, seen: Nearest) -> tuple[Array, Array]:
     """Solids, found at the samples, before sea and sky or shining through the sea: colour and depth per pixel."""
-    mixed = behind.colour.repeat(SAMPLES, axis=0).repeat(SAMPLES, axis=1)
-    row, column = np.nonzero(np.isfinite(depth))
+    row, column = np.nonzero(seen.triangle != NOTHING)
     pixel = (row // SAMPLES, column // SAMPLES)
-    way = (depth[row, column] - behind.depth[pixel]) * behind.stretch[pixel]
-    share = np.where(way > 0.0, SURFACE * sea.clarity(way), 1.0)
-    mixed[row, column] += share[:, None] * (colour[row, column] - mixed[row, column])
-    averaged = np.zeros_like(behind.colour)
-    for i in range(SAMPLES):
-        for j in range(SAMPLES):
-            averaged += mixed[i::SAMPLES, j::SAMPLES] / SAMPLES**2
-    return averaged, np.minimum(depth[::SAMPLES, ::SAMPLES], behind.depth)
+    way = (seen.depth[row, column] - behind.depth[pixel]) * behind.stretch[pixel]
+    share = np.where(way > 0.0, SURFACE * sea.clarity(way), 1.0) / SAMPLES**2
+    change = share[:, None] * (colours[seen.triangle[row, column]] - behind.colour[pixel])
+    place = np.ravel_multi_index(pixel, behind.depth.shape)
+    summed = [np.bincount(place, change[:, k], behind.depth.size).reshape(behind.depth.shape) for k in range(3)]
+    return behind.colour + np.stack(summed, axis=-1), np.minimum(seen.depth[::SAMPLES, ::SAMPLES], behind.depth)
 
 
 _SPRITE = 96

@@ -84,3 +84,14 @@ def test_hundred_collisions_and_odd_names(guan2014: Path, tmp_path: Path) -> Non
     many = with_many_collisions(guan2014, tmp_path / "many", 100)
     scene = load_scene(with_names(many, tmp_path / "named", names))
     assert still(scene, 5.9, SMALL)
+
+
+def test_the_picture_of_the_readme_is_the_still_that_its_command_makes(scene: Scene) -> None:
+    """docs/guan2014.png, by `shipcollision show runs/guan2014 --still 1.4`; other versions of numpy and Pillow may
+    round otherwise."""
+    path = Path(__file__).parents[2] / "docs" / "guan2014.png"
+    assert path.stat().st_size < 300_000
+    there = np.asarray(Image.open(path).convert("RGB")).astype(int)
+    made = np.asarray(Image.open(io.BytesIO(still(scene, 1.4))).convert("RGB")).astype(int)
+    assert there.shape == made.shape == (720, 1280, 3)
+    assert np.abs(there - made).mean() < 2.0
