@@ -86,6 +86,7 @@ def test_hundred_collisions_and_odd_names(guan2014: Path, tmp_path: Path) -> Non
     assert still(scene, 5.9, SMALL)
 
 
+@pytest.mark.slow
 def test_the_picture_of_the_readme_is_the_still_that_its_command_makes(scene: Scene) -> None:
     """docs/guan2014.png, by `shipcollision show runs/guan2014 --still 1.4`; other versions of numpy and Pillow may
     round otherwise."""

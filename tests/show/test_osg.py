@@ -87,7 +87,7 @@ def test_outlines_agree_with_states_csv_to_a_centimetre(
         drawn = outline[:, [1, 0, 2]] * [1, 1, -1]  # starboard, forward, up
         for corner in drawn:
             assert np.linalg.norm(corners - corner, axis=1).min() < 1e-3, "a corner of the hull is not drawn"
-        for row in rows[:: max(1, len(rows) // 60)]:
+        for row in rows[:: max(1, len(rows) // 25)]:
             off = moved(path, row["time"] + delay, drawn) - in_the_world(row, ship, outline)
             assert np.linalg.norm(off, axis=1).max() < CM
 

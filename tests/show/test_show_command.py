@@ -43,6 +43,7 @@ def test_osg_and_glb(run: Path) -> None:
     assert stat.S_IMODE((run / "scene.osgt").stat().st_mode) == stat.S_IMODE((run / "states.csv").stat().st_mode)
 
 
+@pytest.mark.slow
 def test_plots_and_still(run: Path) -> None:
     result = shown(run, "--plots", "--still", "1")
     assert result.exit_code == 0
@@ -52,6 +53,7 @@ def test_plots_and_still(run: Path) -> None:
     assert all(Path(line).is_file() for line in result.stdout.splitlines())
 
 
+@pytest.mark.slow
 def test_films(run: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(animation, "RATE", 2.0)
     result = shown(run, "--gif", "--mp4")
