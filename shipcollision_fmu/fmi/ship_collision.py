@@ -6,6 +6,8 @@ names are those of the project's contract with other programs; renaming one is a
 
 from __future__ import annotations
 
+from math import pi
+
 from shipcollision_fmu.collision.ledger import FEEDBACKS
 from shipcollision_fmu.collision.model import ShipCollision
 from shipcollision_fmu.collision.ports import SLOTS
@@ -133,10 +135,10 @@ def _contact(name: str, path: str) -> Table:
             array=point(field, components, description),
         )  # fmt: skip
 
-    def value(field: str, unit: str, index: int, description: str) -> Variable:
+    def value(field: str, unit: str, index: int, description: str, minimum: float | None = None) -> Variable:
         return real(
             "output", f"{name}.{field}", unit, f"{path}.values", index, description, depends_on=(),
-            array=each(field, description),
+            minimum=minimum, array=each(field, description),
         )  # fmt: skip
 
     def number(field: str, description: str) -> Variable:
@@ -149,8 +151,8 @@ def _contact(name: str, path: str) -> Table:
         *triple(name, NED, "m", "point", "Contact point in n", "position"),
         *triple(f"{name}.normal", NED, "1", "normal", "Unit normal from ship_a to ship_b in n", "normal"),
         value("gap", "m", 0, "Gap, negative in overlap"),
-        value("impulse_normal", "N.s", 1, "Normal impulse over the step"),
-        value("impulse_tangential", "N.s", 2, "Friction impulse over the step"),
+        value("impulse_normal", "N.s", 1, "Normal impulse over the step", minimum=0.0),
+        value("impulse_tangential", "N.s", 2, "Friction impulse over the step", minimum=0.0),
         value("energy", "J", 3, "Energy dissipated over the step"),
         *triple(
             f"{name}.impulse", NED, "N.s", "impulse",
@@ -177,11 +179,12 @@ def _events() -> Table:
         ),
         real(
             "output", "impact.closing_speed", "m/s", "outputs.impact", 1,
-            "Closing speed along the normal at the first contact of the latest collision", depends_on=(),
+            "Closing speed along the normal at the first contact of the latest collision", minimum=0.0, depends_on=(),
         ),
         real(
             "output", "impact.angle", "rad", "outputs.impact", 2,
-            "Angle between the headings at the latest collision, 0 (same) to pi (head-on)", depends_on=(),
+            "Angle between the headings at the latest collision, 0 (same) to pi (head-on)",
+            minimum=0.0, maximum=pi, depends_on=(),
         ),
         integer(
             "output", "impact.ship_a", "outputs.impact_ship_a",
@@ -206,7 +209,7 @@ def _events() -> Table:
         real("output", "energy.tangential", "J", "outputs.energy", 2, "Part of it lost to friction", depends_on=()),
         real(
             "output", "fender.stored", "J", "outputs.fender", 0,
-            "Kinetic energy that fenders hold now; not part of energy.*", depends_on=(),
+            "Kinetic energy that fenders hold now; not part of energy.*", minimum=0.0, depends_on=(),
         ),
         real(
             "output", "fender.dissipated", "J", "outputs.fender", 1,

@@ -34,9 +34,6 @@ __all__ = ["SlaveBase", "keep", "state_from_bytes", "state_to_bytes"]
 
 T = TypeVar("T")
 
-_DIGEST = 64
-"""Characters of a digest."""
-
 INSTANTIATED, INITIALISING, RUNNING, TERMINATED = "instantiated", "initialising", "running", "terminated"
 """Phases of an instance, between which FMI has one way: reset or a restored state lead back."""
 
@@ -193,20 +190,23 @@ class SlaveBase:
 
 
 def state_to_bytes(state: Mapping[str, Any]) -> bytes:
-    """A saved state as bytes: a digest and JSON, with floats as repr, which is exact."""
-    text = json.dumps(state, separators=(",", ":")).encode()
-    return sha256(text).hexdigest().encode() + text
+    """A saved state as bytes: JSON, with floats as repr, which is exact, and a digest that shows damage."""
+    return _sealed(json.dumps(state, separators=(",", ":")).encode())
 
 
 def state_from_bytes(data: bytes) -> dict[str, Any]:
     """The state that the bytes are of. Raises InputError for damaged bytes, and for what was never a state."""
-    digest, text = data[:_DIGEST], data[_DIGEST:]
-    if sha256(text).hexdigest().encode() != digest:
+    inside = data[len(_sealed(b"")) - 1 : -1]
+    if _sealed(inside) != data:
         raise InputError("bytes that are no state, or damaged ones")
-    read = json.loads(text)
-    if not isinstance(read, dict):
+    state = json.loads(inside)
+    if not isinstance(state, dict):
         raise InputError("bytes that are no state")
-    return read
+    return state
+
+
+def _sealed(text: bytes) -> bytes:
+    return b'{"sha256":"%b","state":%b}' % (sha256(text).hexdigest().encode(), text)
 
 
 def keep(lost: object) -> None:

@@ -20,8 +20,15 @@ from shipcollision_fmu.cosim.fmu_files import ready_fmus
 from shipcollision_fmu.errors import InputError
 
 
-@pytest.mark.parametrize("fmi", [2, 3])
-@pytest.mark.parametrize("name", ["ShipCollision", "ShipManoeuvring"])
+@pytest.mark.parametrize(
+    ("name", "fmi"),
+    [
+        ("ShipCollision", 2),
+        ("ShipManoeuvring", 3),
+        pytest.param("ShipCollision", 3, marks=pytest.mark.slow),
+        pytest.param("ShipManoeuvring", 2, marks=pytest.mark.slow),
+    ],
+)
 def test_our_fmus_have_no_problem(name: str, fmi: int) -> None:
     """The one note is a fault of the wrappers: they do not tell a slave which guid the host gave."""
     assert [one.check for one in findings(ready_fmus(fmi=fmi)[name])] == ["wrong-token"]

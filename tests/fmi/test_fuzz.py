@@ -61,14 +61,21 @@ def fuzz(unpacked: Path, unpacked3: Path, real_unpacked: dict[tuple[str, int], P
     return run
 
 
-@pytest.mark.parametrize(("which", "count"), [*zip(WHICH, (100, 100, 60, 60, 20, 20), strict=True)])
+@pytest.mark.parametrize(("which", "count"), [*zip(WHICH, (100, 100, 50, 50, 10, 10), strict=True)])
 def test_random_calls_never_crash_the_host(fuzz: Fuzz, which: tuple[str, int], count: int) -> None:
     fuzz(which, 0, count)
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize(("which", "count"), [*zip(WHICH, (1000, 1000, 300, 300, 100, 100), strict=True)])
+def test_more_random_sequences(fuzz: Fuzz, which: tuple[str, int], count: int) -> None:
+    fuzz(which, 1000, count)
+
+
+@pytest.mark.soak
 @pytest.mark.parametrize(("which", "count"), [*zip(WHICH, (3500, 3500, 1000, 1000, 500, 500), strict=True)])
 def test_ten_thousand_random_sequences(fuzz: Fuzz, which: tuple[str, int], count: int) -> None:
+    """75 s of processor time."""
     fuzz(which, 10_000, count)
 
 

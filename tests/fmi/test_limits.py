@@ -6,8 +6,12 @@ import math
 
 import pytest
 
+from shipcollision_fmu.cosim.component import InProcessComponent
+from shipcollision_fmu.cosim.scenario import load_scenario
+from shipcollision_fmu.cosim.simulate import stepped
 from shipcollision_fmu.errors import InputError
 from shipcollision_fmu.fmi.interface import Interface
+from shipcollision_fmu.fmi.ports import Ports
 from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
 from shipcollision_fmu.fmi.variables import Variable
@@ -39,6 +43,39 @@ def test_beyond_a_limit_is_refused(made_from: Interface, line: Variable, limit: 
 def test_there_are_limits() -> None:
     names = {line.name for _, line, _, _ in LIMITED}
     assert {"friction", "restitution", "substep", "degrees_of_freedom", "own.fender.stiffness"} <= names
+
+
+@pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
+@pytest.mark.parametrize("scenario", ["guan2014", "guan2014_added_mass"])
+def test_outputs_stay_within_theirs(scenario: str, algorithm: str) -> None:
+    """In every step of a run with contact."""
+    made: list[Ports] = []
+
+    def component(name: str, ports: Ports) -> InProcessComponent:
+        made.append(ports)
+        return InProcessComponent(name, ports)
+
+    def check(done: int, total: int) -> None:
+        collision = made[-1]
+        for reference, line in limited:
+            get = collision.get_real if line.kind == "Real" else collision.get_integer
+            (value,) = get([reference])
+            assert line.minimum is None or value >= line.minimum, line.name
+            assert line.maximum is None or value <= line.maximum, line.name
+
+    table = COLLISION.table(("own", "target"))
+    limited = [
+        (k, line)
+        for k, line in enumerate(table)
+        if line.causality == "output" and (line.minimum, line.maximum) != (None, None)
+    ]
+    assert {"impact.angle", "contact[8].impulse_normal"} <= {line.name for _, line in limited}
+    stepped(
+        load_scenario(scenario).changed(algorithm=algorithm, step=None),
+        (lambda name: component(name, MANOEUVRING.ports()), lambda: component("collision", COLLISION.ports())),
+        check,
+    )
+    assert made[-1].get_integer(made[-1].references(["impact.count"])) != [0]
 
 
 @pytest.mark.parametrize("made_from", [COLLISION, MANOEUVRING])

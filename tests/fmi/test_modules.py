@@ -18,6 +18,8 @@ import shipcollision_fmu
 
 ROOT = Path(shipcollision_fmu.__file__).parent.parent
 
+SLOW = pytest.mark.slow
+
 HOST = """
 import ctypes, shutil, sys
 sys.path.insert(0, sys.argv[1])
@@ -84,8 +86,9 @@ def edit(path: Path, old: str, new: str) -> None:
     path.write_text(text.replace(old, new), encoding="utf-8")
 
 
-@pytest.mark.parametrize("second", [2, 3])
-@pytest.mark.parametrize("first", [2, 3])
+@pytest.mark.parametrize(
+    ("first", "second"), [(2, 2), (3, 3), pytest.param(2, 3, marks=SLOW), pytest.param(3, 2, marks=SLOW)]
+)
 def test_fmus_of_two_versions_refuse_to_share_a_process(
     real_unpacked: dict[tuple[str, int], Path], other: Path, tmp_path: Path, first: int, second: int
 ) -> None:
@@ -140,7 +143,7 @@ def test_the_first_folder_may_be_deleted(real_fmus: dict[tuple[str, int], Path],
     """A host unpacks an FMU for every run. Modules that are imported late, and ship files, come from a folder that is
     there."""
     folders = [unpack(real_fmus[name, fmi], tmp_path / f"{name} {k}")
-               for k in range(3) for name in ("ShipManoeuvring", "ShipCollision")]  # fmt: skip
+               for k in range(2) for name in ("ShipManoeuvring", "ShipCollision")]  # fmt: skip
     code = """
 for folder in folders:
     print(run(folder))
@@ -148,8 +151,8 @@ for folder in folders:
     assert folder != folders[-1] or not loaded().exists()
 """
     said = host(code, *folders).split()
-    assert len(said) == 6
-    assert said[0] == said[2] == said[4]
+    assert len(said) == 4
+    assert said[0] == said[2]
 
 
 def test_an_fmu_that_was_edited_is_refused(real_fmus: dict[tuple[str, int], Path], tmp_path: Path) -> None:
@@ -194,8 +197,15 @@ def foreign(folder: Path, name: str, fmi: int, answer: float) -> Path:
     return unpack(folder / f"{name}.fmu", folder / "unpacked")
 
 
-@pytest.mark.parametrize("order", ["foreign first", "ours first"])
-@pytest.mark.parametrize("fmi", [2, 3])
+@pytest.mark.parametrize(
+    ("fmi", "order"),
+    [
+        (2, "foreign first"),
+        (3, "foreign first"),
+        pytest.param(2, "ours first", marks=SLOW),
+        pytest.param(3, "ours first", marks=SLOW),
+    ],
+)
 def test_a_foreign_fmu_with_modules_of_the_same_names(
     real_unpacked: dict[tuple[str, int], Path], tmp_path: Path, fmi: int, order: str
 ) -> None:

@@ -117,8 +117,15 @@ def encounter(real_fmus: dict[tuple[str, int], Path], _tidy_path: None) -> Itera
         yield lambda fmi: Encounter(real_fmus, fmi, stack)
 
 
-@pytest.mark.parametrize("fmi", [2, 3])
-@pytest.mark.parametrize(("algorithm", "touching"), [(gauss_seidel, 2), (jacobi, 10)])
+@pytest.mark.parametrize(
+    ("algorithm", "touching", "fmi"),
+    [
+        (jacobi, 10, 2),
+        (gauss_seidel, 2, 3),
+        pytest.param(gauss_seidel, 2, 2, marks=pytest.mark.slow),
+        pytest.param(jacobi, 10, 3, marks=pytest.mark.slow),
+    ],
+)
 def test_any_step_can_be_taken_back(
     encounter: Callable[[int], Encounter], algorithm: Any, touching: int, fmi: int
 ) -> None:
@@ -171,7 +178,7 @@ with ExitStack() as stack:
 """
 
 
-@pytest.mark.parametrize("fmi", [2, 3])
+@pytest.mark.parametrize("fmi", [2, pytest.param(3, marks=pytest.mark.slow)])
 def test_a_new_process_goes_on_from_bytes(
     encounter: Callable[[int], Encounter], real_fmus: dict[tuple[str, int], Path], fmi: int
 ) -> None:

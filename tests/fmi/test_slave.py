@@ -13,6 +13,8 @@ import pytest
 from fmpy import read_model_description, simulate_fmu
 from fmpy.fmi1 import FMICallException
 
+from shipcollision_fmu.fmi.slave_base import state_to_bytes
+
 OK, DISCARD, ERROR, FATAL = 0, 2, 3, 4
 Make = Callable[..., Any]
 
@@ -120,7 +122,7 @@ def test_a_fault_of_the_model_discards_until_restored(host: Make) -> None:
     before, saved = a.everything(), a.saved()
     a.fmu.setString(a.reference("word"), ["divide"])
     assert a.step(1) == DISCARD
-    assert a.messages[-1][1].startswith("Dummy failed at t = 0.1 s: ZeroDivisionError: float division by zero (Dummy.")
+    assert a.messages[-1][1].startswith("Dummy failed at t = 0.1 s: ZeroDivisionError: float division by zero (Dummy_")
     a.fmu.setString(a.reference("word"), ["start"])
     assert a.step(1) == DISCARD  # nobody knows how far the step got
     assert a.messages[-1][1].endswith("; reset it or restore a saved state")
@@ -216,7 +218,10 @@ REFUSED = [
     (lambda a: a.fmu.getBoolean([77]), "value reference 77 is unknown"),
     (lambda a: a.fmu.getString([0]), "place.x (value reference 0) is Real, not String"),
     (lambda a: a.restore(b"not a state"), "this is not a saved state of it"),
-    (lambda a: a.restore(b'{"of": "ShipManoeuvring 0123"}'), "of 'ShipManoeuvring 0123'"),
+    (lambda a: a.restore(b""), "bytes that are no state, or damaged ones"),
+    (lambda a: a.restore(a.saved()[:-1]), "bytes that are no state, or damaged ones"),
+    (lambda a: a.restore(a.saved().replace(b"0.1", b"0.2", 1)), "bytes that are no state, or damaged ones"),
+    (lambda a: a.restore(state_to_bytes({"of": "ShipManoeuvring 0123"})), "of 'ShipManoeuvring 0123'"),
 ]
 
 
