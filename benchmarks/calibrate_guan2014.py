@@ -1,11 +1,12 @@
-"""How the free numbers of guan2014 were found: six of them, fitted to the 24 "after" numbers of Table 2.
+"""How the free numbers of guan2014 were found: eight of them, fitted to the 24 "after" numbers of Table 2.
 
     pip install scipy
     python benchmarks/calibrate_guan2014.py            the shipped values, each varied by itself, and what it does
     python benchmarks/calibrate_guan2014.py --fit      searches on from the shipped values (some minutes)
 
-The paper prints neither hulls nor the height of the centres of gravity. Free are the own ship's depth, stem rake and
-place of the stem (trim_x), the target's depth and height of CG, and the friction. Radii of gyration follow from the
+The paper prints neither hulls nor the height of the centres of gravity. Free are the own ship's depth, stem
+rake, place of the stem (trim_x), length of the bow and height of CG, the target's depth and height of CG, and the
+friction. Radii of gyration follow from the
 hull's box, as in Bullet. The cost is the 4-norm of difference / tolerance over the 24 numbers: 1 would be one number at
 the edge of its tolerance and all others exact.
 """
@@ -44,6 +45,8 @@ FREE = (
     Free("target depth [m]", 0.5),
     Free("target CG below CO [m]", 0.3),
     Free("friction", 0.01),
+    Free("own CG below CO [m]", 0.3),
+    Free("own bow_length [m]", 2.0),
 )
 
 
@@ -54,6 +57,7 @@ def shipped() -> list[float]:
     assert friction is not None
     return [
         own.hull.depth, own.hull.stem_rake_deg, own.hull.trim_x, target.hull.depth, float(target.r_bg[2]), friction,
+        float(own.r_bg[2]), own.hull.bow_length,
     ]  # fmt: skip
 
 
@@ -67,19 +71,22 @@ def ship_text(base: str, ship: Ship, depth: float, z_bg: float, **hull: float) -
 
 def differences(x: Sequence[float], folder: Path) -> np.ndarray:
     """Difference over tolerance of the 24 numbers, for the free numbers x."""
-    own_depth, rake, trim, target_depth, z_bg, friction = map(float, x)
+    own_depth, rake, trim, target_depth, z_target, friction, z_own, bow = map(float, x)
     own, target = load_ship("guan2014_own"), load_ship("guan2014_target")
-    (folder / "own.toml").write_text(ship_text("guan2014_own", own, own_depth, 0.0, stem_rake_deg=rake, trim_x=trim))
-    (folder / "target.toml").write_text(ship_text("guan2014_target", target, target_depth, z_bg))
+    (folder / "own.toml").write_text(
+        ship_text("guan2014_own", own, own_depth, z_own, stem_rake_deg=rake, trim_x=trim, bow_length=bow)
+    )
+    (folder / "target.toml").write_text(ship_text("guan2014_target", target, target_depth, z_target))
     source = (models_directory() / "scenarios" / "guan2014.toml").read_text()
     (folder / "scenario.toml").write_text(source.replace('"guan2014_own"', '"own.toml"').replace(
         '"guan2014_target"', '"target.toml"'))  # fmt: skip
     scenario = load_scenario(folder / "scenario.toml")
     # The paper's position is that of CG: CO moves as CG is put elsewhere in the hull.
-    start = scenario.ships["target"]
-    R = rotation(start.start.attitude)
-    moved = np.array(start.position) + R @ (target.r_bg - [0.0, 0.0, z_bg])
-    ships = {**scenario.ships, "target": start.model_copy(update={"position": moved.tolist()})}
+    ships = dict(scenario.ships)
+    for name, ship, z_bg in (("own", own, z_own), ("target", target, z_target)):
+        R = rotation(ships[name].start.attitude)
+        moved = np.array(ships[name].position) + R @ (ship.r_bg - [0.0, 0.0, z_bg])
+        ships[name] = ships[name].model_copy(update={"position": moved.tolist()})
     collision = scenario.collision.model_copy(update={"friction": friction})
     changed = scenario.model_copy(update={"ships": ships, "collision": collision})
     rows = simulate(changed, in_process=True).summary["paper"]
