@@ -228,7 +228,7 @@ def validate(fmu: Path, no_calls: bool, ignore: tuple[str, ...]) -> None:
     """Check that FMU complies with FMI; exit status 1 when it does not.
 
     FMU is any FMI 2.0 or 3.0 FMU. FMPy's validator is followed by checks of what it leaves out, and by calls that an
-    FMU must refuse; these run its code, each in a process of its own. Notes are good practice and do not count.
+    FMU must refuse; these run its code, in a process beside this one. Notes are good practice and do not count.
     """
     from .cosim.compliance import findings
 

@@ -165,7 +165,7 @@ def test_build_and_validate(folder: Path) -> None:
     assert built.exit_code == 0, built.stderr
     assert built.stdout.split() == ["fmus/ShipCollision.fmu", "fmus/ShipManoeuvring.fmu"]
     for path in built.stdout.split():
-        result = called("validate", path)
+        result = called("validate", path, "--no-calls")
         assert (result.exit_code, result.stdout) == (0, f"{path}: no problem found\n")
 
 
