@@ -1,4 +1,3 @@
-# ruff: noqa: T201 - a program that prints
 """A variable-step master that steps back to the instant of impact.
 
     python examples/rollback.py [--step 1.0] [--finest 1e-4] [--ship NAME_OR_FILE]

@@ -191,6 +191,39 @@ def build(out: Path, fmi: str) -> None:
 
 
 @main.command()
+@click.argument("scenario")
+@click.option("--ssp", "kind", flag_value="ssp", help="One .ssp file: System Structure and Parameterization 1.0.")
+@click.option("--osp", "kind", flag_value="osp", help="A folder for the Open Simulation Platform.")
+@click.option("--out", type=_PATH, metavar="FILE|FOLDER", help="[default: NAME.ssp or NAME-osp]")
+@click.option("--initial-orders", is_flag=True, help="Hold the orders of time 0, leave out what a helm does later.")
+def package(scenario: str, kind: str | None, out: Path | None, initial_orders: bool) -> None:
+    """Make a system of FMUs of SCENARIO for other hosts.
+
+    SCENARIO is a name that `shipcollision scenarios` lists, or the path of a TOML file. The package holds an FMU for
+    each ship and one for the collision, with the scenario's values as their start values. What a host cannot be told
+    in that way, such as a route, is refused, or left out and said so.
+    """
+    from .cosim.osp import write_osp
+    from .cosim.scenario import load_scenario
+    from .cosim.ssp import write_ssp
+
+    if kind is None:
+        raise click.UsageError("say what to make: --ssp or --osp")
+    loaded = load_scenario(scenario)
+    if kind == "ssp":
+        place = out if out is not None else Path(f"{loaded.name}.ssp")
+        if place.suffix != ".ssp":
+            raise click.UsageError(f"--out {place}: hosts know the file by its suffix; call it {place.name}.ssp")
+        left_out = write_ssp(loaded, place, initial_orders=initial_orders)
+    else:
+        place = out if out is not None else Path(f"{loaded.name}-osp")
+        left_out = write_osp(loaded, place, initial_orders=initial_orders)
+    for line in left_out:
+        click.echo(f"note: {line}", err=True)
+    click.echo(place)
+
+
+@main.command()
 def ships() -> None:
     """List the shipped ships."""
     from .cosim.report import table

@@ -222,7 +222,7 @@ def test_a_mistake_is_one_line_and_writes_nothing(
 @pytest.mark.parametrize(
     ("arguments", "status", "line"),
     [
-        (["rnu"], 2, "unknown command 'rnu': did you mean run? known: build, encounter, import, run, "),
+        (["rnu"], 2, "unknown command 'rnu': did you mean run? known: build, encounter, import, package, run, "),
         (["run", "kvlcc2_crosing"], 2, "unknown scenario 'kvlcc2_crosing': did you mean kvlcc2_crossing? known: "),
         (["run", "absent.toml"], 2, "scenario file absent.toml does not exist: give the path of a TOML file or one of"),
         (["run", "one", "two"], 2, "Got unexpected extra argument"),
@@ -391,3 +391,34 @@ def test_a_mistake_with_trial_encounter_and_import_is_one_line_and_writes_nothin
     assert result.stderr.count("\n") == 1
     assert line in result.stderr
     assert sorted(folder.rglob("*")) == before
+
+
+def test_a_package_is_a_file_or_a_folder(folder: Path) -> None:
+    done = called("package", "encounter.toml", "--ssp")
+    assert (done.exit_code, done.stdout) == (0, "encounter.ssp\n")
+    assert "note: The host chooses the algorithm; the scenario's own is gauss-seidel." in done.stderr
+    done = called("package", "encounter.toml", "--osp", "--out", "osp")
+    assert (done.exit_code, done.stdout) == (0, "osp\n")
+    assert {path.name for path in (folder / "osp").iterdir()} == {
+        "OspSystemStructure.xml", "ShipCollision_OspModelDescription.xml", "ShipManoeuvring_OspModelDescription.xml",
+        "collision.fmu", "own.fmu", "target.fmu",
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("arguments", "line"),
+    [
+        (["encounter.toml"], "error: say what to make: --ssp or --osp (see "),
+        (["encounter.toml", "--ssp", "--out", "x"], "error: --out x: hosts know the file by its suffix; call it x.ssp"),
+        (["encountr", "--ssp"], "error: unknown scenario 'encountr'"),
+        (["kvlcc2_crossing", "--ssp"], "error: kvlcc2_crossing cannot be packaged whole: [ships.own] gives orders at"),
+        (["encounter.toml", "--osp", "--out", "barge.toml"], "error: cannot write to barge.toml: it is a file"),
+    ],
+)
+def test_a_mistake_with_package_is_one_line_and_writes_nothing(folder: Path, arguments: list[str], line: str) -> None:
+    before = sorted(folder.iterdir())
+    done = called("package", *arguments)
+    assert done.exit_code != 0
+    assert done.stderr.startswith(line)
+    assert done.stderr.count("\n") == 1
+    assert sorted(folder.iterdir()) == before

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import hypot
+from pathlib import Path
 
 import numpy as np
 
@@ -47,9 +48,9 @@ class Body:
         return self.fender.thickness if self.fender else 0.0
 
 
-def prepared(names: Sequence[str], parameters: CollisionParameters) -> list[Body]:
-    """The bodies that the parameters ask for. Raises InputError."""
-    ships = [load_ship(p.ship) for p in parameters.ships]
+def prepared(names: Sequence[str], parameters: CollisionParameters, directory: Path | None = None) -> list[Body]:
+    """The bodies that the parameters ask for; ship files are looked for in `directory` first. Raises InputError."""
+    ships = [load_ship(p.ship, directory) for p in parameters.ships]
     if parameters.response == "bullet":
         _refuse_what_bullet_lacks(names, ships, parameters.ships)
     bodies = [_ship(name, ship, p) for name, ship, p in zip(names, ships, parameters.ships, strict=True)]

@@ -11,7 +11,7 @@ from .ledger import FEEDBACKS
 from .ports import CollisionParameters, ShipState
 from .responses import RESPONSES
 
-__all__ = ["check_parameters", "check_step"]
+__all__ = ["check_parameters", "check_states", "check_step"]
 
 ABSURD_SPEED = 1e3
 """Speeds [m/s] from here on are refused: a broken signal, not a ship."""
@@ -40,6 +40,11 @@ def check_step(t: float, H: float, bodies: Sequence[Body], states: Sequence[Ship
     """Raises StepError on a time, a step or a ship's state that is not finite, or absurd."""
     if not (isfinite(t) and isfinite(H) and H > 0.0):
         raise StepError(f"a step from t = {t} s by {H} s cannot be made: both must be finite and the step positive")
+    check_states(t, bodies, states)
+
+
+def check_states(t: float, bodies: Sequence[Body], states: Sequence[ShipState]) -> None:
+    """Raises StepError on a ship's state that is not finite, or absurd."""
     for body, state in zip(bodies, states, strict=False):
         if not isfinite(
             sum(state.position) + sum(state.attitude) + sum(state.velocity) + sum(state.rate)

@@ -25,6 +25,7 @@ from __future__ import annotations
 
 from collections.abc import Container, Sequence
 from math import ceil
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -34,7 +35,7 @@ from ..ship.frames import attitude_from_rotation, attitude_unwrapped
 from .ahead import state_ahead
 from .axes import contact_axes
 from .bodies import Body, prepared
-from .checks import check_parameters, check_step
+from .checks import check_parameters, check_states, check_step
 from .contact import Impulse, actual_velocity
 from .delassus import mobility
 from .detection import Detector, KeptNormals
@@ -68,6 +69,7 @@ class ShipCollision:
 
     def __init__(self, ships: Sequence[str] = ("own", "target")) -> None:
         self.names = tuple(ships)
+        self.directory: Path | None = None  # where ship files are looked for before the current folder
         self.parameters = CollisionParameters([ShipParameters() for _ in ships])
         self.inputs = CollisionInputs([ShipState() for _ in ships])
         self.outputs = CollisionOutputs([ShipPost() for _ in ships])
@@ -78,9 +80,10 @@ class ShipCollision:
 
     def initialise(self) -> None:
         """Read the parameters, load ships and obstacles, set the outputs of the start. Raises InputError on a bad
-        parameter."""
+        parameter, StepError on a state that is not finite or absurd."""
         check_parameters(self.parameters)
-        bodies = prepared(self.names, self.parameters)
+        bodies = prepared(self.names, self.parameters, self.directory)
+        check_states(0.0, bodies, self.inputs.ships)
         self.close()
         self._detector = Detector([body.hull for body in bodies])
         self._bodies, n = bodies, len(self.names)

@@ -37,7 +37,11 @@ class Neighbours:
 
     def candidates(self, shadows: Sequence[Shadow | None], states: Sequence[ShipState], H: float) -> list[Pair]:
         """Pairs that could come within the range, or touch, in H [s]; all others are out of this step. A ship without a
-        shadow yet is taken from her state."""
+        shadow yet is taken from her state.
+
+        Ships that stand on each other at the origin are ships of which nothing has been heard: FMPy's SSP master sends
+        noughts in its first step, whatever the start values are. They do not collide.
+        """
         half = 0.5 * self._range
         rectangles: list[Rectangle] = []
         for body, shadow, state in zip(self._bodies, shadows, states, strict=False):
@@ -49,7 +53,9 @@ class Neighbours:
                 d = room(body, shadow, H)
             d += half + body.reach
             rectangles.append((n - d, n + d, e - d, e + d))
-        return near_pairs(rectangles + self._standing, self._ships)
+        pairs = near_pairs(rectangles + self._standing, self._ships)
+        unheard = {i for i, state in enumerate(states) if _is_nought(state)}
+        return pairs if len(unheard) < 2 else [pair for pair in pairs if not unheard.issuperset(pair)]
 
     def near(self, candidates: Sequence[Pair], shadows: Sequence[Shadow], H: float) -> dict[Pair, float]:
         """Pairs of them whose hulls, or fenders, could touch within H [s], and their gaps [m]."""
@@ -85,6 +91,10 @@ class Neighbours:
         if not shadows[b].fixed:
             self._detector.place(b, shadows[b])
         return self._detector.clearance(a, b, cap)
+
+
+def _is_nought(state: ShipState) -> bool:
+    return not (any(state.position) or any(state.attitude) or any(state.velocity) or any(state.rate))
 
 
 def _widened(body: Body, by: float) -> Rectangle:

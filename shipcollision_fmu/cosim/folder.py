@@ -28,8 +28,8 @@ def check_writable(out: Path) -> None:
         raise _refused(out, error) from None
 
 
-def write_files(out: Path, files: Mapping[str, str]) -> None:
-    """Write text files by name into the folder `out`, making it if need be.
+def write_files(out: Path, files: Mapping[str, str | bytes]) -> None:
+    """Write files, text or bytes, by name into the folder `out`, making it if need be.
 
     Files of the same names are replaced; others in the folder are left alone. Raises HostError when it cannot be done.
     """
@@ -37,8 +37,9 @@ def write_files(out: Path, files: Mapping[str, str]) -> None:
     try:
         out.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(prefix=f".{out.name}-", dir=out.parent) as aside:
-            for name, text in files.items():
-                Path(aside, name).write_text(text, encoding="utf-8", newline="\n")
+            for name, content in files.items():
+                data = content if isinstance(content, bytes) else content.encode()
+                Path(aside, name).write_bytes(data)
             out.mkdir(exist_ok=True)
             for name in files:
                 Path(aside, name).replace(out / name)
@@ -49,11 +50,11 @@ def write_files(out: Path, files: Mapping[str, str]) -> None:
         raise _refused(out, error) from None
 
 
-def write_file(out: Path, text: str) -> None:
-    """Write one text file, whole or not at all; a file of that name is replaced. Raises HostError."""
+def write_file(out: Path, content: str | bytes) -> None:
+    """Write one file, whole or not at all; a file of that name is replaced. Raises HostError."""
     if out.is_dir():
         raise HostError(f"cannot write to {out}: it is a folder; give the name of a file with --out")
-    write_files(out.parent, {out.name: text})
+    write_files(out.parent, {out.name: content})
 
 
 def _refused(out: Path, error: OSError) -> HostError:

@@ -39,7 +39,7 @@ from .scenario import Scenario, load_scenario
 from .summary import summary
 from .wiring import MakeCollision, MakeShip, connected
 
-__all__ = ["Factories", "Progress", "Run", "simulate", "stepped", "through_fmus"]
+__all__ = ["Factories", "Progress", "Run", "as_models", "simulate", "stepped", "through_fmus"]
 
 Progress = Callable[[int, int], None]
 """Called after every step with the steps done and the steps in all."""
@@ -110,7 +110,7 @@ def simulate(
     ships = scenario.load_ships()
     with ExitStack() as stack:
         if in_process:
-            factories = _in_process(scenario, stack)
+            factories = as_models(scenario, stack)
         else:
             factories = through_fmus(ready_fmus(tuple(scenario.ships), fmi), stack, tuple(scenario.ships), fmi)
         record, wall_time = stepped(scenario, factories, progress)
@@ -154,7 +154,9 @@ def stepped(scenario: Scenario, factories: Factories, progress: Progress | None 
     return recorder.finished(), perf_counter() - begin
 
 
-def _in_process(scenario: Scenario, stack: ExitStack) -> Factories:
+def as_models(scenario: Scenario, stack: ExitStack) -> Factories:
+    """Components that are the models themselves; `stack` closes all."""
+
     def make_ship(name: str) -> Component:
         return stack.enter_context(closing(InProcessComponent(name, MANOEUVRING.ports())))
 

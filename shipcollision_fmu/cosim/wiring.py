@@ -20,7 +20,10 @@ from .master import System, Wire
 from .scenario import Scenario, heading_table, order_table
 from .tables import AutopilotTable, ShipStart
 
-__all__ = ["IMPULSE", "STATE", "Helm", "MakeCollision", "MakeShip", "connected", "named"]
+__all__ = [
+    "ANSWERS", "APPLIED", "IMPULSE", "ORDERS", "STATE", "SURROUNDINGS", "Helm", "MakeCollision", "MakeShip",
+    "collision_parameters", "connected", "named", "ship_parameters", "surroundings",
+]  # fmt: skip
 
 MakeShip = Callable[[str], Component]
 MakeCollision = Callable[[], Component]
@@ -39,17 +42,17 @@ STATE = (
 """The 12 states of a ship, in the order of states.csv."""
 IMPULSE = named("impulse", (*_LINEAR, *_ANGLES))
 """Cumulative impulse in b about CO [N s, N m s]."""
-_APPLIED = named("impulse_applied", (*_LINEAR, *_ANGLES))
+APPLIED = named("impulse_applied", (*_LINEAR, *_ANGLES))
 _FORCE = (*named("force", _LINEAR), *named("moment", _ANGLES))
-_ANSWERS: dict[str, tuple[str, ...]] = {"ledger": IMPULSE, "force": _FORCE, "none": ()}
-_ORDERS = ("rudder_order", "propeller_order")
+ANSWERS: dict[str, tuple[str, ...]] = {"ledger": IMPULSE, "force": _FORCE, "none": ()}
+ORDERS = ("rudder_order", "propeller_order")
 RATE_GAIN = 2.0
 """K_d / K_p of an autopilot whose file gives none, in lengths sailed: about what a tanker takes to answer her helm."""
 LOOKAHEAD, ACCEPTANCE = 2.5, 2.0
 """Of a route whose file gives none, in lengths: shorter, and a tanker snakes about her track."""
 SLOWEST_STEERAGE = 0.1
 """[m^(1/2)/s] Speed / sqrt(L_pp) below which the default rate gain no longer grows: some 2 m/s for a tanker."""
-_SURROUNDINGS = ("current.north", "current.east", "wind.speed", "wind.direction")
+SURROUNDINGS = ("current.north", "current.east", "wind.speed", "wind.direction")
 
 
 @dataclass
@@ -104,17 +107,17 @@ def connected(scenario: Scenario, make_ship: MakeShip, make_collision: MakeColli
     for name, start in scenario.ships.items():
         ships[name] = make_ship(name)
         helm = _helm(scenario, name, start, ships[name])
-        around = ships[name].reals(_SURROUNDINGS)
-        around.values[:] = [*scenario.environment.current, *_wind(scenario)]
+        around = ships[name].reals(SURROUNDINGS)
+        around.values[:] = surroundings(scenario)
         inputs = [around, helm.group] if helm.take(0) else [around]
-        ships[name].initialise(_ship_parameters(scenario, name, start), end, inputs)
+        ships[name].initialise(ship_parameters(scenario, name, start), end, inputs)
         helms.append(helm)
 
     collision = make_collision()
     states, answers = [], []
-    answer = _ANSWERS[scenario.collision.feedback or "ledger"]
+    answer = ANSWERS[scenario.collision.feedback or "ledger"]
     for name, ship in ships.items():
-        outputs = (*STATE, *_APPLIED)
+        outputs = (*STATE, *APPLIED)
         states.append(Wire.between(ship, outputs, collision, named(name, outputs)))
         if answer:
             answers.append(Wire.between(collision, named(name, answer), ship, answer))
@@ -124,7 +127,7 @@ def connected(scenario: Scenario, make_ship: MakeShip, make_collision: MakeColli
     for helm, (name, start) in zip(helms, scenario.ships.items(), strict=True):
         helm.own = buffers[name]
         helm.other = None if start.evasion is None else buffers[start.evasion.of]
-    collision.initialise(_collision_parameters(scenario), end, [wire.inputs for wire in states])
+    collision.initialise(collision_parameters(scenario), end, [wire.inputs for wire in states])
     for wire in answers:
         wire.outputs.read()
     return System(list(ships.values()), collision, states, answers), helms
@@ -132,7 +135,7 @@ def connected(scenario: Scenario, make_ship: MakeShip, make_collision: MakeColli
 
 def _helm(scenario: Scenario, name: str, start: ShipStart, ship: Component) -> Helm:
     """The helm of a ship; its steering, when it has one, is scaled to her length and speed where the file is silent."""
-    helm = Helm(ship.reals(_ORDERS), order_table(start, scenario.step), step=scenario.step)
+    helm = Helm(ship.reals(ORDERS), order_table(start, scenario.step), step=scenario.step)
     headings = heading_table(start, scenario.step)
     if start.route is None and start.evasion is None and all(heading is None for _, heading in headings):
         return helm
@@ -165,13 +168,15 @@ def _seen(state: Buffer) -> Seen:
     return Seen(state[0], state[1], state[5], state[6], state[7], state[11])
 
 
-def _wind(scenario: Scenario) -> tuple[float, float]:
-    """Speed [m/s], and direction that it comes from [rad]."""
+def surroundings(scenario: Scenario) -> list[float]:
+    """What every ship is in, in the order of SURROUNDINGS."""
     wind = scenario.environment.wind
-    return (0.0, 0.0) if wind is None else (wind.speed, radians(wind.from_deg))
+    speed, comes_from = (0.0, 0.0) if wind is None else (wind.speed, radians(wind.from_deg))
+    return [*map(float, scenario.environment.current), float(speed), comes_from]
 
 
-def _ship_parameters(scenario: Scenario, name: str, ship: ShipStart) -> dict[str, Value]:
+def ship_parameters(scenario: Scenario, name: str, ship: ShipStart) -> dict[str, Value]:
+    """Parameters of a ship's instance, by their names."""
     start = ship.start
     state = (*start.position, *start.attitude, *start.velocity, *start.rate)
     return {
@@ -182,7 +187,8 @@ def _ship_parameters(scenario: Scenario, name: str, ship: ShipStart) -> dict[str
     }
 
 
-def _collision_parameters(scenario: Scenario) -> dict[str, Value]:
+def collision_parameters(scenario: Scenario) -> dict[str, Value]:
+    """Parameters of the collision's instance, by their names."""
     parameters: dict[str, Value] = {}
     for name, ship in scenario.ships.items():
         parameters[f"{name}.ship"] = scenario.ship_file(name)

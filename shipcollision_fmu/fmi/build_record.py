@@ -18,14 +18,20 @@ from dataclasses import asdict, dataclass, fields
 from functools import cache
 from hashlib import sha256
 from pathlib import Path
+from typing import Any
 
 import shipcollision_fmu
 from shipcollision_fmu.errors import HostError
 
-__all__ = ["RECORD", "BuildRecord", "confirmed", "contents", "contents_digest", "digest", "package_directory"]
+__all__ = [
+    "RECORD", "START", "BuildRecord", "confirmed", "contents", "contents_digest", "digest", "package_directory",
+    "start_values",
+]  # fmt: skip
 
 RECORD = "build.json"
 """Name of the record among the resources of an FMU."""
+START = "start.json"
+"""Name of the start values, in an FMU that has its own."""
 
 _LEFT_OUT = {"__pycache__", "cli.py", "cosim", "fmu_src", "models", "show"}
 """Top-level parts of the package that no FMU needs; models are packed apart."""
@@ -131,6 +137,13 @@ def confirmed(resources: str, wrapper: str) -> BuildRecord:
 def _series(wrapper: str) -> str:
     """Package and version without its last part: "pythonfmu 0.7.1" -> "pythonfmu 0.7"."""
     return wrapper.rpartition(".")[0]
+
+
+def start_values(resources: str) -> dict[str, Any]:
+    """Start values by name that replace the model's own in the FMU unpacked at `resources`; most FMUs have none."""
+    path = Path(resources) / START
+    found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
+    return found
 
 
 @cache

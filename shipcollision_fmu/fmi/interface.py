@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
 from shipcollision_fmu.fmi.ports import Model, Ports
 from shipcollision_fmu.fmi.variables import Table
@@ -24,6 +26,18 @@ class Interface:
     model: Callable[[tuple[str, ...]], Model]
     step_size: float = 0.05
 
-    def ports(self, ships: tuple[str, ...] = SHIPS) -> Ports:
-        """A fresh model with its ports: the inside of the FMU, to be driven in process."""
-        return Ports(self.name, self.table(ships), self.model(ships))
+    def ports(
+        self, ships: tuple[str, ...] = SHIPS, start: Mapping[str, Any] | None = None, files: Path | None = None
+    ) -> Ports:
+        """A fresh model with its ports: the inside of the FMU, to be driven in process.
+
+        `start` replaces some of the model's start values. In `files`, the FMU's resources, a model that reads files
+        looks first.
+        """
+        model = self.model(ships)
+        if files is not None and hasattr(model, "directory"):
+            model.directory = files
+        ports = Ports(self.name, self.table(ships), model)
+        if start:
+            ports.preset(start)
+        return ports

@@ -9,7 +9,8 @@ parameters: InitialUnknowns.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from shipcollision_fmu import __version__
@@ -36,9 +37,14 @@ _CAPABILITIES = {
 }
 
 
-def model_description(interface: Interface, ships: tuple[str, ...], guid: str) -> Element:
-    """The whole document. Without a date, so that the same sources give the same file."""
-    ports = interface.ports(ships)
+def model_description(
+    interface: Interface, ships: tuple[str, ...], guid: str, starts: Mapping[str, Any] | None = None
+) -> Element:
+    """The whole document. Without a date, so that the same sources give the same file.
+
+    `starts` are start values in place of the model's own.
+    """
+    ports = interface.ports(ships, starts)
     table = ports.table
     root = Element("fmiModelDescription", {
         "fmiVersion": "2.0",

@@ -10,6 +10,8 @@ a host that keeps to this description has no reason to make one.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
 from xml.etree.ElementTree import Element, SubElement
 
 from shipcollision_fmu import __version__
@@ -44,9 +46,14 @@ _CAPABILITIES = {
 }
 
 
-def model_description(interface: Interface, ships: tuple[str, ...], token: str) -> Element:
-    """The whole document. Without a date, so that the same sources give the same file."""
-    ports = interface.ports(ships)
+def model_description(
+    interface: Interface, ships: tuple[str, ...], token: str, starts: Mapping[str, Any] | None = None
+) -> Element:
+    """The whole document. Without a date, so that the same sources give the same file.
+
+    `starts` are start values in place of the model's own.
+    """
+    ports = interface.ports(ships, starts)
     table, gathered = ports.table, arrays(ports.table)
     root = Element("fmiModelDescription", {
         "fmiVersion": "3.0",

@@ -11,12 +11,14 @@ digest of everything else.
     resources/slavemodule.txt, NAME_*.py    where the wrapper starts; * is a digest
     resources/pythonfmu/, shipcollision_fmu/, models/
     resources/build.json                    what it was built from (build_record)
+    resources/start.json                    start values in place of the model's own, in an FMU made for one instance
     resources/requirements.txt              what the host's Python must have
 """
 
 from __future__ import annotations
 
 import io
+import json
 import os
 import zipfile
 from collections.abc import Callable, Mapping
@@ -25,19 +27,23 @@ from hashlib import sha256
 from importlib import import_module, metadata
 from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
 from uuid import UUID
 from xml.etree.ElementTree import Element
 
 from shipcollision_fmu import __version__
 from shipcollision_fmu.errors import HostError, InputError
 from shipcollision_fmu.fmi import build_record
-from shipcollision_fmu.fmi.build_record import RECORD, BuildRecord, package_directory
+from shipcollision_fmu.fmi.build_record import RECORD, START, BuildRecord, package_directory
 from shipcollision_fmu.fmi.documentation import page
 from shipcollision_fmu.fmi.interface import SHIPS, Interface
 from shipcollision_fmu.fmi.model_description import model_description, to_bytes
 from shipcollision_fmu.fmi.model_description_fmi3 import model_description as model_description_fmi3
 
-__all__ = ["FMUS", "REQUIREMENTS", "VERSIONS", "build_fmus", "fmu_bytes", "fmu_file", "fmus_current", "slave_directory"]
+__all__ = [
+    "FMUS", "REQUIREMENTS", "VERSIONS", "build_fmus", "fmu_bytes", "fmu_file", "fmus_current", "instance_fmu",
+    "slave_directory",
+]  # fmt: skip
 
 FMUS = {"ShipCollision": "ship_collision", "ShipManoeuvring": "ship_manoeuvring"}
 """Name of each FMU, and the module beside this one that holds its INTERFACE."""
@@ -59,7 +65,7 @@ class _Version:
     wrapper: str
     slaves: str
     suffix: str
-    description: Callable[[Interface, tuple[str, ...], str], Element]
+    description: Callable[[Interface, tuple[str, ...], str, Mapping[str, Any] | None], Element]
 
 
 VERSIONS = {
@@ -93,14 +99,40 @@ def fmus_current(directory: str | Path, *, ships: tuple[str, ...] = SHIPS, fmi: 
     return all(_is_current(Path(directory) / fmu_file(name, fmi), name, now, ships, fmi) for name in FMUS)
 
 
-def fmu_bytes(interface: Interface, slave: bytes, ships: tuple[str, ...] = SHIPS, fmi: int = 2) -> bytes:
+def instance_fmu(
+    name: str, ships: tuple[str, ...], start: Mapping[str, Any], files: Mapping[str, bytes] | None = None, fmi: int = 2
+) -> bytes:
+    """ShipCollision or ShipManoeuvring for one instance in a system: it starts from `start` (values by name).
+
+    Some hosts ignore a system's parameter values; an FMU's own start values are honoured by all. `files` go into its
+    resources, where ship files are looked for first. Raises HostError, and InputError for what cannot be set.
+    """
+    return fmu_bytes(_interface(name), _slave(name, fmi).read_bytes(), ships, fmi, start=start, resources=files)
+
+
+def fmu_bytes(
+    interface: Interface,
+    slave: bytes,
+    ships: tuple[str, ...] = SHIPS,
+    fmi: int = 2,
+    *,
+    start: Mapping[str, Any] | None = None,
+    resources: Mapping[str, bytes] | None = None,
+) -> bytes:
     """One FMU as bytes; `slave` is the text of its slave module. Raises HostError when the wrapper is not installed or
-    has no binaries."""
+    has no binaries.
+
+    `start` and `resources`: see instance_fmu.
+    """
     version, name = VERSIONS[fmi], interface.name
+    own = {f"resources/{inside}": data for inside, data in (resources or {}).items()}
+    if start:
+        own[f"resources/{START}"] = (json.dumps(dict(start), indent=1) + "\n").encode()
     contents = build_record.contents_digest(package_directory())
     inputs = _inputs(contents, slave, ships, version)
     module = f"{name}_{inputs[:12]}"  # of its own: another FMU's module of the same name would run in its place
     files = {
+        **own,
         **_sources(),
         **_wrapper(version.wrapper, name),
         f"resources/{module}.py": slave,
@@ -109,9 +141,9 @@ def fmu_bytes(interface: Interface, slave: bytes, ships: tuple[str, ...] = SHIPS
         "documentation/index.html": page(interface, ships, fmi).encode(),
         **_licences(version.wrapper),
     }
-    anonymous = to_bytes(version.description(interface, ships, ""))
+    anonymous = to_bytes(version.description(interface, ships, "", start))
     guid = str(UUID(build_record.digest({**files, "modelDescription.xml": anonymous})[:32]))
-    files["modelDescription.xml"] = to_bytes(version.description(interface, ships, guid))
+    files["modelDescription.xml"] = to_bytes(version.description(interface, ships, guid, start))
     record = BuildRecord(name, __version__, contents, inputs, ships, guid, _identity(version))
     files[f"resources/{RECORD}"] = record.to_json().encode()
     return _zipped(files)

@@ -79,6 +79,22 @@ class Ports:
         self._initialised_from: list[Any] | None = None  # the parameters that the model last read
         self._tag = f"{name} {sha256(repr(table).encode()).hexdigest()[:16]}"
 
+    def preset(self, start: Mapping[str, Any]) -> None:
+        """Start values by name in place of the model's own: those of an FMU made for one instance. Items of
+        Enumerations by name. Raises InputError for a value that cannot be set."""
+        for name, value in start.items():
+            reference = self.references([name])[0]
+            variable = self.table[reference]
+            wanted: Any = float(value) if variable.kind == "Real" and type(value) is int else value
+            if type(wanted) is not _TYPES[variable.kind] or (variable.items and wanted not in variable.items):
+                raise InputError(f"{self.name}: {name} = {value!r} is not a value of {variable.kind}")
+            if variable.causality == "output":
+                raise self._not_settable(variable.kind, reference)
+            container, key = self._cells[reference]
+            container[key] = wanted
+        self._fresh = self._now(self._cells)
+        self._dirty = True
+
     def references(self, names: Sequence[str]) -> list[int]:
         """Value references of variables by name. Raises InputError for a name that is not there."""
         try:

@@ -41,7 +41,7 @@ class ModelSlave(SlaveBase, Fmi2Slave):  # type: ignore[misc]  # pythonfmu has n
     def to_xml(self, model_options: Any = None) -> Element:
         """modelDescription.xml."""
         del model_options  # what the slave can do does not depend on the builder
-        return model_description(self._made_from, self._ships, str(self.guid))
+        return model_description(self._made_from, self._ships, str(self.guid), self._start)
 
     def do_step(self, current_time: float, step_size: float) -> bool:
         """One step; False (fmi2Discard) when it could not be made."""

@@ -18,19 +18,25 @@ from __future__ import annotations
 
 import ctypes
 import json
+import os
+import sys
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from hashlib import sha256
 from importlib import import_module
+from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
 from shipcollision_fmu.errors import InputError, ShipCollisionError, StepError
-from shipcollision_fmu.fmi.build_record import confirmed
+from shipcollision_fmu.fmi.build_record import confirmed, start_values
 from shipcollision_fmu.fmi.interface import SHIPS, Interface
 from shipcollision_fmu.fmi.ports import Ports
 from shipcollision_fmu.fmi.wrapper_library import let_go
 
-__all__ = ["SlaveBase", "keep", "state_from_bytes", "state_to_bytes"]
+__all__ = ["STDERR", "SlaveBase", "keep", "state_from_bytes", "state_to_bytes"]
+
+STDERR = "SHIPCOLLISION_LOG"
+"""Environment variable; with the value "stderr", what an FMU logs is printed as well."""
 
 T = TypeVar("T")
 
@@ -57,21 +63,26 @@ class SlaveBase:
     wrapper: ClassVar[str]
     ports: Ports
     resources: str | None
+    instance_name: str
     log_queue: list[Any]
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self._ships: tuple[str, ...] = SHIPS
+        self._start: dict[str, Any] = {}
         self.guid = ""
         if self.resources is not None:
             let_go(str(self.resources))
             record = confirmed(str(self.resources), self.wrapper)
             self._ships, self.guid = record.ships, record.guid
+            self._start = start_values(str(self.resources))
         made_from = self.interface
         self._made_from: Interface = import_module(made_from).INTERFACE if isinstance(made_from, str) else made_from
-        self.ports = self._made_from.ports(self._ships)
+        files = None if self.resources is None else Path(str(self.resources))
+        self.ports = self._made_from.ports(self._ships, self._start, files)
         self._phase = INSTANTIATED
         self._refused = ""  # a call that was refused and that no status has told yet
+        self._unanswered = ""  # why the last get was refused
 
     def report(self, line: str) -> None:
         """Log a line as an error."""
@@ -97,6 +108,7 @@ class SlaveBase:
         except BaseException as error:
             self._refused = _line(error)
         if self._refused:
+            self._print(f"cannot be initialised: {self._refused}")
             for lost in (self, type(self), self.log_queue):
                 keep(lost)
             failed = _InitialisationFailed(self._text(f"{self._made_from.name} cannot be initialised: {self._refused}"))
@@ -119,7 +131,7 @@ class SlaveBase:
         except BaseException as error:
             line = _line(error)
         self._refused = ""
-        self.report(line)
+        self._tell(line)
         return False
 
     # Values. ------------------------------------------------------------------------------
@@ -127,14 +139,18 @@ class SlaveBase:
     def answered(self, get: Callable[[Sequence[int]], list[T]], references: Sequence[int]) -> list[T] | None:
         """What a getter gives; None when it refuses, which is logged.
 
-        During initialisation parameters may still be corrected, so it is then only logged.
+        During initialisation parameters may still be corrected, so it is then only logged, and once: a host asks for
+        dozens of variables, one by one.
         """
         try:
             return get(references)
         except BaseException as error:
+            line = _line(error)
             if self.ports.running:
-                self._refused = _line(error)
-            self.report(_line(error))
+                self._refused = line
+            if self.ports.running or line != self._unanswered:
+                self._tell(line)
+            self._unanswered = line
             return None
 
     def given(self, put: Callable[[Sequence[int], Any], object], references: list[int], values: list[Any]) -> None:
@@ -181,7 +197,16 @@ class SlaveBase:
 
     def _refuse(self, error: BaseException) -> None:
         self._refused = _line(error)
-        self.report(self._refused)
+        self._tell(self._refused)
+
+    def _tell(self, line: str) -> None:
+        self.report(line)
+        self._print(line)
+
+    def _print(self, line: str) -> None:
+        """On stderr, if wanted: some hosts show nothing of an FMU's log, and drop its status."""
+        if os.environ.get(STDERR) == "stderr":
+            sys.stderr.write(f"{self._made_from.name} {self.instance_name}: {line}\n")
 
     @staticmethod
     def _text(line: str) -> str:

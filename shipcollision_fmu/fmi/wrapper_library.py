@@ -8,14 +8,17 @@ its work is done.
 
 The pointer is needed only where the wrapper started the interpreter, to end it. In a host that is itself Python it may
 be let go of as soon as there is an instance, by the function that the library exports for its own end; each instance
-has a reference of its own.
+has a reference of its own. In a native host on Linux that function becomes an exit handler of the process, which runs
+before C++ destroys anything, and the library stays loaded until then.
 """
 
 from __future__ import annotations
 
 import os
 import sys
-from ctypes import CDLL
+from contextlib import suppress
+from ctypes import CDLL, c_void_p, cast
+from functools import cache
 from pathlib import Path
 
 __all__ = ["let_go"]
@@ -24,12 +27,22 @@ __all__ = ["let_go"]
 def let_go(resources: str) -> None:
     """Make the library of the FMU unpacked around `resources` safe to unload, in a host that is itself Python.
 
-    Elsewhere nothing is done: on Windows the order is another; in a native host the pointer ends the interpreter.
+    In a native host it is made safe to end the process. On Windows nothing is done: the order is another.
     """
-    if sys.platform == "win32" or not sys.orig_argv:  # an interpreter that the wrapper started has no command line
+    if sys.platform == "win32":
         return
+    make_safe = _finalise if sys.orig_argv else _finalise_at_exit  # an interpreter of the wrapper has no command line
     for library in Path(resources).parent.glob("binaries/*linux*/*.so"):
-        _finalise(library)
+        make_safe(library)
+
+
+@cache
+def _finalise_at_exit(library: Path) -> None:
+    with suppress(OSError, AttributeError):  # not the file that the host has loaded; or a later wrapper
+        function = CDLL(str(library), mode=os.RTLD_NOW | os.RTLD_NOLOAD).finalizePythonInterpreter
+        register = CDLL(None).__cxa_atexit
+        register.argtypes = [c_void_p, c_void_p, c_void_p]
+        register(cast(function, c_void_p), None, None)
 
 
 def _finalise(library: Path) -> None:

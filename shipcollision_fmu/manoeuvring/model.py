@@ -20,6 +20,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import fields
 from math import ceil, cos, isfinite, sin
+from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..errors import InputError, ScenarioError, StepError
@@ -75,6 +76,7 @@ class ShipManoeuvring:
     """Motion of one ship. Fill parameters and inputs, then initialise(), then step(t, h) again and again."""
 
     def __init__(self) -> None:
+        self.directory: Path | None = None  # where ship files are looked for before the current folder
         self.parameters = ShipParameters()
         self.inputs = ShipInputs()
         self.outputs = ShipOutputs()
@@ -116,7 +118,7 @@ class ShipManoeuvring:
         substep = p.substep[0]
         if not (isfinite(substep) and substep > 0.0):
             raise ScenarioError(f"substep = {substep} s must be finite and greater than 0, e.g. 0.05")
-        ship = load_ship(p.ship)
+        ship = load_ship(p.ship, self.directory)
         M_inverse = free_inverse(ship.M, p.degrees_of_freedom).tolist()
         sailing: Sailing | None = None
         if p.hydrodynamics:

@@ -17,7 +17,7 @@ from .ship import Ship
 from .ship_file import ship_file
 from .toml import read_toml
 
-__all__ = ["Ship", "load_ship", "models_directory", "ship_names"]
+__all__ = ["Ship", "load_ship", "models_directory", "ship_content", "ship_names"]
 
 
 def models_directory() -> Path:
@@ -32,18 +32,32 @@ def ship_names() -> list[str]:
     return sorted(path.stem for path in (models_directory() / "ships").glob("*.toml"))
 
 
-def load_ship(name_or_path: str | Path) -> Ship:
+def load_ship(name_or_path: str | Path, directory: Path | None = None) -> Ship:
     """The ship of a shipped name (`kvlcc2`) or of a file (`my/ship.toml`).
 
-    Anything with the suffix .toml or a path separator is a file. Raises ShipError when it is not found or refused.
+    Anything with the suffix .toml or a path separator is a file; one without a root is looked for in `directory`, when
+    given, before the current folder. Raises ShipError when it is not found or refused.
     """
+    if directory is not None and _is_path(name_or_path) and (directory / name_or_path).is_file():
+        name_or_path = directory / name_or_path
     path = _located(name_or_path)
     return assembled(ship_file(_overlaid(path, ()), path.name), path.name)
 
 
+def ship_content(name_or_path: str | Path) -> dict[str, Any]:
+    """The tables of a ship file as load_ship reads them: those of the files that it extends laid under its own, the
+    mesh file of [hull] findable from the current folder."""
+    return _overlaid(_located(name_or_path), ())
+
+
+def _is_path(name_or_path: str | Path) -> bool:
+    text = str(name_or_path)
+    return isinstance(name_or_path, Path) or text.endswith(".toml") or "/" in text or "\\" in text
+
+
 def _located(name_or_path: str | Path, beside: Path | None = None) -> Path:
     text = str(name_or_path)
-    if isinstance(name_or_path, Path) or text.endswith(".toml") or "/" in text or "\\" in text:
+    if _is_path(name_or_path):
         path = Path(text)
         if beside is not None and not path.is_absolute():
             path = beside / path

@@ -250,11 +250,22 @@ def test_a_start_inside_a_wall_parts_sideways_and_adds_no_energy(make_ship: Make
 
 
 def test_ships_that_start_on_top_of_each_other_give_a_defined_result(make_ship: Make, world: MakeWorld) -> None:
-    """As in an FMU whose inputs were never set: both at the origin."""
-    rest = [{"position": [0.0, 0.0, 0.0], "nu": [0.0] * 6}] * 2
+    rest = [{"position": [1.0, 0.0, 0.0], "nu": [0.0] * 6}] * 2
     w = world([make_ship("a"), make_ship("b")], rest).run(0.5, 0.05)
     np.testing.assert_array_equal(w.nu, np.zeros((2, 6)))
     assert w.model.outputs.clearance[0] < -1.0
+
+
+def test_ships_of_which_nothing_was_heard_do_not_collide(make_ship: Make, world: MakeWorld) -> None:
+    """As in an FMU whose inputs were never set, or in the first step of FMPy's SSP master: all at the origin."""
+    nought = {"position": [0.0, 0.0, 0.0], "nu": [0.0] * 6}
+    third = {"position": [0.0, 500.0, 0.0], "nu": [0.0] * 6}
+    w = world([make_ship("a"), make_ship("b"), make_ship("c")], [nought, nought, third]).run(0.5, 0.05)
+    outputs = w.model.outputs
+    assert (outputs.contact_count, outputs.impact_count, outputs.scratch_id) == (0, 0, 0)
+    assert outputs.clearance[0] == w.model.parameters.clearance_range
+    w = world([make_ship("a"), make_ship("b")], [nought, nought | {"position": [0.0, 0.5, 0.0]}]).run(0.5, 0.05)
+    assert w.model.outputs.impact_count == 1
 
 
 @pytest.mark.parametrize(

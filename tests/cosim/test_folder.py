@@ -49,13 +49,13 @@ def test_a_system_folder_that_takes_no_files_is_refused() -> None:
 def test_a_failure_half_way_leaves_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     written = []
 
-    def full_disk(path: Path, text: str, **options: object) -> int:
+    def full_disk(path: Path, data: bytes) -> int:
         if written:
             raise OSError(28, "No space left on device")
         written.append(path.name)
-        return len(text)
+        return len(data)
 
-    monkeypatch.setattr(Path, "write_text", full_disk)
+    monkeypatch.setattr(Path, "write_bytes", full_disk)
     with pytest.raises(HostError, match="No space left on device"):
         write_files(tmp_path / "new" / "run", FILES)
     assert list(tmp_path.iterdir()) == []

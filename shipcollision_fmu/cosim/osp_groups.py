@@ -1,0 +1,129 @@
+"""Variable groups of the FMUs after OSP-IS, the interface specification of the Open Simulation Platform.
+
+A group says what its variables are together: a Force, a LinearVelocity, or a port that pairs them. Groups of the same
+kind connect in one line, and in the right order. An impulse is no kind of OSP-IS: it is Generic.
+
+    linear_port     Force against LinearVelocity     angular_port     Torque against AngularVelocity
+
+Schema: https://open-simulation-platform.com/OspModelDescription/1.0.1 (a name, nothing is fetched). There kinds come
+in a fixed order, and the three axes are x, y, z: forward, starboard, down in b; north, east, down in n.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+from xml.etree.ElementTree import Element, SubElement
+
+from ..collision.ports import SLOTS
+from ..fmi.ship_collision import INTERFACE as COLLISION_INTERFACE
+from ..fmi.ship_manoeuvring import INTERFACE as SHIP_INTERFACE
+from ..fmi.variables import ANGLES, LINEAR, NED, Table
+from .wiring import IMPULSE, ORDERS, SURROUNDINGS, named
+
+__all__ = ["KINDS", "Group", "collision_groups", "group_pairs", "model_description", "ship_groups"]
+
+Kind = Literal[
+    "Generic", "Force", "Torque", "LinearVelocity", "AngularVelocity", "LinearDisplacement", "AngularDisplacement",
+    "LinearMechanicalPort", "AngularMechanicalPort",
+]  # fmt: skip
+KINDS: tuple[Kind, ...] = (
+    "Generic", "Force", "Torque", "LinearVelocity", "AngularVelocity", "LinearDisplacement", "AngularDisplacement",
+    "LinearMechanicalPort", "AngularMechanicalPort",
+)  # fmt: skip
+"""In the order of the schema."""
+NAMESPACE = "https://open-simulation-platform.com/OspModelDescription/1.0.1"
+_AXES = ("x", "y", "z")
+
+
+@dataclass(frozen=True)
+class Group:
+    """A named group: of variables, or of groups in a port."""
+
+    kind: Kind
+    name: str
+    variables: tuple[str, ...] = ()
+    groups: tuple[Group, ...] = ()
+
+
+def ship_groups() -> list[Group]:
+    """Of ShipManoeuvring."""
+    forces = [("hull", "hull"), ("propeller", "propeller"), ("rudder", "rudder"), ("wind", "wind")]
+    return [
+        *_ports("", "force", "moment", "velocity", "rate"),
+        Group("LinearDisplacement", "position", named("position", NED)),
+        Group("AngularDisplacement", "attitude", named("attitude", ANGLES)),
+        Group("Generic", "impulse", IMPULSE),
+        Group("Generic", "impulse_applied", named("impulse_applied", (*LINEAR, *ANGLES))),
+        Group("Generic", "orders", ORDERS),
+        Group("LinearVelocity", "current", SURROUNDINGS[:2]),
+        Group("Generic", "wind", SURROUNDINGS[2:]),
+        *(Group("Force", f"{origin}.force", named(origin, LINEAR)) for origin, _ in forces),
+        *(Group("Torque", f"{origin}.moment", named(origin, ANGLES)) for origin, _ in forces),
+    ]
+
+
+def collision_groups(ships: Sequence[str]) -> list[Group]:
+    """Of ShipCollision, built for these ships."""
+    groups = [Group("LinearDisplacement", "impact", named("impact", NED))]
+    for k in range(1, SLOTS + 1):
+        groups.append(Group("LinearDisplacement", f"contact[{k}]", named(f"contact[{k}]", NED)))
+    for s in ships:
+        groups += [
+            *_ports(f"{s}.", f"{s}.force", f"{s}.moment", f"{s}.velocity", f"{s}.rate"),
+            Group("LinearDisplacement", f"{s}.position", named(f"{s}.position", NED)),
+            Group("AngularDisplacement", f"{s}.attitude", named(f"{s}.attitude", ANGLES)),
+            Group("Generic", f"{s}.impulse", named(s, IMPULSE)),
+            Group("Generic", f"{s}.impulse_applied", named(f"{s}.impulse_applied", (*LINEAR, *ANGLES))),
+            Group("LinearDisplacement", f"{s}.post.position", named(f"{s}.post.position", NED)),
+            Group("AngularDisplacement", f"{s}.post.attitude", named(f"{s}.post.attitude", ANGLES)),
+            Group("LinearVelocity", f"{s}.post.velocity", named(f"{s}.post.velocity", LINEAR)),
+            Group("AngularVelocity", f"{s}.post.rate", named(f"{s}.post.rate", ANGLES)),
+        ]
+    return groups
+
+
+def group_pairs(feedback: str) -> tuple[str, ...]:
+    """Groups of a ship that connect with the collision's group SHIP.name, for a feedback."""
+    if feedback == "force":
+        return ("position", "attitude", "impulse_applied", "linear_port", "angular_port")
+    state = ("position", "attitude", "velocity", "rate", "impulse_applied")
+    return (*state, "impulse") if feedback == "ledger" else state
+
+
+def model_description(model: str, ships: tuple[str, ...]) -> Element:
+    """OspModelDescription of ShipManoeuvring or ShipCollision."""
+    of_a_ship = model == SHIP_INTERFACE.name
+    groups = ship_groups() if of_a_ship else collision_groups(ships)
+    table = (SHIP_INTERFACE if of_a_ship else COLLISION_INTERFACE).table(ships)
+    root = Element("OspModelDescription", {"version": "1.0"})
+    parent = SubElement(root, "VariableGroups")
+    for kind in KINDS:
+        for group in groups:
+            if group.kind == kind:
+                _write(parent, group, table)
+    return root
+
+
+def _ports(prefix: str, force: str, moment: str, velocity: str, rate: str) -> list[Group]:
+    return [
+        Group("LinearMechanicalPort", f"{prefix}linear_port", groups=(
+            Group("Force", force, named(force, LINEAR)), Group("LinearVelocity", velocity, named(velocity, LINEAR)),
+        )),
+        Group("AngularMechanicalPort", f"{prefix}angular_port", groups=(
+            Group("Torque", moment, named(moment, ANGLES)), Group("AngularVelocity", rate, named(rate, ANGLES)),
+        )),
+    ]  # fmt: skip
+
+
+def _write(parent: Element, group: Group, table: Table) -> None:
+    units = {variable.name: variable.unit for variable in table}
+    node = SubElement(parent, group.kind, {"name": group.name})
+    for i, name in enumerate(group.variables):
+        attributes = {"ref": name, "unit": str(units[name])}
+        if group.kind != "Generic":
+            attributes["axis"] = _AXES[i]
+        SubElement(node, "Variable", attributes)
+    for inner in group.groups:
+        _write(node, inner, table)

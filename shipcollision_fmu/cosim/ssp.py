@@ -1,0 +1,163 @@
+"""A system as SSP 1.0 (System Structure and Parameterization): one .ssp file.
+
+    SystemStructure.ssd         components, connectors, connections, units
+    resources/NAME.fmu          an FMU for each instance, with the scenario's values as its start values
+    resources/NAME.ssv          the same values as a parameter set, bound to the component
+
+SSP 1.0, Modelica Association, 2019. A value of an enumeration is left out of the parameter sets: in SSP it is a name,
+in FMI 2.0 a number, and libcosim ends the process over it. SSP knows no events in time: orders after time 0 are
+refused, or left out on request.
+"""
+
+from __future__ import annotations
+
+import io
+import zipfile
+from collections.abc import Mapping
+from pathlib import Path
+from xml.etree.ElementTree import Element, SubElement
+
+from .. import __version__
+from ..fmi.units import UNITS
+from .folder import check_writable, write_file
+from .scenario import Scenario
+from .system_structure import Instance, SystemStructure, system_structure
+from .uncarried import notes, refuse_orders
+from .xml_file import xml_bytes, xml_value
+
+__all__ = ["ssp_bytes", "write_ssp"]
+
+NAMESPACES = {
+    "ssd": "http://ssp-standard.org/SSP1/SystemStructureDescription",
+    "ssc": "http://ssp-standard.org/SSP1/SystemStructureCommon",
+    "ssv": "http://ssp-standard.org/SSP1/SystemStructureParameterValues",
+    "osp": "http://opensimulationplatform.com/SSP/OSPAnnotations",
+}
+_TOOL = f"shipcollision_fmu {__version__}"
+_DATE = (1980, 1, 1, 0, 0, 0)
+"""The earliest that a zip archive can say."""
+
+
+def write_ssp(scenario: Scenario, out: Path, *, initial_orders: bool = False) -> tuple[str, ...]:
+    """Write the scenario as the file `out` (NAME.ssp), and return what it does not hold, a line each.
+
+    With `initial_orders` the orders of time 0 are held and everything that a helm does later is left out; else a
+    scenario with such is refused. Raises ScenarioError, and HostError when the file cannot be written.
+    """
+    check_writable(out.parent)
+    system = system_structure(scenario)
+    if not initial_orders:
+        refuse_orders(system, "an .ssp file", system.orders)
+    left_out = notes(system, system.orders)
+    write_file(out, ssp_bytes(system, left_out))
+    return left_out
+
+
+def ssp_bytes(system: SystemStructure, left_out: tuple[str, ...] = ()) -> bytes:
+    """The .ssp file; the same system gives the same bytes."""
+    files = {"SystemStructure.ssd": _ssd(system, left_out)}
+    for instance in system.instances:
+        files[f"resources/{instance.name}.fmu"] = instance.fmu()
+        files[f"resources/{instance.name}.ssv"] = _ssv(instance)
+    return _zipped(files)
+
+
+def _ssd(system: SystemStructure, left_out: tuple[str, ...]) -> bytes:
+    header = system.scenario.scenario
+    root = Element("ssd:SystemStructureDescription", {
+        "version": "1.0",
+        "name": header.name,
+        "description": " ".join((system.title, *left_out)),
+        "generationTool": _TOOL,
+    })  # fmt: skip
+    node = SubElement(root, "ssd:System", {"name": header.name, "description": header.description})
+    elements = SubElement(node, "ssd:Elements")
+    for instance in system.instances:
+        _component(elements, instance, system)
+    connections = SubElement(node, "ssd:Connections")
+    for c in system.connections:
+        SubElement(connections, "ssd:Connection", {
+            "startElement": c.source, "startConnector": c.output, "endElement": c.target, "endConnector": c.input,
+        })  # fmt: skip
+    _units(root, system)
+    _experiment(root, system.scenario)
+    return xml_bytes(root, (system.title, "", *left_out), NAMESPACES)
+
+
+def _component(elements: Element, instance: Instance, system: SystemStructure) -> None:
+    """Only connected variables are connectors: FMPy stumbles over inputs that nothing feeds."""
+    node = SubElement(elements, "ssd:Component", {
+        "name": instance.name,
+        "description": instance.interface.description,
+        "type": "application/x-fmu-sharedlibrary",
+        "source": f"resources/{instance.name}.fmu",
+        "implementation": "CoSimulation",
+    })  # fmt: skip
+    connectors = SubElement(node, "ssd:Connectors")
+    used = _connected(instance, system)
+    for variable in instance.table:
+        if variable.name in used:
+            connector = SubElement(connectors, "ssd:Connector", {"name": variable.name, "kind": variable.causality})
+            SubElement(connector, "ssc:Real", {"unit": str(variable.unit)})
+    bindings = SubElement(node, "ssd:ParameterBindings")
+    SubElement(bindings, "ssd:ParameterBinding", {
+        "type": "application/x-ssp-parameter-set", "source": f"resources/{instance.name}.ssv",
+    })  # fmt: skip
+
+
+def _connected(instance: Instance, system: SystemStructure) -> set[str]:
+    return {c.output for c in system.connections if c.source == instance.name} | {
+        c.input for c in system.connections if c.target == instance.name
+    }
+
+
+def _units(root: Element, system: SystemStructure) -> None:
+    used = {
+        variable.unit
+        for instance in system.instances
+        for variable in instance.table
+        if variable.unit is not None and variable.name in _connected(instance, system)
+    }
+    units = SubElement(root, "ssd:Units")
+    for name in sorted(used):
+        node = SubElement(units, "ssc:Unit", {"name": name})
+        unit = UNITS[name]
+        base = {key: str(power) for key, power in unit.exponents.items()}
+        SubElement(node, "ssc:BaseUnit", base if unit.factor == 1.0 else {**base, "factor": repr(unit.factor)})
+
+
+def _experiment(root: Element, scenario: Scenario) -> None:
+    """SSP has no place for a communication step; libcosim reads it from its own annotation."""
+    experiment = SubElement(root, "ssd:DefaultExperiment", {
+        "startTime": "0.0", "stopTime": xml_value(scenario.scenario.duration),
+    })  # fmt: skip
+    annotations = SubElement(experiment, "ssd:Annotations")
+    annotation = SubElement(annotations, "ssc:Annotation", {"type": "com.opensimulationplatform"})
+    algorithm = SubElement(annotation, "osp:Algorithm")
+    SubElement(algorithm, "osp:FixedStepAlgorithm", {"baseStepSize": xml_value(scenario.step)})
+
+
+def _ssv(instance: Instance) -> bytes:
+    root = Element("ssv:ParameterSet", {"version": "1.0", "name": "scenario", "generationTool": _TOOL})
+    parameters = SubElement(root, "ssv:Parameters")
+    for variable, value in instance.shown_values():
+        if not variable.items:
+            parameter = SubElement(parameters, "ssv:Parameter", {"name": variable.name})
+            SubElement(parameter, f"ssv:{variable.kind}", {"value": xml_value(value)})
+    only_there = [f"{variable.name} = {value}" for variable, value in instance.shown_values() if variable.items]
+    comment = [f"Start values of {instance.name}. Its FMU starts from the same: for hosts that ignore these."]
+    if only_there:
+        comment.append(f"Enumerations, names here and numbers there, are in the FMU alone: {', '.join(only_there)}.")
+    return xml_bytes(root, comment, {key: NAMESPACES[key] for key in ("ssv", "ssc")})
+
+
+def _zipped(files: Mapping[str, bytes]) -> bytes:
+    target = io.BytesIO()
+    with zipfile.ZipFile(target, "w") as archive:
+        for name, data in sorted(files.items()):
+            entry = zipfile.ZipInfo(name, _DATE)
+            entry.create_system = 3  # Unix, also when made elsewhere
+            entry.external_attr = 0o100644 << 16
+            entry.compress_type = zipfile.ZIP_STORED if name.endswith(".fmu") else zipfile.ZIP_DEFLATED
+            archive.writestr(entry, data)
+    return target.getvalue()

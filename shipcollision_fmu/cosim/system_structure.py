@@ -1,0 +1,216 @@
+"""A scenario as a system of FMUs that other hosts can run: instances, start values, connections.
+
+    SHIP           an instance of ShipManoeuvring for each ship, by its name
+    collision      the instance of ShipCollision
+
+Some hosts ignore the parameter values of a system description, or know no strings, or no enumerations; what all
+honour is an FMU's own start value. So every instance has an FMU of its own, in which the scenario's values *are* the
+start values; a system description repeats them for people and for the hosts that read them.
+
+A helm is part of our master, not of an FMU. What it orders at time 0 becomes the start values of the ships' inputs;
+what it orders later, and an autopilot, is not in the system: `helm` and `orders` say what that is, and a writer of a
+format refuses what it cannot carry. Which algorithm steps the instances is the host's affair.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from math import isclose
+
+from ..errors import ScenarioError
+from ..fmi.interface import Interface
+from ..fmi.package import instance_fmu
+from ..fmi.ship_collision import INTERFACE as COLLISION_INTERFACE
+from ..fmi.ship_manoeuvring import INTERFACE as SHIP_INTERFACE
+from ..fmi.variables import Table, Variable
+from .component import Value
+from .packed_ship import packed_ship
+from .scenario import Scenario, order_table
+from .tables import ShipStart
+from .wiring import (
+    ANSWERS,
+    APPLIED,
+    ORDERS,
+    STATE,
+    SURROUNDINGS,
+    collision_parameters,
+    named,
+    ship_parameters,
+    surroundings,
+)
+
+__all__ = ["COLLISION", "Connection", "Instance", "SystemStructure", "TimedOrder", "number", "system_structure"]
+
+COLLISION = "collision"
+"""Name of the collision's instance."""
+
+
+@dataclass(frozen=True)
+class Connection:
+    """A Real output of one instance feeds a Real input of another."""
+
+    source: str
+    output: str
+    target: str
+    input: str
+
+
+@dataclass(frozen=True)
+class TimedOrder:
+    """What a helm orders after time 0: an input of a ship takes a value at a time [s]."""
+
+    time: float
+    ship: str
+    variable: str
+    value: float
+
+
+@dataclass(frozen=True)
+class Instance:
+    """An FMU of the system. `start` are its start values by variable, items of enumerations by their names; `shown`
+    those of them that a user would change: parameters, orders, wind and current."""
+
+    name: str
+    interface: Interface
+    ships: tuple[str, ...]
+    start: Mapping[str, Value]
+    shown: tuple[str, ...]
+    files: Mapping[str, bytes]
+
+    @property
+    def model(self) -> str:
+        """ShipManoeuvring or ShipCollision."""
+        return self.interface.name
+
+    @property
+    def table(self) -> Table:
+        """Its variables."""
+        return self.interface.table(self.ships)
+
+    def fmu(self) -> bytes:
+        """The FMU file."""
+        return instance_fmu(self.model, self.ships, self.start, self.files)
+
+    def shown_values(self) -> list[tuple[Variable, Value]]:
+        """The variables of `shown` with their start values, in the order of the table."""
+        return [(variable, self.start[variable.name]) for variable in self.table if variable.name in self.shown]
+
+
+@dataclass(frozen=True)
+class SystemStructure:
+    """Instances and connections of a scenario, and what of it they do not hold.
+
+    orders     orders after time 0, in order of time
+    helm       how ships are steered by more than orders, a phrase each ("[ships.own] follows a route")
+    left_out   what belongs to our own master and its results, a sentence each
+    """
+
+    scenario: Scenario
+    instances: tuple[Instance, ...]
+    connections: tuple[Connection, ...]
+    orders: tuple[TimedOrder, ...] = ()
+    helm: tuple[str, ...] = ()
+    left_out: tuple[str, ...] = field(default=())
+
+    @property
+    def title(self) -> str:
+        """What it is, in a line."""
+        header = self.scenario.scenario
+        said = f": {header.description}" if header.description else ""
+        return f"Scenario {header.name}{said}"
+
+
+def system_structure(scenario: Scenario) -> SystemStructure:
+    """The system of a scenario. Raises ScenarioError for one whose names do not fit, ShipError for a ship file."""
+    if COLLISION in scenario.ships:
+        raise ScenarioError(
+            f"[ships.{COLLISION}] cannot be packaged: that is the name of the collision's own instance; rename the ship"
+        )
+    ships = tuple(scenario.ships)
+    packed = {name: packed_ship(name, scenario.ship_file(name)) for name in ships}
+    instances = [_ship(scenario, name, start, packed[name]) for name, start in scenario.ships.items()]
+    return SystemStructure(
+        scenario=scenario,
+        instances=(*instances, _collision(scenario, packed)),
+        connections=tuple(connection for name in ships for connection in _connections(scenario, name)),
+        orders=_orders(scenario),
+        helm=tuple(phrase for name, start in scenario.ships.items() for phrase in _helm(name, start)),
+        left_out=_left_out(scenario),
+    )
+
+
+def number(variable: Variable, value: Value) -> Value:
+    """The value as FMI holds it: an enumeration's item as its number from 1."""
+    return variable.items.index(str(value)) + 1 if variable.items else value
+
+
+def _ship(scenario: Scenario, name: str, ship: ShipStart, packed: tuple[str, dict[str, bytes]]) -> Instance:
+    parameters = {**ship_parameters(scenario, name, ship), "ship": packed[0]}
+    at_start = next((ordered for k, ordered in order_table(ship, scenario.step) if k == 0), [0.0, 0.0])
+    inputs: dict[str, Value] = {
+        **dict(zip(ORDERS, at_start, strict=True)),
+        **dict(zip(SURROUNDINGS, surroundings(scenario), strict=True)),
+    }
+    start = {**parameters, **inputs}
+    return Instance(name, SHIP_INTERFACE, tuple(scenario.ships), start, tuple(start), packed[1])
+
+
+def _collision(scenario: Scenario, packed: Mapping[str, tuple[str, dict[str, bytes]]]) -> Instance:
+    parameters = {**collision_parameters(scenario), **{f"{name}.ship": place for name, (place, _) in packed.items()}}
+    states: dict[str, Value] = {}
+    for name, ship in scenario.ships.items():
+        start = ship.start
+        state = (*start.position, *start.attitude, *start.velocity, *start.rate)
+        states |= dict(zip(named(name, STATE), state, strict=True))
+    files = {place: data for _, needed in packed.values() for place, data in needed.items()}
+    return Instance(
+        COLLISION, COLLISION_INTERFACE, tuple(scenario.ships), {**parameters, **states}, tuple(parameters), files
+    )
+
+
+def _connections(scenario: Scenario, name: str) -> list[Connection]:
+    answer = ANSWERS[scenario.collision.feedback or "ledger"]
+    return [
+        *(Connection(name, variable, COLLISION, f"{name}.{variable}") for variable in (*STATE, *APPLIED)),
+        *(Connection(COLLISION, f"{name}.{variable}", name, variable) for variable in answer),
+    ]
+
+
+def _orders(scenario: Scenario) -> tuple[TimedOrder, ...]:
+    """Rudder and propeller orders after time 0, only where they change."""
+    found: list[TimedOrder] = []
+    for name, start in scenario.ships.items():
+        now = [0.0, 0.0]
+        for k, ordered in order_table(start, scenario.step):
+            if k > 0:
+                found += [
+                    TimedOrder(round(k * scenario.step, 9), name, variable, value)
+                    for variable, value, before in zip(ORDERS, ordered, now, strict=True)
+                    if not isclose(value, before, rel_tol=0.0, abs_tol=0.0)
+                ]
+            now = ordered
+    return tuple(sorted(found, key=lambda order: order.time))
+
+
+def _helm(name: str, start: ShipStart) -> list[str]:
+    phrases = []
+    if any(order.heading_deg is not None for order in start.orders):
+        phrases.append(f"[ships.{name}] steers a heading by autopilot")
+    if start.route is not None:
+        phrases.append(f"[ships.{name}] follows a route")
+    if start.evasion is not None:
+        phrases.append(f"[ships.{name}] evades {start.evasion.of}")
+    return phrases
+
+
+def _left_out(scenario: Scenario) -> tuple[str, ...]:
+    lines = [
+        f"The host chooses the algorithm; the scenario's own is {scenario.algorithm}.",
+        f"The scenario's communication step is {scenario.step!r} s, its duration {scenario.scenario.duration!r} s.",
+    ]
+    if scenario.collision.damage is not None:
+        lines.append("[collision] damage is reported by `shipcollision run` only.")
+    if scenario.reference is not None:
+        lines.append("[reference] is compared by `shipcollision run` only.")
+    return tuple(lines)

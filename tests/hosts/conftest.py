@@ -1,0 +1,35 @@
+"""The encounters that all hosts run, packaged once, and what our own master makes of them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from shipcollision_fmu.cosim.encounters import encounter
+from shipcollision_fmu.cosim.scenario import load_scenario, scenario_of
+
+from .encounter import Encounter, Rows
+
+NAMES = ("guan2014", "under_way")
+
+
+@pytest.fixture(scope="session")
+def encounters(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Encounter]:
+    """guan2014 coasts, answered by Bullet; under_way sails two VLCCs into each other, answered by pgs, and they part.
+
+    Not at a right angle amidships: there both corners of the stem touch at once, and the last bit decides which first.
+    """
+    place = {"angle_deg": 70.0, "at": 0.15, "time": 2.0, "after": 3.0}
+    text = encounter("t-bone", hydrodynamics=True, name="under_way", **place).text
+    assert "restitution = 0.0" in text
+    text = text.replace("restitution = 0.0", "restitution = 0.3")
+    scenarios = {"guan2014": load_scenario("guan2014"), "under_way": scenario_of(text, "under_way.toml")}
+    return {name: Encounter.packaged(scenarios[name], tmp_path_factory.mktemp(name)) for name in NAMES}
+
+
+@pytest.fixture(scope="session")
+def ours(encounters: dict[str, Encounter]) -> dict[str, tuple[Rows, int, dict[str, list[float]]]]:
+    """Rows, number of collisions and all exchanged values of our own parallel master."""
+    made = {name: encounters[name].ours() for name in NAMES}
+    assert all(np.isfinite(rows).all() and impacts == 1 for rows, impacts, _ in made.values())
+    return made

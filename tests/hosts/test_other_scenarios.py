@@ -1,0 +1,126 @@
+"""What else a package can hold, in one host each: orders in time, hulls from a mesh, ships that take forces."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+
+from shipcollision_fmu.cosim.scenario import Scenario, load_scenario, scenario_of
+from shipcollision_fmu.ship.library import models_directory
+
+from .encounter import Encounter, Rows, run_master
+from .masters import MASTERS
+from .test_encounters import JITTER
+
+ORDERS = """
+[scenario]
+name = "orders"
+duration = 3.0
+
+[ships.own]
+ship = "kvlcc2"
+position = [0.0, 0.0]
+heading_deg = 90.0
+speed = 5.0
+hydrodynamics = true
+orders = [{ time = 0.0, rev_per_s = 0.769 }, { time = 0.5, rudder_deg = 20.0 }, { time = 1.52, rev_per_s = -0.5 }]
+
+[ships.target]
+ship = "kvlcc2"
+position = [800.0, 0.0]
+heading_deg = 0.0
+"""
+
+MESH = """
+[scenario]
+name = "mesh"
+duration = 2.0
+
+[ships.own]
+ship = "./mine.toml"
+position = [-78.0, 0.0]
+heading_deg = 0.0
+speed = 4.0
+
+[ships.target]
+ship = "guan2014_target"
+position = [0.0, 0.0]
+heading_deg = 90.0
+
+[collision]
+feedback = "force"
+"""
+
+
+def differences(host: str, told: Scenario, folder: Path, gone: Path | None = None, **more: str) -> tuple[Rows, Rows]:
+    """Relative differences from our own master, by column; and our rows. The folder `gone` is removed in between."""
+    encounter = Encounter.packaged(told, folder)
+    (ours, _, _), case = encounter.ours(), encounter.case(**more)
+    if gone is not None:
+        shutil.rmtree(gone)
+    (result,) = run_master(host, [case], folder)
+    rows = encounter.rows(result)
+    seen = ~np.isnan(rows).any(axis=1)
+    vectors = np.abs(ours).max(axis=0).reshape(-1, 3).max(axis=1).repeat(3)
+    return np.abs(rows[seen] - ours[seen]) / np.where(vectors > 0.0, vectors, 1.0), ours
+
+
+@pytest.mark.parametrize("host", [host for host in MASTERS if host == "libcosim-osp"])
+def test_orders_in_time_reach_the_ship_in_libcosim(tmp_path: Path, host: str) -> None:
+    scenario = scenario_of(ORDERS, "orders.toml")
+    found, ours = differences(host, scenario, tmp_path, scenario=str(tmp_path / "osp" / "scenario.json"))
+    assert found.max() <= JITTER
+    heading = ours[:, 5]
+    assert abs(heading[11] - heading[0]) < 1e-3 * abs(heading[-1] - heading[0])  # the rudder order did something
+
+
+@pytest.mark.parametrize(
+    "hull",
+    ["convex", pytest.param("example", marks=pytest.mark.slow)],  # which is cut into convex parts first: seconds
+)
+def test_a_ship_file_with_a_mesh_and_forces_for_feedback(tmp_path: Path, hull: str) -> None:
+    """In Ecos, from a folder of its own: the package holds ship file and mesh, both are gone where they were."""
+    models, home = models_directory(), tmp_path / "home"
+    home.mkdir()
+    text = (models / "ships" / "mesh_example.toml").read_text()
+    (home / "mine.toml").write_text(text.replace("../hulls/example.obj", "hull.obj"))
+    if hull == "convex":  # in millimetres from the keel amidships, as the example
+        solid = trimesh.creation.box((120e3, 20e3, 12e3), trimesh.transformations.translation_matrix([60e3, 0, 6e3]))
+        solid.export(home / "hull.obj")
+    else:
+        shutil.copy(models / "hulls" / "example.obj", home / "hull.obj")
+    (home / "mesh.toml").write_text(MESH)
+    found, ours = differences("ecos-ssp", load_scenario(home / "mesh.toml"), tmp_path, gone=home)
+    assert found.max() == 0.0
+    assert ours[-1, -12:].any()
+
+
+def test_an_edited_parameter_set_reaches_a_host_that_reads_it(encounters: dict[str, Encounter], tmp_path: Path) -> None:
+    """Ecos applies the set whose name it is given, else the FMU's start values hold."""
+    with zipfile.ZipFile(encounters["guan2014"].folder / "package.ssp") as package:
+        files = {name: package.read(name) for name in package.namelist()}
+    files["resources/collision.ssv"] = files["resources/collision.ssv"].replace(b'value="0.196"', b'value="0.5"')
+    with zipfile.ZipFile(tmp_path / "edited.ssp", "w") as package:
+        for name, data in files.items():
+            package.writestr(name, data)
+    code = """
+import sys
+from ecospy import EcosSimulation
+for name in (None, "scenario"):
+    simulation = EcosSimulation(0.05, ssp_path=sys.argv[1])
+    simulation.init(parameter_set=name)
+    print(simulation.get_real("collision::friction"))
+    simulation.terminate()
+    simulation.free()
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", code, tmp_path / "edited.ssp"], capture_output=True, text=True, check=True, timeout=60
+    )
+    assert done.stdout.split() == ["0.196", "0.5"]
