@@ -106,7 +106,9 @@ def test_an_edited_parameter_set_reaches_a_host_that_reads_it(encounters: dict[s
     """Ecos applies the set whose name it is given, else the FMU's start values hold."""
     with zipfile.ZipFile(encounters["guan2014"].folder / "package.ssp") as package:
         files = {name: package.read(name) for name in package.namelist()}
-    files["resources/collision.ssv"] = files["resources/collision.ssv"].replace(b'value="0.196"', b'value="0.5"')
+    friction, was = encounters["guan2014"].scenario.collision.friction, files["resources/collision.ssv"].decode()
+    assert f'value="{friction}"' in was
+    files["resources/collision.ssv"] = was.replace(f'value="{friction}"', 'value="0.5"').encode()
     with zipfile.ZipFile(tmp_path / "edited.ssp", "w") as package:
         for name, data in files.items():
             package.writestr(name, data)
@@ -123,4 +125,4 @@ for name in (None, "scenario"):
     done = subprocess.run(
         [sys.executable, "-c", code, tmp_path / "edited.ssp"], capture_output=True, text=True, check=True, timeout=60
     )
-    assert done.stdout.split() == ["0.196", "0.5"]
+    assert done.stdout.split() == [str(friction), "0.5"]
