@@ -1,0 +1,59 @@
+"""What the steps change: velocities after impact in every shipped scenario, by the substep and by the master's step.
+
+Per ship, the change of the velocity of CO as a share of its size, and of the whole twist in the norm of the kinetic
+energy, which is the one that may add metres and radians. A single small component (a roll rate) changes by more.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from shipcollision_fmu import load_scenario, load_ship, simulate
+from shipcollision_fmu.cosim.scenario import scenario_names
+from shipcollision_fmu.cosim.wiring import STATE
+
+pytestmark = pytest.mark.slow
+
+FINEST = 0.01
+
+
+@cache
+def twists(name: str, algorithm: str, step: float, substeps: int = 1) -> dict[str, np.ndarray]:
+    """Twist (6,) of every ship at the end, with the scenario's substep divided."""
+    scenario = load_scenario(name)
+    substep = (scenario.collision.substep or FINEST) / substeps
+    scenario = scenario.model_copy(update={"collision": scenario.collision.model_copy(update={"substep": substep})})
+    last = simulate(scenario, algorithm=algorithm, step=step, in_process=True).states[-1]
+    return {ship: np.array([last[f"{ship}.{variable}"] for variable in STATE[6:]]) for ship in scenario.ships}
+
+
+def differ(name: str, one: dict[str, np.ndarray], other: dict[str, np.ndarray]) -> float:
+    """The largest of the ships' differences."""
+    worst = 0.0
+    for ship, table in load_scenario(name).ships.items():
+        M, d = load_ship(table.ship).M, one[ship] - other[ship]
+        worst = max(
+            worst, float(np.linalg.norm(d[:3]) / np.linalg.norm(other[ship][:3])),
+            float(np.sqrt(d @ M @ d / (other[ship] @ M @ other[ship]))),
+        )  # fmt: skip
+    return worst
+
+
+@pytest.mark.parametrize("name", scenario_names())
+def test_half_the_substep_changes_velocities_by_less_than_one_per_cent(name: str) -> None:
+    step = load_scenario(name).step
+    one, other = twists(name, "gauss-seidel", step, 2), twists(name, "gauss-seidel", step)
+    assert 0.0 < differ(name, one, other) < 0.01
+
+
+@pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
+@pytest.mark.parametrize("name", scenario_names())
+def test_the_communication_step_changes_velocities_by_less_than_two_and_five_per_cent(
+    name: str, algorithm: str
+) -> None:
+    finest = twists(name, algorithm, FINEST)
+    for step, most in ((0.02, 0.02), (0.05, 0.02), (0.1, 0.02), (0.5, 0.05)):
+        assert differ(name, twists(name, algorithm, step), finest) < most, step
