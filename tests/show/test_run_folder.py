@@ -39,7 +39,7 @@ def test_what_was_written_is_read(folder: Path) -> None:
     assert list(run.bodies.ships) == ["own", "target"]
     assert np.array_equal(run.times, table[:, 0])
     assert np.array_equal(run.states[:, 1, 5], table[:, header.index("target.attitude.yaw")])
-    assert len(run.contacts["time"]) == len((folder / "contacts.csv").read_text().splitlines()) - 1 == 2
+    assert len(run.contacts["time"]) == len((folder / "contacts.csv").read_text().splitlines()) - 1 > 1
 
 
 def test_no_folder_and_an_empty_and_a_foreign_one(tmp_path: Path) -> None:
