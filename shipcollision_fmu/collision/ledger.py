@@ -104,9 +104,9 @@ class Books:
             return Reading(x, R, nu, applied, delivered, pending, np.zeros(6), late, spins)
         return Reading(x, R, nu, applied, delivered, pending, _in_body(x, R, owed), late, spins)
 
-    def close(self, reading: Reading, J: Array, nu: Array, ahead: tuple[Array, Array]) -> None:
+    def close(self, reading: Reading, J: Array, nu: Array, ahead: Callable[[], tuple[Array, Array]]) -> None:
         """End a step in which contact gave J (6,), solved at the received pose. nu: twist with which the step began;
-        ahead: the pose (x, R) at which a late ship will apply what is issued now."""
+        ahead: gives the pose (x, R) at which a late ship will apply what is issued now."""
         x, R = reading.x, reading.R
         given = J + reading.owed
         out = given
@@ -118,7 +118,7 @@ class Books:
             linear = float(np.linalg.norm(w[:3]))
             self._size = self._size + [linear, float(np.linalg.norm(J[3:])) + float(np.linalg.norm(x)) * linear]
         if reading.late and given.any() and not reading.spins:
-            out = _in_body(*ahead, _wrench(x, R, given))
+            out = _in_body(*ahead(), _wrench(x, R, given))
         if out.any():
             self.issued = self.issued + out
             self._echo = self.issued.tolist()

@@ -24,6 +24,7 @@ State before a step that fails stays as it was. The model knows nothing of FMI.
 from __future__ import annotations
 
 from collections.abc import Container, Sequence
+from functools import partial
 from math import ceil
 from pathlib import Path
 from typing import Any
@@ -328,7 +329,7 @@ class ShipCollision:
                 out.force[:] = _NO_FORCE
                 continue
             books, reading = self._books[i], self._readings[i]
-            books.close(reading, shadow.issued, shadow.nu_received, shadow.ahead(reading.nu, H))
+            books.close(reading, shadow.issued, shadow.nu_received, partial(shadow.ahead, reading.nu, H))
             out.impulse[:] = books.issued.tolist()
             out.force[:] = (shadow.issued / H).tolist() if shadow.issued.any() else _NO_FORCE
             self._seen[i] = _seen(t - H, H, state) if i in colliding else None
