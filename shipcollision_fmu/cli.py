@@ -125,6 +125,7 @@ def run(
         finished = simulate(
             loaded, algorithm=algorithm, step=step, in_process=in_process, fmi=int(fmi), out=folder, progress=progress
         )
+    _remove_pictures(folder)
     console = _console()
     for table in tables(finished):
         console.print(table)
@@ -192,11 +193,11 @@ def build(out: Path, fmi: str) -> None:
 
 @main.command()
 @click.argument("scenario")
-@click.option("--ssp", "kind", flag_value="ssp", help="One .ssp file: System Structure and Parameterization 1.0.")
-@click.option("--osp", "kind", flag_value="osp", help="A folder for the Open Simulation Platform.")
+@click.option("--ssp", is_flag=True, help="One .ssp file: System Structure and Parameterization 1.0.")
+@click.option("--osp", is_flag=True, help="A folder for the Open Simulation Platform.")
 @click.option("--out", type=_PATH, metavar="FILE|FOLDER", help="[default: NAME.ssp or NAME-osp]")
 @click.option("--initial-orders", is_flag=True, help="Hold the orders of time 0, leave out what a helm does later.")
-def package(scenario: str, kind: str | None, out: Path | None, initial_orders: bool) -> None:
+def package(scenario: str, ssp: bool, osp: bool, out: Path | None, initial_orders: bool) -> None:
     """Make a system of FMUs of SCENARIO for other hosts.
 
     SCENARIO is a name that `shipcollision scenarios` lists, or the path of a TOML file. The package holds an FMU for
@@ -207,10 +208,10 @@ def package(scenario: str, kind: str | None, out: Path | None, initial_orders: b
     from .cosim.scenario import load_scenario
     from .cosim.ssp import write_ssp
 
-    if kind is None:
-        raise click.UsageError("say what to make: --ssp or --osp")
+    if ssp == osp:
+        raise click.UsageError("say which one to make: --ssp or --osp")
     loaded = load_scenario(scenario)
-    if kind == "ssp":
+    if ssp:
         place = out if out is not None else Path(f"{loaded.name}.ssp")
         if place.suffix != ".ssp":
             raise click.UsageError(f"--out {place}: hosts know the file by its suffix; call it {place.name}.ssp")
@@ -345,9 +346,7 @@ def trial(
 @click.option("--drift-deg", type=float, metavar="DEG", help="Where she drifts, from her bow.  [default: 90]")
 @click.option("--case", type=int, metavar="N", help="Of imazu: 1 to 22.")
 @click.option("--hydrodynamics/--coasting", default=None, help="Sail the ships, or let them coast.  [default: by TYPE]")
-@click.option(
-    "--degrees-of-freedom", type=click.Choice(["3", "4", "6"]), help="Of all ships.  [default: 3 under way, 6 coasting]"
-)
+@click.option("--degrees-of-freedom", type=click.Choice(["3", "4", "6"]), help="Of all ships.  [default: 3]")
 @click.option("--step", type=float, default=0.05, show_default=True, metavar="S", help="Communication step.")
 @click.option("--name", help="Of the scenario.")
 @click.option("--out", type=_PATH, metavar="FILE.toml", help="Store it; else it is printed.")
@@ -405,6 +404,13 @@ def import_(
         click.echo(out.parent / name)
     for note in made.notes:
         click.echo(f"note: {note}", err=True)
+
+
+def _remove_pictures(folder: Path) -> None:
+    """What shows an earlier run in the same folder is of another run now."""
+    from .show.outputs import remove
+
+    remove(folder)
 
 
 def _write_page(folder: Path) -> None:

@@ -177,6 +177,15 @@ def load_ship_M(name: str) -> np.ndarray:
     return _M[name]
 
 
+@pytest.mark.parametrize("algorithm", ALGORITHMS)
+def test_linear_momentum_without_added_mass_is_the_same_after_as_before(runs: Runs, algorithm: str) -> None:
+    momentum = runs["guan2014", algorithm].run.summary["momentum"]
+    assert momentum["closed"]
+    np.testing.assert_allclose(momentum["after"]["linear"], momentum["before"]["linear"], atol=1e-12 * 1e9)
+    for name in ("guan2014_added_mass", "kvlcc2_crossing"):
+        assert not runs[name, algorithm].run.summary["momentum"]["closed"]
+
+
 @pytest.mark.parametrize("name", scenario_names())
 def test_fmus_and_models_in_process_give_identical_states(name: str, tmp_path: Path) -> None:
     scenario = load_scenario(name)

@@ -34,6 +34,9 @@ __all__ = ["Block", "friction_in_disc", "law_residual", "solve_contact"]
 RANK = 1e-9
 """Share of W_nn below which what is left of it when friction holds both tangents is rounding."""
 
+ROUNDING = 1e-14
+"""Approach, as a share of that before, that counts as stopped."""
+
 Row = tuple[float, float, float]
 NONE: Row = (0.0, 0.0, 0.0)
 
@@ -129,15 +132,17 @@ def _bracketed(W: Block, v: Row, mu: float) -> tuple[Row, float | None]:
         f_high = f(high)
     else:  # no impulse in the cone stops them: neither ship can move along any of its directions
         return (-v[0] / W.W_nn, 0.0, 0.0), None
+    # Where the ships are held in some direction many impulses do the same to them: the least is taken.
+    stopped = ROUNDING * v[0]
     for k in range(200):
         middle = 0.5 * (low + high) if k % 3 == 2 else low - f_low * (high - low) / (f_high - f_low)
         if not low < middle < high:
             break
         f_middle = f(middle)
-        if f_middle < 0.0:
+        if f_middle < stopped:
             low, f_low = middle, f_middle
         else:
-            high, f_high = middle, f_middle
+            high, f_high = middle, max(f_middle, 0.0)
     P_n = low if -f_low < f_high else high
     P_1, P_2 = friction_in_disc(W, v[1] + W.w_1 * P_n, v[2] + W.w_2 * P_n, mu * P_n)
     return (P_n, P_1, P_2), atan2(P_2, P_1)

@@ -34,6 +34,9 @@ which least overlap no longer tells the side that was struck."""
 SAME_POINT = 0.5
 """Contact points of different convex parts closer than this [m] are one point."""
 
+FLUSH = 1e-6
+"""Gap [m] at which a corner counts as touching when another one of the same face touches."""
+
 KeptNormals = dict[tuple[int, int], tuple[int, list[float]]]
 """Per pair of ships (a, b): which of them carries the last shallow normal, and that normal in its body frame."""
 
@@ -82,8 +85,11 @@ class Detector:
                 kept[(a, b)] = (carrier, (normal @ shadows[(a, b)[carrier]].R).tolist())
             # Features that pass each other (a corner beside a face's edge) leave Bullet's own point.
             corners = contact_manifold(feature_a, feature_b, normal)
-            for point, gap in corners or [(0.5 * (closest.on_a + closest.on_b), closest.gap)]:
-                if gap <= 0.0:
+            places = corners or [(0.5 * (closest.on_a + closest.on_b), closest.gap)]
+            # Faces that meet flush touch with all their corners, whatever the last bits of the gaps say.
+            touch = FLUSH if min(gap for _, gap in places) <= 0.0 else 0.0
+            for point, gap in places:
+                if gap <= touch:
                     contact = make_contact(a, b, shadows, point, normal, gap)
                     # With a kept normal, parts that pass each other along it or lie behind others have no contact.
                     inside = joined and not shallow and (not corners or self._is_inside(contact, closest, shadows))

@@ -20,8 +20,9 @@ well, as wrenches (linear, and angular about n's origin):
 
 What is owed goes out with the next impulse, and after a ship was seen to be late impulses are expressed for the pose
 that she will have by then. Linear and angular momentum are kept to rounding under either master, once all is applied.
-Not so for a body that turns by more than MOST_TURN in a step, as a log that was run over: what such a one is owed is
-written off, since by the next step it would come from a wrong side, and could add energy.
+Not so for a body that turns, or moves as a share of its size, by more than FAR in a step, as a log that was run over or
+a buoy: what such a one is owed is written off, since by the next step it would come from a wrong side, and could add
+energy.
 """
 
 from __future__ import annotations
@@ -39,14 +40,14 @@ ROUNDING = 1e-12
 """What is owed, as a share of all that was ever given, that is rounding."""
 
 
-MOST_TURN = 0.1
-"""Turning in a step [rad] beyond which nothing is carried over from pose to pose."""
+FAR = 0.1
+"""Turning in a step [rad], plus way in it as a share of the hull's reach, beyond which nothing is carried over."""
 
 
 class Reading(NamedTuple):
     """A ship's books at the start of a step of H [s]. nu: twist (6,) with what is pending in it; pending: impulse (6,)
     in b that the ship will still apply, or that its velocity does not show; owed (6,) in b: what is missing of what was
-    meant; late: whether the ship applies an impulse after it has moved on; spins: it turns too far in a step."""
+    meant; late: whether the ship applies an impulse after it has moved on; restless: it goes too far in a step."""
 
     x: Array
     R: Array
@@ -56,7 +57,7 @@ class Reading(NamedTuple):
     pending: Array
     owed: Array
     late: bool
-    spins: bool
+    restless: bool
 
 
 class Books:
@@ -79,18 +80,18 @@ class Books:
         return self.settled and (feedback != "ledger" or applied == self._echo)
 
     def read(
-        self, feedback: str, x: Array, R: Array, nu: Array, applied: Array, M: Array, M_inverse: Array, H: float
+        self, feedback: str, x: Array, R: Array, nu: Array, applied: Array, M_inverse: Array, reach: float, H: float
     ) -> Reading:
         """What the state received says. Changes nothing."""
         if feedback != "ledger":
-            pending = FEEDBACKS[feedback](self, nu, M)
+            pending = FEEDBACKS[feedback](self, nu, M_inverse)
             if pending.any():
                 nu = nu + M_inverse @ pending
             return Reading(x, R, nu, applied, self._delivered, pending, np.zeros(6), False, False)
         taken, pending = applied - self._applied, self.issued - applied
         if pending.any():
             nu = nu + M_inverse @ pending
-        spins = H * float(np.linalg.norm(nu[3:])) > MOST_TURN
+        restless = H * float(np.linalg.norm(nu[3:]) + np.linalg.norm(nu[:3]) / reach) > FAR
         delivered, late = self._delivered, self._late
         if taken.any():
             delivered = delivered + _wrench(self._x, self._R, taken)
@@ -100,9 +101,9 @@ class Books:
         if pending.any():
             owed = owed - _wrench(x, R, pending)
         small = ROUNDING * self._size
-        if spins or (np.abs(owed[:3]).max() <= small[0] and np.abs(owed[3:]).max() <= small[1]):
-            return Reading(x, R, nu, applied, delivered, pending, np.zeros(6), late, spins)
-        return Reading(x, R, nu, applied, delivered, pending, _in_body(x, R, owed), late, spins)
+        if restless or (np.abs(owed[:3]).max() <= small[0] and np.abs(owed[3:]).max() <= small[1]):
+            return Reading(x, R, nu, applied, delivered, pending, np.zeros(6), late, restless)
+        return Reading(x, R, nu, applied, delivered, pending, _in_body(x, R, owed), late, restless)
 
     def close(self, reading: Reading, J: Array, nu: Array, ahead: Callable[[], tuple[Array, Array]]) -> None:
         """End a step in which contact gave J (6,), solved at the received pose. nu: twist with which the step began;
@@ -110,14 +111,14 @@ class Books:
         x, R = reading.x, reading.R
         given = J + reading.owed
         out = given
-        if reading.spins:
+        if reading.restless:
             self._meant = reading.delivered + _wrench(x, R, reading.pending)
         if J.any():
             w = _wrench(x, R, J)
             self._meant = self._meant + w
             linear = float(np.linalg.norm(w[:3]))
             self._size = self._size + [linear, float(np.linalg.norm(J[3:])) + float(np.linalg.norm(x)) * linear]
-        if reading.late and given.any() and not reading.spins:
+        if reading.late and given.any() and not reading.restless:
             out = _in_body(*ahead(), _wrench(x, R, given))
         if out.any():
             self.issued = self.issued + out
@@ -129,12 +130,15 @@ class Books:
 
     # How a ship that does not echo shows what it has taken.
 
-    def inferred(self, nu: Array, M: Array) -> Array:
-        """The last step's impulse, unless the received velocity shows it: the nearer of "all" and "nothing" counts."""
+    def inferred(self, nu: Array, M_inverse: Array) -> Array:
+        """The last step's impulse, unless the received velocity shows it: the nearer of "all" and "nothing" counts.
+
+        Only what the free degrees of freedom take of it can be seen: M_inverse is that of these.
+        """
         if not self.last.any():
             return self.last
         change = float(self.last @ (nu - self._nu))  # twice the work of the impulse, if applied
-        whole = float(self.last @ np.linalg.solve(M, self.last))
+        whole = float(self.last @ M_inverse @ self.last)
         return np.zeros(6) if change > 0.5 * whole else self.last
 
     # -- state --------------------------------------------------------------------------------------
@@ -153,7 +157,7 @@ class Books:
 _ARRAYS = ("issued", "last", "_nu", "_applied", "_x", "_R", "_meant", "_delivered", "_size")
 
 
-def _nothing(books: Books, nu: Array, M: Array) -> Array:
+def _nothing(books: Books, nu: Array, M_inverse: Array) -> Array:
     return np.zeros(6)
 
 

@@ -166,7 +166,7 @@ class ShipCollision:
         nu, x = np.array(state.velocity + state.rate), np.array(state.position)
         shadow = Shadow.at(x, np.array(state.attitude), nu, body.M_inverse, body.bullet.r_bg)
         applied = np.array(state.impulse_applied)
-        reading = self._books[i].read(feedback, x, shadow.R, nu, applied, body.M, body.M_inverse, H)
+        reading = self._books[i].read(feedback, x, shadow.R, nu, applied, body.M_inverse, body.reach, H)
         shadow.nu = reading.nu + body.M_inverse @ reading.owed if reading.owed.any() else reading.nu
         if (before := self._seen[i]) is not None and feedback == "ledger":
             found = drift(before, _seen(t, 0.0, state), body.M_inverse, body.bullet.r_bg, body.reach)

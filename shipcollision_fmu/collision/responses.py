@@ -14,8 +14,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..ship.frames import Array
 from .axes import contact_axes
-from .contact import Impulse, contact_velocity, make_contact
+from .contact import Contact, Impulse, contact_velocity, make_contact
 from .delassus import contact_jacobian, delassus
 from .detection import Detector, KeptNormals
 from .engine import BulletBody
@@ -102,18 +103,25 @@ def respond_closed_form(encounter: Encounter) -> Answer:
         W = delassus(axis @ G, ships, shadows)
         path = solve_slip_path(W, axis @ contact_velocity(contact, shadows), encounter.friction, encounter.restitution)
         P = axis.T @ path.P
-        shadows[a] = replace(shadows[a], nu=shadows[a].nu - shadows[a].M_inverse @ (P @ contact.G_a))
-        shadows[b] = replace(shadows[b], nu=shadows[b].nu + shadows[b].M_inverse @ (P @ contact.G_b))
+        _felt(contact, P, shadows)
         impulses.append(Impulse(contact, P))
     return Answer(impulses)
+
+
+def _felt(contact: Contact, P: Array, shadows: list[Shadow]) -> None:
+    """What the next pair meets: both ships with the impulse P (in n) taken. Places in the list change, not shadows."""
+    for i, taken in ((contact.a, -(P @ contact.G_a)), (contact.b, P @ contact.G_b)):
+        shadows[i] = replace(shadows[i], nu=shadows[i].nu + shadows[i].M_inverse @ taken)
 
 
 def respond_bullet(encounter: Encounter) -> Answer:
     """One step of Bullet's own dynamics for every pair that touches; its contact impulses are taken over as they are.
 
+    A pair sees what the pairs before it did to its ships, as with closed_form: they are not solved together.
+
     Bullet would act one step before touch, and so lose the restitution or not, by chance of the step: hence the wait.
     """
-    shadows, impulses = encounter.shadows, []
+    shadows, impulses = list(encounter.shadows), list[Impulse]()
     for a, b in encounter.pairs:
         if not encounter.detector.touching(a, b):
             continue
@@ -127,7 +135,9 @@ def respond_bullet(encounter: Encounter) -> Answer:
             encounter.restitution,
         )
         for on_a, on_b, normal, gap, P in rows:
-            impulses.append(Impulse(make_contact(a, b, shadows, 0.5 * (on_a + on_b), normal, gap), P))
+            contact = make_contact(a, b, shadows, 0.5 * (on_a + on_b), normal, gap)
+            impulses.append(Impulse(contact, P))
+            _felt(contact, P, shadows)
     return Answer(impulses)
 
 

@@ -86,7 +86,7 @@ def _check_engine(name: str, speed: float, rev_per_s: float, most: float) -> Non
     if not (isfinite(rev_per_s) and 0.0 < rev_per_s <= most):
         raise ScenarioError(
             f"ship {name!r} needs {rev_per_s:.4g} rev/s for {speed:g} m/s; must be above 0 and at most her engine's "
-            f"{most:g}: take a lower speed"
+            f"{most:g}: take a lower speed, or more revolutions"
         )
 
 

@@ -41,6 +41,8 @@ def findings(fmu: Path, *, calls: bool = True, ignore: Collection[str] = ()) -> 
     unknown = [name for name in ignore if name not in NAMES]
     if unknown:
         raise InputError(f"{unknown[0]!r} is not a check: one of {', '.join(NAMES)}")
+    if fmu.is_dir():
+        raise InputError(f"{fmu} is a folder: give the path of a .fmu file")
     if not fmu.is_file():
         raise InputError(f"{fmu} does not exist: build the FMUs with `shipcollision build`")
     if not is_zipfile(fmu):

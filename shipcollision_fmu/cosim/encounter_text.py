@@ -92,7 +92,7 @@ def _ship_table(mover: Mover, pose: Pose, wanted: Wanted, sailed: bool, director
         "surge": None if ahead else _rounded(pose.surge, 9),
         "sway": None if ahead else _rounded(pose.sway, 9),
         "hydrodynamics": sailed or None,
-        "degrees_of_freedom": mover.degrees_of_freedom if sailed or wanted.degrees_of_freedom else None,
+        "degrees_of_freedom": mover.degrees_of_freedom,
         "orders": orders,
     }
 

@@ -109,7 +109,7 @@ def _movers(wanted: Wanted, kind: Kind, sailed: bool, steps: int) -> tuple[tuple
     """Current [m/s, north and east], own and target."""
     own_speed, target_speed = either(wanted.own_speed, kind.own_speed), either(wanted.target_speed, kind.target_speed)
     drift, towards = either(wanted.drift_speed, kind.drift_speed), radians(wanted.drift_deg)
-    free = wanted.degrees_of_freedom or (3 if sailed else 6)
+    free = wanted.degrees_of_freedom or 3
     if not sailed:
         return (
             (0.0, 0.0),

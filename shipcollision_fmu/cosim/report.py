@@ -49,17 +49,33 @@ def lines(run: Run) -> Iterator[str]:
         within = sum(row["within"] for row in summary["paper"])
         yield f"{within} of {len(summary['paper'])} numbers within tolerance; * corrected, printed as shown"
     if not run.events["collisions"]:
-        yield f"no collision; least clearance {summary['least_clearance']:.1f} m"
+        capped = " or more (clearance_range)" if summary["least_clearance"] >= summary["clearance_range"] else ""
+        yield f"no collision; least clearance {summary['least_clearance']:.1f} m{capped}"
     energy = summary["energy"]
     before, after, lost = (x / 1e6 for x in (energy["before"]["total"], energy["after"]["total"], energy["dissipated"]))
     yield f"kinetic energy {before:.1f} MJ before, {after:.1f} MJ after:"
-    yield f"  {lost:.1f} MJ dissipated in contact, {after + lost - before:+.1f} MJ from sailing between contacts"
+    between = "sailing" if any(ship["hydrodynamics"] for ship in summary["ships"].values()) else "coasting"
+    rest = after + lost - before
+    rest = 0.0 if abs(rest) < 0.05 else rest
+    yield f"  {lost:.1f} MJ dissipated in contact, {rest:+.1f} MJ from {between} between contacts"
+    yield from _rolled(run)
     if summary["solver"]["unconverged"]:
         yield f"  the contact solver missed its residual {summary['solver']['unconverged']} times: see solver.residual"
     yield (
         f"{summary['steps']} steps of {summary['step']:.6g} s, {summary['algorithm']}, {run.timing['mode']}: "
         f"{run.timing['wall_time']:.2f} s, {run.timing['real_time_factor']:.0f} times real time"
     )
+
+
+def _rolled(run: Run) -> Iterator[str]:
+    """Ships that coast far over: nothing rights them."""
+    for name, ship in run.summary["ships"].items():
+        heel = degrees(float(abs(run.states[f"{name}.attitude.roll"]).max()))
+        if not ship["hydrodynamics"] and heel > 30.0:
+            yield (
+                f"  {name} heeled by {heel:.0f} deg: a ship that coasts has no buoyancy; give degrees_of_freedom = 3, "
+                "or hydrodynamics = true"
+            )
 
 
 def comparison(summary: dict[str, Any]) -> Table:
@@ -100,16 +116,15 @@ def _collisions(collisions: list[dict[str, Any]]) -> Table:
 
 def _ships(run: Run) -> Table:
     """Speed and heading before and after, and the ledger of impulses."""
-    rows = table("ship", ">speed [m/s]", ">heading [deg]", ">issued [MN s]", ">pending [MN s]", title="ships")
+    rows = table("ship", ">speed [m/s]", ">heading [deg]", ">impulse pending [MN s]", title="ships")
     first, last = run.states[0], run.states[-1]
     for name, books in run.summary["ledger"].items():
         columns = named(f"{name}.velocity", _LINEAR)
         speeds = [hypot(*(float(row[column]) for column in columns)) for row in (first, last)]
         headings = [degrees(float(row[f"{name}.attitude.yaw"])) for row in (first, last)]
-        impulses = [hypot(*books[key][:3]) / 1e6 for key in ("issued", "pending")]
         rows.add_row(
             name, f"{speeds[0]:.3f} > {speeds[1]:.3f}", f"{headings[0]:.2f} > {headings[1]:.2f}",
-            f"{impulses[0]:.2f}", f"{impulses[1]:.2g}",
+            f"{hypot(*books['pending'][:3]) / 1e6:.2g}",
         )  # fmt: skip
     return rows
 

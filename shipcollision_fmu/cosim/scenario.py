@@ -242,7 +242,8 @@ def _located(name_or_path: str | Path) -> Path:
     if isinstance(name_or_path, Path) or _is_path(text):
         path = Path(text)
         if not path.is_file():
-            raise ScenarioError(f"scenario file {text} does not exist: give the path of a TOML file or one of {names}")
+            fault = "is a folder" if path.is_dir() else "does not exist"
+            raise ScenarioError(f"scenario file {text} {fault}: give the path of a TOML file or one of {names}")
         return path
     path = models_directory() / "scenarios" / f"{text}.toml"
     if not path.is_file():

@@ -7,8 +7,10 @@
                hold and dissipated, which is counted apart
     solver     answers of the contact solver that missed the law by more than 1e-9 of the approach, and answers
                that were scaled back because they would have added energy
-    obstacles  by name: impulse that it took, in n [N s]. It has no momentum of its own, so the ships' is not kept
-               where one takes part: `closed` says whether momentum holds among the ships alone
+    obstacles  by name: impulse that it took, in n [N s]. It has no momentum of its own
+    closed     of momentum: whether the ships' linear momentum must be the same after as before. Contact gives both
+               ships the same; but an obstacle takes some, water, rudder and propeller change it, and so does
+               coasting with added mass, which turns with the hull while the velocity does not
 
 M = M_RB + M_A is that of the ship file. Outside contact, ships that coast without added mass keep linear momentum and,
 where the inertia about their axis of turning is one, energy; added mass, water, rudder and propeller change them.
@@ -25,6 +27,7 @@ from typing import Any
 import numpy as np
 
 from .. import __version__
+from ..collision.ports import CollisionParameters
 from ..ship.frames import Array, rotation
 from ..ship.ship import Ship
 from .recorder import Record
@@ -52,6 +55,7 @@ def summary(scenario: Scenario, ships: Mapping[str, Ship], record: Record, found
         "collisions": len(found["collisions"]),
         "scratches": len(found["scratches"]),
         "least_clearance": record.clearance,
+        "clearance_range": scenario.collision.clearance_range or CollisionParameters([]).clearance_range,
         "ledger": {
             name: {"issued": issued.tolist(), "applied": applied.tolist(), "pending": (issued - applied).tolist()}
             for name, issued, applied in zip(ships, record.issued_finally, record.applied, strict=True)
@@ -59,7 +63,7 @@ def summary(scenario: Scenario, ships: Mapping[str, Ship], record: Record, found
         "momentum": {
             "before": _momentum(ships, before),
             "after": _momentum(ships, after),
-            "closed": not any(name in scenario.obstacles for name in record.contacts["ship_b"].tolist()),
+            "closed": _closed(scenario, ships, record),
         },
         "solver": dict(zip(("unconverged", "scaled"), record.solver, strict=True)),
         "obstacles": {
@@ -77,6 +81,12 @@ def summary(scenario: Scenario, ships: Mapping[str, Ship], record: Record, found
         data["reference"] = {"source": scenario.reference.source, "time": scenario.reference.time}
         data["paper"] = compared(scenario.reference, record.states, ships)
     return data
+
+
+def _closed(scenario: Scenario, ships: Mapping[str, Ship], record: Record) -> bool:
+    coast = not any(table.hydrodynamics for table in scenario.ships.values())
+    dry = not any(ship.M_A.any() for ship in ships.values())
+    return coast and dry and not any(name in scenario.obstacles for name in record.contacts["ship_b"].tolist())
 
 
 def _ship(scenario: Scenario, name: str, ship: Ship) -> dict[str, Any]:

@@ -66,8 +66,8 @@ class Wanted:
     own_speed, target_speed   [m/s]                       heading_deg    of the target at the impact
     time, after        from the start to the impact, and from it to the end [s]
     hydrodynamics      both ships under way with the manoeuvring model; None: if the kind needs it
-    degrees_of_freedom of both ships, 3, 4 or 6; None: 3 under way (4 and 6 add heel in the turn and the roll after the
-                       impact, and take longer), 6 coasting
+    degrees_of_freedom of both ships, 3, 4 or 6; None: 3 (under way 4 and 6 add heel in the turn and the roll after the
+                       impact, and take longer; a ship that coasts in 6 has no buoyancy and goes on rolling)
     before, rudder_deg own's rudder order: how long before the impact [s], positive to starboard (late-evasive,
                        loss-of-steering)
     drift_speed, drift_deg    of a drifting target [m/s], and where to, from her bow clockwise

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+import sys
 from importlib.util import find_spec
 
 from ..errors import HostError
 
 __all__ = ["require"]
 
-_PACKAGES = {"matplotlib": "matplotlib", "PIL": "pillow", "imageio_ffmpeg": "imageio-ffmpeg"}
-"""By name of the module: what pip knows it by."""
+_EXTRAS = {"matplotlib": "plots", "PIL": "film", "imageio_ffmpeg": "mp4"}
+"""By name of the module: the extra that brings it."""
 
 
 def require(module: str, what: str) -> None:
     """Raise HostError, with the command that helps, when `module` is not installed. `what`: needs it, in words."""
     if find_spec(module) is None:
-        package = _PACKAGES[module]
-        raise HostError(f"{what} needs the package {package}: run `python -m pip install {package}`")
+        extra = _EXTRAS[module]
+        raise HostError(
+            f"{what} needs packages that are not installed: run "
+            f"`{sys.executable} -m pip install 'shipcollision-fmu[{extra}]'` (in a clone: '.[{extra}]')"
+        )

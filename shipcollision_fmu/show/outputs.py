@@ -12,7 +12,7 @@ from .page import PAGE, replay_html
 from .plots import FOLDER, write_plots
 from .scene import Scene, load_scene
 
-__all__ = ["PAGE", "listed", "load_scene", "made", "page"]
+__all__ = ["PAGE", "listed", "load_scene", "made", "page", "remove"]
 
 _LISTED = {
     PAGE: "the page: open it in a browser",
@@ -49,6 +49,15 @@ def made(kind: str, scene: Scene, folder: Path, still: float | None, progress: C
     if kind == "mp4":
         return [str(animation.write_mp4(scene, folder, progress))]
     return [str(animation.write_still(scene, folder, scene.start if still is None else still))]
+
+
+def remove(folder: Path) -> None:
+    """Take away what was written of an earlier run; other files stay."""
+    for name in _LISTED:
+        place = folder / name
+        for file in sorted(place.iterdir()) if place.is_dir() else [place]:
+            if file.suffix in (".html", ".glb", ".osgt", ".png", ".svg", ".gif", ".mp4"):
+                file.unlink(missing_ok=True)
 
 
 def listed(scene: Scene, folder: Path) -> list[str]:

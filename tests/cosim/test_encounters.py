@@ -54,9 +54,9 @@ def test_a_ship_that_heels_in_her_turn_collides_as_wanted(free: int) -> None:
 
 
 def test_coasting_ships_have_the_degrees_of_freedom_that_are_asked_for() -> None:
-    usual, asked = encounter("t-bone"), encounter("t-bone", degrees_of_freedom=3)
-    assert [made.scenario.ships["own"].free for made in (usual, asked)] == [6, 3]
-    assert "degrees_of_freedom" not in usual.text
+    usual, asked = encounter("t-bone"), encounter("t-bone", degrees_of_freedom=6)
+    assert [made.scenario.ships["own"].free for made in (usual, asked)] == [3, 6]
+    assert "degrees_of_freedom = 3" in usual.text
 
 
 def grid(angles: range, places: tuple[float, ...], speeds: tuple[tuple[float, float], ...]) -> Iterator[Wanted]:

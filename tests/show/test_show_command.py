@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.util
 import stat
+import sys
 import webbrowser
 from pathlib import Path
 
@@ -86,22 +87,25 @@ def test_open_without_a_browser(run: Path, monkeypatch: pytest.MonkeyPatch) -> N
 
 
 @pytest.mark.parametrize(
-    ("option", "module", "package"),
+    ("option", "module", "extra"),
     [
-        ("--plots", "matplotlib", "matplotlib"),
-        ("--gif", "PIL", "pillow"),
-        ("--mp4", "imageio_ffmpeg", "imageio-ffmpeg"),
+        ("--plots", "matplotlib", "plots"),
+        ("--gif", "PIL", "film"),
+        ("--mp4", "imageio_ffmpeg", "mp4"),
     ],
 )
 def test_a_missing_package_is_one_line_with_the_remedy(
-    run: Path, monkeypatch: pytest.MonkeyPatch, option: str, module: str, package: str
+    run: Path, monkeypatch: pytest.MonkeyPatch, option: str, module: str, extra: str
 ) -> None:
     find = importlib.util.find_spec
     monkeypatch.setattr(extras, "find_spec", lambda name: None if name == module else find(name))
     before = names(run)
     result = shown(run, option)
     assert result.exit_code == 1
-    assert result.stderr.endswith(f"needs the package {package}: run `python -m pip install {package}`\n")
+    assert result.stderr.endswith(
+        f"needs packages that are not installed: run `{sys.executable} -m pip install 'shipcollision-fmu[{extra}]'` "
+        f"(in a clone: '.[{extra}]')\n"
+    )
     assert result.stderr.count("\n") == 1
     assert names(run) == before
 
