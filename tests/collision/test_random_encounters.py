@@ -92,8 +92,8 @@ def check(world: MakeWorld, seed: int) -> bool:
     return touched
 
 
-def test_a_hundred_random_encounters(world: MakeWorld) -> None:
-    assert sum(check(world, seed) for seed in range(100)) > 20
+def test_forty_random_encounters(world: MakeWorld) -> None:
+    assert sum(check(world, seed) for seed in range(40)) > 8
 
 
 @pytest.mark.slow

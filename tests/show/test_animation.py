@@ -79,6 +79,7 @@ def test_no_contact_is_a_film_of_the_whole_run(meeting: MakeRun) -> None:
     assert still(scene, 3.0, SMALL)
 
 
+@pytest.mark.slow
 def test_hundred_collisions_and_odd_names(guan2014: Path, tmp_path: Path) -> None:
     names = {"own": "<script>alert(1)</script>", "target": "船\x1b[31m" + 60 * "x"}
     many = with_many_collisions(guan2014, tmp_path / "many", 100)

@@ -203,6 +203,7 @@ def test_no_contact(meeting: MakeRun, tmp_path: Path) -> None:
     assert osgt.path(named(root, "own"))[0][0] == 0.0
 
 
+@pytest.mark.slow
 def test_hundred_collisions(guan2014: Path, tmp_path: Path) -> None:
     run = with_many_collisions(guan2014, tmp_path / "many", 100)
     _, root = written(run, tmp_path)

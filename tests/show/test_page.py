@@ -190,6 +190,7 @@ def test_playing_goes_on_to_the_end_and_stops(page: Page, scene: Scene) -> None:
     assert page.run("return document.getElementById('play').getAttribute('aria-label')") == "Play"
 
 
+@pytest.mark.slow
 def test_the_full_picture_is_drawn_without_a_complaint(browser: Chrome, guan2014: Path) -> None:
     """Waves, wakes, shadows, smooth edges: what a machine with a graphics card shows."""
     write_page(guan2014)
@@ -232,6 +233,7 @@ def test_no_contact_is_said_in_words(browser: Chrome, meeting: MakeRun) -> None:
     assert apart.complaints() == []
 
 
+@pytest.mark.slow
 def test_a_hundred_collisions_are_listed_and_shown(browser: Chrome, guan2014: Path, tmp_path: Path) -> None:
     path = write_page(with_many_collisions(guan2014, tmp_path / "run", 100))
     assert path.stat().st_size < 5e6

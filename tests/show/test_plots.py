@@ -106,6 +106,7 @@ def test_no_contact_and_an_obstacle(meeting: MakeRun) -> None:
     np.testing.assert_allclose([quay.min(0), quay.max(0)], [[50.0, -100.0], [70.0, 100.0]])  # type: ignore[union-attr]
 
 
+@pytest.mark.slow
 def test_hundred_collisions(guan2014: Path, tmp_path: Path) -> None:
     scene = load_scene(with_many_collisions(guan2014, tmp_path / "many", 100))
     assert drawn(scene)["track"].legends[0].get_texts()[-1].get_text() == "first contacts"
