@@ -206,6 +206,7 @@ def test_an_unknown_ship_is_refused() -> None:
         encounter(Wanted("t-bone", own="kvlc2"))
 
 
+@pytest.mark.slow
 def test_ships_that_touch_before_are_refused() -> None:
     """Hard over for forty minutes: own has gone round through the target's place."""
     with pytest.raises(

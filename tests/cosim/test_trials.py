@@ -86,6 +86,7 @@ gamma_R_minus = 0.5
 """
 
 
+@pytest.mark.slow
 def test_a_symmetric_ship_sails_mirror_images(tmp_path: Path) -> None:
     path = tmp_path / "symmetric.toml"
     path.write_text(SYMMETRIC, encoding="utf-8")

@@ -228,6 +228,7 @@ def test_input_that_is_not_finite(ship: Make, name: str, bad: float) -> None:
     assert a.everything() == b.everything()
 
 
+@pytest.mark.slow
 def test_instances_may_come_and_go(ship: Make) -> None:
     """pythonfmu 0.7 gives the slave module's dictionary back once too often at each instantiation."""
     for k in range(30):

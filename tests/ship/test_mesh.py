@@ -246,6 +246,7 @@ print(hashlib.sha256(b"".join(part.tobytes() for part in hull.parts)).hexdigest(
 """
 
 
+@pytest.mark.slow
 def test_the_example_ship_is_cut_to_the_same_bits_in_every_process() -> None:
     ship = load_ship("mesh_example")
     hull = build_hull(ship.L_oa, ship.B, ship.T, ship.hull)

@@ -32,6 +32,7 @@ def plots(scene: Scene) -> dict[str, Figure]:
     return drawn(scene)
 
 
+@pytest.mark.slow
 def test_files(scene: Scene, tmp_path: Path) -> None:
     """PNG wide enough for print, SVG that is XML without a date; the same bytes again."""
     paths = write_plots(scene, tmp_path)
