@@ -136,7 +136,7 @@ def test_two_hours_of_sailing_at_constant_cost(make: Make) -> None:
     assert ratio(sailing(make("ShipManoeuvring")), round(7200 / (PERIOD * H))) < 1.3
 
 
-@pytest.mark.slow
+@pytest.mark.soak
 def test_two_hours_recorded_at_constant_cost(scenario_file: Write) -> None:
     """The whole run: master, recorder and both FMUs, the ships in lasting contact at the start."""
     stamps: list[float] = []
