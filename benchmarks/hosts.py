@@ -14,6 +14,7 @@ FMU at once, in turns, for three FMUs with the same variables:
     bare      the same with set and get replaced by the least that Python can do: one list, no checks at all
 """
 
+# ruff: noqa: E402 - the tests' hosts are found only when the root of the project is on the path
 from __future__ import annotations
 
 import re
@@ -35,17 +36,17 @@ from rich.console import Console
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
 
-from shipcollision_fmu.cosim.encounters import encounter  # noqa: E402
-from shipcollision_fmu.cosim.master import jacobi  # noqa: E402
-from shipcollision_fmu.cosim.report import table  # noqa: E402
-from shipcollision_fmu.cosim.scenario import Scenario, scenario_of  # noqa: E402
-from shipcollision_fmu.cosim.simulate import Factories, as_models, through_fmus  # noqa: E402
-from shipcollision_fmu.cosim.system_structure import COLLISION, system_structure  # noqa: E402
-from shipcollision_fmu.cosim.wiring import connected  # noqa: E402
-from shipcollision_fmu.fmi.package import build_fmus  # noqa: E402
-from shipcollision_fmu.fmi.ship_collision import INTERFACE  # noqa: E402
-from tests.hosts.encounter import Encounter, run_master  # noqa: E402
-from tests.hosts.masters import MASTERS  # noqa: E402
+from shipcollision_fmu.cosim.encounters import encounter
+from shipcollision_fmu.cosim.master import jacobi
+from shipcollision_fmu.cosim.report import table
+from shipcollision_fmu.cosim.scenario import Scenario, scenario_of
+from shipcollision_fmu.cosim.simulate import Factories, as_models, through_fmus
+from shipcollision_fmu.cosim.system_structure import COLLISION, system_structure
+from shipcollision_fmu.cosim.wiring import connected
+from shipcollision_fmu.fmi.package import build_fmus
+from shipcollision_fmu.fmi.ship_collision import INTERFACE
+from tests.hosts.encounter import Encounter, run_master
+from tests.hosts.masters import MASTERS
 
 ROUNDS = 3
 CALLS = 2000

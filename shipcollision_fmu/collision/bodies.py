@@ -28,14 +28,13 @@ __all__ = ["Body", "apart", "prepared"]
 class Body:
     """A ship or an obstacle.
 
-    reach: no point of the hull is farther from CO [m]; M (6, 6) and its inverse in the free degrees of freedom; wall:
-    the shadow of an obstacle; rectangle: where an obstacle stands.
+    reach: no point of the hull is farther from CO [m]; M_inverse (6, 6): of the mass, in the free degrees of
+    freedom; wall: the shadow of an obstacle; rectangle: where an obstacle stands.
     """
 
     name: str
     hull: HullMesh
     reach: float
-    M: Array
     M_inverse: Array
     bullet: BulletBody
     fender: Fender | None
@@ -66,7 +65,7 @@ def _ship(name: str, ship: Ship, parameters: ShipParameters) -> Body:
     S = skew(ship.r_bg)
     inertia_g = np.diag(ship.M_RB[3:, 3:] + ship.mass * S @ S).copy()
     return Body(
-        name, hull, float(np.linalg.norm(hull.vertices, axis=1).max()), ship.M,
+        name, hull, float(np.linalg.norm(hull.vertices, axis=1).max()),
         free_inverse(ship.M, parameters.degrees_of_freedom),
         BulletBody(ship.mass, inertia_g, np.array(ship.r_bg)),
         fender_of(f"{name}.fender", parameters.fender),
@@ -78,7 +77,7 @@ def _wall(obstacle: Obstacle) -> Body:
     corners = wall.x + obstacle.solid.vertices @ wall.R.T
     (n_0, e_0, _), (n_1, e_1, _) = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()
     return Body(
-        obstacle.name, obstacle.solid, float(np.linalg.norm(obstacle.solid.vertices, axis=1).max()), np.zeros((6, 6)),
+        obstacle.name, obstacle.solid, float(np.linalg.norm(obstacle.solid.vertices, axis=1).max()),
         wall.M_inverse, BulletBody(0.0, np.zeros(3), np.zeros(3)), obstacle.fender, wall, (n_0, n_1, e_0, e_1),
     )  # fmt: skip
 

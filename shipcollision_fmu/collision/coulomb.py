@@ -132,7 +132,8 @@ def _bracketed(W: Block, v: Row, mu: float) -> tuple[Row, float | None]:
         f_high = f(high)
     else:  # no impulse in the cone stops them: neither ship can move along any of its directions
         return (-v[0] / W.W_nn, 0.0, 0.0), None
-    # Where the ships are held in some direction many impulses do the same to them: the least is taken.
+    # Where the ships are held in some direction many impulses do the same to them. This search takes the least of
+    # them; the search for the angle may have found another.
     stopped = ROUNDING * v[0]
     for k in range(200):
         middle = 0.5 * (low + high) if k % 3 == 2 else low - f_low * (high - low) / (f_high - f_low)

@@ -92,10 +92,6 @@ class Episodes:
         pair = self._pairs.get((a, b), _Pair())
         return pair.impact, pair.scratch
 
-    def current_scratch(self, t: float) -> int:
-        """Number of the scratch being drawn at time t, the latest if there are several; 0 when nothing touches."""
-        return max((p.scratch for p in self._pairs.values() if p.last_contact >= t), default=0)
-
     def get_state(self) -> dict[str, Any]:
         """All of it as plain data."""
         pairs = [[a, b, p.impact, p.scratch, p.last_contact] for (a, b), p in self._pairs.items()]
