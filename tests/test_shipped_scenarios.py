@@ -15,7 +15,7 @@ from shipcollision_fmu.cosim.scenario import Scenario, scenario_names
 from shipcollision_fmu.cosim.simulate import Run
 from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
 from shipcollision_fmu.ship.frames import rotation
-from shipcollision_fmu.ship.inertia import FREE
+from shipcollision_fmu.ship.free_motions import FREE
 from shipcollision_fmu.ship.library import load_ship
 
 ALGORITHMS = ("gauss-seidel", "jacobi")

@@ -11,8 +11,8 @@ import numpy as np
 
 from ..errors import InputError
 from ..ship.frames import Array, skew
+from ..ship.free_motions import free_inverse, tilted_inverse
 from ..ship.hull import HullMesh, build_hull
-from ..ship.inertia import free_inverse
 from ..ship.library import Ship, load_ship
 from .broad_phase import Rectangle
 from .engine import BulletBody
@@ -28,18 +28,23 @@ __all__ = ["Body", "apart", "prepared"]
 class Body:
     """A ship or an obstacle.
 
-    reach: no point of the hull is farther from CO [m]; M_inverse (6, 6): of the mass, in the free degrees of
-    freedom; wall: the shadow of an obstacle; rectangle: where an obstacle stands.
+    reach: no point of the hull is farther from CO [m]; free: degrees of freedom, 0 of an obstacle; wall: the shadow of
+    an obstacle; rectangle: where an obstacle stands.
     """
 
     name: str
     hull: HullMesh
     reach: float
-    M_inverse: Array
+    free: int
+    upright_inverse: Array  # (6, 6), see inverse_at
     bullet: BulletBody
     fender: Fender | None
     wall: Shadow | None = None
     rectangle: Rectangle = (0.0, 0.0, 0.0, 0.0)
+
+    def inverse_at(self, attitude: Sequence[float]) -> Array:
+        """M^-1 (6, 6) in the free degrees of freedom at an attitude [rad]: d(nu) = M^-1 impulse, in b about CO."""
+        return tilted_inverse(self.upright_inverse, self.free, attitude)
 
     @property
     def around(self) -> float:
@@ -66,7 +71,7 @@ def _ship(name: str, ship: Ship, parameters: ShipParameters) -> Body:
     inertia_g = np.diag(ship.M_RB[3:, 3:] + ship.mass * S @ S).copy()
     return Body(
         name, hull, float(np.linalg.norm(hull.vertices, axis=1).max()),
-        free_inverse(ship.M, parameters.degrees_of_freedom),
+        parameters.degrees_of_freedom, free_inverse(ship.M, parameters.degrees_of_freedom),
         BulletBody(ship.mass, inertia_g, np.array(ship.r_bg)),
         fender_of(f"{name}.fender", parameters.fender),
     )  # fmt: skip
@@ -78,7 +83,7 @@ def _wall(obstacle: Obstacle) -> Body:
     (n_0, e_0, _), (n_1, e_1, _) = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()
     return Body(
         obstacle.name, obstacle.solid, float(np.linalg.norm(obstacle.solid.vertices, axis=1).max()),
-        wall.M_inverse, BulletBody(0.0, np.zeros(3), np.zeros(3)), obstacle.fender, wall, (n_0, n_1, e_0, e_1),
+        0, wall.M_inverse, BulletBody(0.0, np.zeros(3), np.zeros(3)), obstacle.fender, wall, (n_0, n_1, e_0, e_1),
     )  # fmt: skip
 
 

@@ -7,9 +7,10 @@ with v = v(0) + W P, W (3, 3) of the contact alone. The tangents are turned so t
 
     W = [[W_nn, w_1, w_2], [w_1, a_1, 0], [w_2, 0, a_2]]
 
-Three answers are tried in turn: apart, stick, slide. Sliding is one equation for the angle of the friction, solved by
-Newton's method. Where that fails (friction so strong that it presses the hulls together on the way, or hulls that can
-hardly move in some direction), the normal impulse itself is the unknown:
+Three answers are tried in turn: apart, stick, slide. Where ships are held (heave, in 3 degrees of freedom) and the
+normal slopes, many impulses stop them alike: the least is taken, that of friction at its limit. Sliding is one equation
+for the angle of the friction, solved by Newton's method. Where that fails (friction so strong that it presses the hulls
+together on the way, or hulls that can hardly move in some direction), the normal impulse itself is the unknown:
 
     f(P_n) = v_n + W_nn P_n + w . P_t(P_n) = 0        P_t(P_n): friction in the disc of radius mu P_n that takes most
 
@@ -68,8 +69,8 @@ def solve_contact(W: Block, v: Row, mu: float, near: float | None = None) -> tup
     v_n, v_1, v_2 = v
     if v_n >= 0.0:
         return NONE, None
-    stick = _stick(W, v)
-    if stick is not None and hypot(stick[1], stick[2]) <= mu * stick[0]:
+    stick = _stick(W, v, mu)
+    if stick is not None:
         return stick, None
     if mu == 0.0:
         return (-v_n / W.W_nn, 0.0, 0.0), None
@@ -77,14 +78,33 @@ def solve_contact(W: Block, v: Row, mu: float, near: float | None = None) -> tup
     return found if found is not None else _bracketed(W, v, mu)
 
 
-def _stick(W: Block, v: Row) -> Row | None:
-    """The impulse that stops all three directions; None when there is none."""
+def _stick(W: Block, v: Row, mu: float) -> Row | None:
+    """The impulse in the cone that stops all three directions, the least where there are many; None when there is
+    none."""
     v_n, v_1, v_2 = v
-    rest = W.W_nn - W.w_1 * W.w_1 * W.h_1 - W.w_2 * W.w_2 * W.h_2
-    if rest <= RANK * W.W_nn or (W.h_1 == 0.0 and v_1 != 0.0) or (W.h_2 == 0.0 and v_2 != 0.0):
+    if (W.h_1 == 0.0 and v_1 != 0.0) or (W.h_2 == 0.0 and v_2 != 0.0):
         return None
-    P_n = -(v_n - W.w_1 * W.h_1 * v_1 - W.w_2 * W.h_2 * v_2) / rest
-    return P_n, -(v_1 + W.w_1 * P_n) * W.h_1, -(v_2 + W.w_2 * P_n) * W.h_2
+    rest = W.W_nn - W.w_1 * W.w_1 * W.h_1 - W.w_2 * W.w_2 * W.h_2
+    left = v_n - W.w_1 * W.h_1 * v_1 - W.w_2 * W.h_2 * v_2  # of the approach, when friction holds both tangents
+    held = rest <= RANK * W.W_nn
+    if held and abs(left) > RANK * hypot(v_n, v_1, v_2):
+        return None
+    P_n = _least_in_cone(W, v_1, v_2, mu) if held else -left / rest
+    P_1, P_2 = -(v_1 + W.w_1 * P_n) * W.h_1, -(v_2 + W.w_2 * P_n) * W.h_2
+    size, most = hypot(P_1, P_2), mu * P_n
+    if size > most and held and size <= most * (1.0 + 1e-9):  # on the cone, but for rounding
+        P_1, P_2 = P_1 * most / size, P_2 * most / size
+    elif size > most:
+        return None
+    return P_n, P_1, P_2
+
+
+def _least_in_cone(W: Block, v_1: float, v_2: float, mu: float) -> float:
+    """Least P_n at which friction that holds the slip is in the cone, where P_n does nothing more; 0: none."""
+    x, y, dx, dy = v_1 * W.h_1, v_2 * W.h_2, W.w_1 * W.h_1, W.w_2 * W.h_2
+    a, b, c = dx * dx + dy * dy - mu * mu, x * dx + y * dy, x * x + y * y
+    square = b * b - a * c
+    return c / (sqrt(square) - b) if square >= 0.0 and sqrt(square) > b else 0.0
 
 
 def _slide(W: Block, v: Row, mu: float, angle: float) -> tuple[Row, float] | None:
@@ -125,16 +145,14 @@ def _bracketed(W: Block, v: Row, mu: float) -> tuple[Row, float | None]:
     low, f_low = 0.0, v[0]
     high = -0.125 * v[0] / W.W_nn
     f_high = f(high)
+    stopped = ROUNDING * v[0]
     for _ in range(200):
-        if f_high >= 0.0:
+        if f_high >= stopped:
             break
         low, f_low, high = high, f_high, 2.0 * high
         f_high = f(high)
     else:  # no impulse in the cone stops them: neither ship can move along any of its directions
         return (-v[0] / W.W_nn, 0.0, 0.0), None
-    # Where the ships are held in some direction many impulses do the same to them. This search takes the least of
-    # them; the search for the angle may have found another.
-    stopped = ROUNDING * v[0]
     for k in range(200):
         middle = 0.5 * (low + high) if k % 3 == 2 else low - f_low * (high - low) / (f_high - f_low)
         if not low < middle < high:

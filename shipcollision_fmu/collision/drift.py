@@ -58,7 +58,8 @@ class Drift(NamedTuple):
 
 
 def drift(before: Seen, now: Seen, M_inverse: Array, r_bg: Array, reach: float) -> Drift | None:
-    """Of the step that `before` began and `now` ended; None where there is nothing to be seen."""
+    """Of the step that `before` began and `now` ended, M_inverse at the attitude before; None where there is nothing to
+    be seen."""
     H = before.H
     if not isclose(before.t + H, now.t, rel_tol=1e-9, abs_tol=1e-6 * H):
         return None  # the host went elsewhere in time

@@ -164,12 +164,13 @@ class ShipCollision:
         """Shadow of a ship at the received pose, with what is pending, and expected of other forces, in its twist."""
         state, body, feedback = self.inputs.ships[i], self._bodies[i], self.parameters.feedback
         nu, x = np.array(state.velocity + state.rate), np.array(state.position)
-        shadow = Shadow.at(x, np.array(state.attitude), nu, body.M_inverse, body.bullet.r_bg)
+        M_inverse = body.inverse_at(state.attitude)
+        shadow = Shadow.at(x, np.array(state.attitude), nu, M_inverse, body.bullet.r_bg)
         applied = np.array(state.impulse_applied)
-        reading = self._books[i].read(feedback, x, shadow.R, nu, applied, body.M_inverse, body.reach, H)
-        shadow.nu = reading.nu + body.M_inverse @ reading.owed if reading.owed.any() else reading.nu
+        reading = self._books[i].read(feedback, x, shadow.R, nu, applied, M_inverse, body.reach, H)
+        shadow.nu = reading.nu + M_inverse @ reading.owed if reading.owed.any() else reading.nu
         if (before := self._seen[i]) is not None and feedback == "ledger":
-            found = drift(before, _seen(t, 0.0, state), body.M_inverse, body.bullet.r_bg, body.reach)
+            found = drift(before, _seen(t, 0.0, state), body.inverse_at(before.attitude), body.bullet.r_bg, body.reach)
             if found is not None:
                 shadow.drift = found.mean
                 if reading.pending.any():  # a parallel master: what is issued now is applied to a ship that has gone on

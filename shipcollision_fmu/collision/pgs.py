@@ -14,7 +14,8 @@ residual.
     turn every contact's tangents to the principal axes of its own W_tt
     start from the impulses of the substep before, scaled to take most energy (warm start)
     sweep over the contacts until none changes its velocity by more than RESIDUAL of the approach
-    sweeps that do not get there in PATIENCE are helped by Newton's method on all contacts at once (newton.py)
+    sweeps that do not get there in PATIENCE are followed by Newton's method on all contacts at once (newton.py), and
+    where that fails, by a sequence of convex problems (sliding_speed.py), now and then with Newton's method from there
     measure what is left by the law itself: Solution.residual
 
 Plain floats in the sweeps: a block is nine numbers, arrays would cost more than the sums.
@@ -32,6 +33,7 @@ import numpy as np
 from ..ship.frames import Array
 from .coulomb import Block, law_residual, solve_contact
 from .newton import newton
+from .sliding_speed import nearer_by_sliding_speed
 
 __all__ = ["RESIDUAL", "Solution", "principal_axes", "solve_pgs"]
 
@@ -39,11 +41,10 @@ RESIDUAL = 1e-11
 """Change of a contact's velocity in a sweep, in units of the largest approach speed, at which the sweeps end."""
 
 PATIENCE = 60
-"""Sweeps before Newton's method is tried, and between its trials."""
+"""Bound on the sweeps; what has not got there by then is solved for all contacts at once."""
 
-MAX_SWEEPS = 1200
-"""Bound on the sweeps."""
-
+ROUNDS = 20
+"""Bound on the trials of both."""
 
 FLAT = 1e-9
 """Share of the largest mobility below which neither ship can move along a tangent."""
@@ -145,12 +146,19 @@ def _swept(W: Array, v: Array, mu: float, blocks: list[Block], scale: float, sta
             )
         if change <= wanted:
             return np.array(P).reshape(-1, 3), sweeps
-        if sweeps % PATIENCE == 0:
-            tried = newton(W, v, mu, np.array(P).reshape(-1, 3), wanted)
-            if law_residual(W, v, mu, tried) <= wanted or sweeps >= MAX_SWEEPS:
-                return _better(W, v, mu, tried, np.array(P).reshape(-1, 3)), sweeps
+        if sweeps == PATIENCE:
+            return _all_at_once(W, v, mu, np.array(P).reshape(-1, 3), wanted), sweeps
 
 
-def _better(W: Array, v: Array, mu: float, one: Array, other: Array) -> Array:
-    """Which of two answers breaks the law less."""
-    return one if law_residual(W, v, mu, one) <= law_residual(W, v, mu, other) else other
+def _all_at_once(W: Array, v: Array, mu: float, P: Array, wanted: float) -> Array:
+    """Impulses (k, 3) by the methods that take all contacts at once: the first that get there, or the best."""
+    best = newton(W, v, mu, P, wanted)
+    least, P = law_residual(W, v, mu, best), np.zeros_like(P)
+    for _ in range(ROUNDS):
+        if least <= wanted:
+            break
+        P = nearer_by_sliding_speed(W, v, mu, P, wanted)
+        tried = newton(W, v, mu, P, wanted)
+        if (missed := law_residual(W, v, mu, tried)) < least:
+            best, least = tried, missed
+    return best

@@ -38,7 +38,7 @@ class Shadow:
     """A ship during a communication step. Arrays: x (3,) in n [m], R (3, 3) = R_nb, nu (6,) in b about CO, r_bg (3,)
     CG in b [m].
 
-    M_inverse (6, 6) has zeros in the degrees of freedom that the ship does not have.
+    M_inverse (6, 6): of the free degrees of freedom, at the received pose.
     """
 
     x_received: Array

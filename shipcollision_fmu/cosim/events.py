@@ -26,7 +26,7 @@ import numpy.typing as npt
 
 from ..collision.damage import BOW, indicative_damage
 from ..ship.frames import Array, rotation, rotation_vector
-from ..ship.inertia import free_inverse
+from ..ship.free_motions import free_inverse, tilted_inverse
 from ..ship.ship import Ship
 from .recorder import Impact, Record
 from .tables import DamageTable
@@ -124,21 +124,22 @@ def _scratch(number: int, rows: Rows) -> dict[str, Any]:
 def _velocity_gains(record: Record, ships: Mapping[str, Ship], free: Mapping[str, int]) -> dict[tuple[int, str], Array]:
     """Change of velocity of CO in n [m/s] by collision and ship; (3,) each."""
     names = list(ships)
-    inverse = {name: free_inverse(ship.M, free[name]) for name, ship in ships.items()}
+    upright = {name: free_inverse(ship.M, free[name]) for name, ship in ships.items()}
     gains: dict[tuple[int, str], Array] = {}
     issued_before = np.zeros((len(names), 6))
     for k, issued in record.issued.items():
         rows = record.contacts[record.contacts["time"] == record.states["time"][k]]
         at = record.states[k - 1]
         for i, name in enumerate(names):
-            R_nb = rotation([float(at[f"{name}.attitude.{angle}"]) for angle in ("roll", "pitch", "yaw")])
+            attitude = [float(at[f"{name}.attitude.{angle}"]) for angle in ("roll", "pitch", "yaw")]
+            R_nb = rotation(attitude)
             on_ship = rows[(rows["ship_a"] == name) | (rows["ship_b"] == name)]
             collisions = np.unique(on_ship["impact"])
             for number in collisions:
                 wrench = issued[i] - issued_before[i]
                 if len(collisions) > 1:
                     wrench = _wrench(on_ship[on_ship["impact"] == number], name, R_nb)
-                gain = R_nb @ (inverse[name] @ wrench)[:3]
+                gain = R_nb @ (tilted_inverse(upright[name], free[name], attitude) @ wrench)[:3]
                 gains[int(number), name] = gains.get((int(number), name), np.zeros(3)) + gain
         issued_before = issued
     return gains

@@ -10,7 +10,7 @@ A communication step [t, t + h]:
 
 The impulse ledger: `impulse` is cumulative, everything the collision model ever issued. A sample that is lost or
 repeated loses and repeats nothing. Only the free degrees of freedom answer (M's other rows and columns are deleted
-before it is inverted), but all six components count as applied.
+before it is inverted, in level axes: ship/free_motions.py), but all six components count as applied.
 
 A strike changes M nu by exactly the impulse; a force F held over h changes it by F h. The model knows nothing of FMI.
 """
@@ -24,7 +24,8 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..errors import InputError, ScenarioError, StepError
-from ..ship.inertia import free_inverse
+from ..ship.frames import Array
+from ..ship.free_motions import free_inverse, tilted_inverse, to_level
 from ..ship.library import Ship, load_ship
 from .actuators import NEUTRAL, Gear
 from .coasting import coasted
@@ -43,6 +44,9 @@ MAXIMUM_SUBSTEPS = 100_000
 
 STEEPEST = 1.4
 """Pitch angle [rad] from which Euler angles are no longer to be trusted, 80 degrees: no ship stands on end."""
+
+ROUNDING = 1e-12
+"""Speed [m/s, rad/s] in a motion that is held which counts as none."""
 
 _NOUGHT: Six = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
@@ -67,9 +71,17 @@ class _SetUp(NamedTuple):
 
     parameters: tuple[object, ...]
     ship: Ship
-    M_inverse: list[list[float]]  # of the free degrees of freedom
+    free: int  # degrees of freedom
+    upright: Array  # (6, 6) inverse of the free block of M
+    M_inverse: list[list[float]]  # the same as lists
     sailing: Sailing | None
     substep: float
+
+    def kicked(self, eta: Six, nu: Six, impulse: Sequence[float]) -> Six:
+        """nu + M^-1 impulse, in the motions that are free at that attitude."""
+        upright = self.free == 6 or not (eta[3] or eta[4])
+        rows = self.M_inverse if upright else tilted_inverse(self.upright, self.free, eta[3:]).tolist()
+        return _six(x + sum(m * P for m, P in zip(row, impulse, strict=True)) for x, row in zip(nu, rows, strict=True))
 
 
 class ShipManoeuvring:
@@ -119,7 +131,7 @@ class ShipManoeuvring:
         if not (isfinite(substep) and substep > 0.0):
             raise ScenarioError(f"substep = {substep} s must be finite and greater than 0, e.g. 0.05")
         ship = load_ship(p.ship, self.directory)
-        M_inverse = free_inverse(ship.M, p.degrees_of_freedom).tolist()
+        upright = free_inverse(ship.M, p.degrees_of_freedom)
         sailing: Sailing | None = None
         if p.hydrodynamics:
             sailing = Mmg(ship) if p.degrees_of_freedom == 3 else SpatialMmg(ship, p.degrees_of_freedom)
@@ -128,7 +140,7 @@ class ShipManoeuvring:
                     f"substep = {substep} s is too long for the heave, roll or pitch of ship {ship.name!r}: must be at "
                     f"most {sailing.shortest_time:.3g} s, a sixth of its shortest period"
                 )
-        return _SetUp(wanted, ship, M_inverse, sailing, substep)
+        return _SetUp(wanted, ship, p.degrees_of_freedom, upright, upright.tolist(), sailing, substep)
 
     # -- a step ---------------------------------------------------------------------------------------------------
 
@@ -138,7 +150,7 @@ class ShipManoeuvring:
             raise StepError("step before initialise: call initialise() first")
         before, set_up = self._state, self._set_up
         substeps = self._check(t, h, set_up)
-        nu, applied = self._struck(before, set_up.M_inverse)
+        nu, applied = self._struck(before, set_up)
         if set_up.sailing is None:
             after = self._coasted(before, nu, applied, set_up, t, h)
         else:
@@ -177,32 +189,32 @@ class ShipManoeuvring:
                     "the tables [propeller], [rudder] and [engine] to its file"
                 )
 
-    def _struck(self, before: State, M_inverse: list[list[float]]) -> tuple[Six, Six]:
+    def _struck(self, before: State, set_up: _SetUp) -> tuple[Six, Six]:
         """Twist and ledger after the impulses that are not yet applied."""
         impulse = _six(map(float, self.inputs.impulse))
         pending = [issued - applied for issued, applied in zip(impulse, before.impulse_applied, strict=True)]
-        return (_kicked(before.nu, M_inverse, pending) if any(pending) else before.nu), impulse
+        return (set_up.kicked(before.eta, before.nu, pending) if any(pending) else before.nu), impulse
 
     def _coasted(self, before: State, nu: Six, applied: Six, set_up: _SetUp, t: float, h: float) -> State:
         """Kick, drift, kick: of second order in h, and exact for a force along a straight course."""
         half = [0.5 * h * F for F in self.inputs.force]
         pushed = any(half)
         if pushed:
-            nu = _kicked(nu, set_up.M_inverse, half)
+            nu = set_up.kicked(before.eta, nu, half)
         _refuse_absurd(nu, set_up.ship, t)
         eta_after, nu_after = coasted(before.eta, nu, set_up.ship.r_bg, h)
-        nu = _six(nu_after)
+        eta, nu = _six(eta_after), _six(nu_after)
         if pushed:
-            nu = _kicked(nu, set_up.M_inverse, half)
+            nu = set_up.kicked(eta, nu, half)
             _refuse_absurd(nu, set_up.ship, t)
-        return before._replace(eta=_six(eta_after), nu=nu, impulse_applied=applied)
+        return before._replace(eta=eta, nu=nu, impulse_applied=applied)
 
     def _sailed(
         self, before: State, nu: Six, applied: Six, set_up: _SetUp, sailing: Sailing, t: float, h: float, substeps: int
     ) -> State:
         """The MMG model, in the degrees of freedom that are free."""
         i = self.inputs
-        _refuse_absurd(_kicked(nu, set_up.M_inverse, [h * F for F in i.force]), set_up.ship, t)
+        _refuse_absurd(set_up.kicked(before.eta, nu, [h * F for F in i.force]), set_up.ship, t)
         machines = Machines(before.rudder_angle, before.propeller_speed, before.gear)
         try:
             eta, nu, machines = sailing.sailed(
@@ -264,11 +276,6 @@ def _six(values: Iterable[float]) -> Six:
     return a, b, c, d, e, f
 
 
-def _kicked(nu: Six, M_inverse: list[list[float]], impulse: Sequence[float]) -> Six:
-    """nu + M^-1 impulse, in the free degrees of freedom."""
-    return _six(x + sum(m * P for m, P in zip(row, impulse, strict=True)) for x, row in zip(nu, M_inverse, strict=True))
-
-
 def _lists(of: ShipParameters | ShipInputs) -> dict[str, list[float]]:
     return {f.name: value for f in fields(of) if isinstance(value := getattr(of, f.name), list)}
 
@@ -283,14 +290,18 @@ def _refuse_held_motion(eta: Six, nu: Six, degrees_of_freedom: int) -> None:
     """What is held must be at rest: the equations would silently keep it as it is."""
     held = {3: ("roll angle", "pitch angle", "heave velocity", "roll rate", "pitch rate"),
             4: ("pitch angle", "heave velocity", "pitch rate"), 6: ()}[degrees_of_freedom]  # fmt: skip
+    _, _, w, _, q, _ = to_level(nu, eta[3])
     values = {
-        "roll angle": eta[3], "pitch angle": eta[4], "heave velocity": nu[2], "roll rate": nu[3], "pitch rate": nu[4],
+        "roll angle": eta[3], "pitch angle": eta[4], "heave velocity": w, "roll rate": nu[3], "pitch rate": q,
     }  # fmt: skip
     for name in held:
-        if values[name] != 0.0:
+        if abs(values[name]) > ROUNDING:
+            heeled = eta[3] != 0.0 and name in ("heave velocity", "pitch rate")
             raise ScenarioError(
-                f"initial {name} = {values[name]} must be 0 with hydrodynamics = true in {degrees_of_freedom} degrees "
-                "of freedom, which hold it: set it to 0, or degrees_of_freedom = 6"
+                f"initial {name} = {values[name]:g}{' in level axes' if heeled else ''} must be 0 with hydrodynamics = "
+                f"true in {degrees_of_freedom} degrees of freedom, which hold it: "
+                + ("give heave = -sway tan(roll) and pitch rate = yaw rate tan(roll), " if heeled else "set it to 0, ")
+                + "or degrees_of_freedom = 6"
             )
     if abs(eta[4]) > STEEPEST:
         raise ScenarioError(

@@ -17,11 +17,10 @@ from __future__ import annotations
 
 from math import atan, cos, sin
 
+from ..ship.free_motions import Six
 from ..ship.seakeeping import Seakeeping
 
 __all__ = ["Restoring"]
-
-Six = tuple[float, float, float, float, float, float]
 
 
 class Restoring:

@@ -12,6 +12,7 @@ from math import cos, sin
 from typing import NamedTuple
 
 from ..errors import ShipError
+from ..ship.free_motions import Six
 from ..ship.ship import Ship
 from ..ship.windage import windage
 from .actuators import Actuator, Engine, Gear, engine, steering_gear
@@ -21,8 +22,6 @@ from .rudder import Rudder
 from .wind import WindForces
 
 __all__ = ["CALM", "Forces", "Machines", "Sailing", "Six", "Surroundings"]
-
-Six = tuple[float, float, float, float, float, float]
 
 
 class Surroundings(NamedTuple):

@@ -17,9 +17,9 @@ so a rolling ship is braked by the sway force it calls up, and no motion gains f
 force that acts on the hull acts at z_H. Signs in a steady turn to starboard: Y_H > 0 holds the ship in the turn from
 below CG, so K < 0: the ship heels outwards, to port; the rudder's Y_R < 0 alone, at first, heels it inwards.
 
-4 degrees of freedom: heave and pitch, w and q, are held at 0, and u, v, r are those of the horizontal axes that turn
-with the heading (phi_dot = p, psi_dot = r), as in the 4-DOF models of the MMG literature. For a heel phi they differ
-from those of b by the factor cos(phi).
+4 degrees of freedom: heave and pitch are held, and what is integrated, u, v, p, r and the wrenches on them, is that of
+the level axes that turn with the heading (phi_dot = p, psi_dot = r), as in the 4-DOF models of the MMG literature. What
+comes in and goes out is in b, like everywhere else; between the two ship/free_motions.py turns by the heel.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from math import atan2, cos, hypot, sin, sqrt
 import numpy as np
 
 from ..errors import ShipError
-from ..ship.inertia import free_inverse
+from ..ship.free_motions import free_inverse, from_level, to_level
 from ..ship.seakeeping import seakeeping
 from ..ship.ship import Ship
 from .damping import Damping
@@ -74,8 +74,10 @@ class SpatialMmg(Sailing):
         """Wrenches by origin; that of the hull has buoyancy, weight and damping in it."""
         _N, _E, D, phi, theta, psi = eta
         s_phi, c_phi, s_theta, c_theta = sin(phi), cos(phi), sin(theta), cos(theta)
+        if self._level:
+            s_theta, c_theta = 0.0, 1.0
         current = self._current(s_phi, c_phi, s_theta, c_theta, sin(psi), cos(psi), around)
-        u, v, w, p, q, r = nu
+        u, v, w, p, q, r = to_level(nu, phi) if self._level else nu
         u_r, v_r, w_r = u - current[0], v - current[1], w - current[2]
         delta, n, _gear = machines
         hull, propeller, rudder = self._by_origin(u_r, v_r, p, q, r, delta, n)
@@ -86,19 +88,21 @@ class SpatialMmg(Sailing):
             X_G, Y_G, Z_G, K_G, M_G, N_G = self.restoring(D, s_phi, c_phi, s_theta, c_theta)
         X, Y, Z, K, M, N = hull
         X_W, Y_W, K_W, N_W = self._felt_wind(u, v, psi, around)
-        return Forces(
+        forces = Forces(
             (X + X_G, Y + Y_G, Z + Z_G + Z_D, K + K_G + K_D, M + M_G + M_D, N + N_G),
             propeller,
             rudder,
             (X_W, Y_W, 0.0, K_W, 0.0, N_W),
         )
+        return Forces(*(from_level(wrench, phi) for wrench in forces)) if self._level else forces
 
     def _packed(self, eta: Six, nu: Six) -> tuple[float, ...]:
-        return (*eta, *nu)
+        return (*eta, *(to_level(nu, eta[3]) if self._level else nu))
 
     def _unpacked(self, x: tuple[float, ...], eta: Six, nu: Six) -> tuple[Six, Six]:
         N, E, D, phi, theta, psi, u, v, w, p, q, r = x
-        return (N, E, D, phi, theta, psi), (u, v, w, p, q, r)
+        nu = (u, v, w, p, q, r)
+        return (N, E, D, phi, theta, psi), from_level(nu, phi) if self._level else nu
 
     @staticmethod
     def _moved(x: tuple[float, ...], k: Sequence[float], dt: float) -> tuple[float, ...]:
@@ -119,12 +123,14 @@ class SpatialMmg(Sailing):
         hull, propeller, rudder = self._by_origin(u_r, v_r, p, q, r, delta, n)
         (X_H, Y_H, _, K_H, M_H, N_H), (X_P, _, _, _, M_P, _), (X_R, Y_R, _, K_R, M_R, N_R) = hull, propeller, rudder
         Z_D, K_D, M_D = self._damping(w_r, p, q)
-        X = X_H + X_P + X_R + around.X
-        Y = Y_H + Y_R + around.Y
-        Z = Z_D + around.Z
-        K = K_H + K_R + K_D + around.K
-        M = M_H + M_P + M_R + M_D + around.M
-        N = N_H + N_R + around.N
+        external = (around.X, around.Y, around.Z, around.K, around.M, around.N)
+        X_E, Y_E, Z_E, K_E, M_E, N_E = to_level(external, phi) if self._level else external
+        X = X_H + X_P + X_R + X_E
+        Y = Y_H + Y_R + Y_E
+        Z = Z_D + Z_E
+        K = K_H + K_R + K_D + K_E
+        M = M_H + M_P + M_R + M_D + M_E
+        N = N_H + N_R + N_E
         if around.wind_north or around.wind_east:
             X_W, Y_W, K_W, N_W = self._felt_wind(u, v, psi, around)
             X, Y, K, N = X + X_W, Y + Y_W, K + K_W, N + N_W

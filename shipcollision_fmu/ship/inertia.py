@@ -19,13 +19,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..errors import ShipError
 from .frames import Array, skew
 
-__all__ = ["FREE", "H", "added_mass_matrix", "free_inverse", "is_positive_definite", "rigid_body_inertia"]
-
-FREE: dict[int, tuple[int, ...]] = {3: (0, 1, 5), 4: (0, 1, 3, 5), 6: (0, 1, 2, 3, 4, 5)}
-"""Indices into nu that may change, by number of degrees of freedom: surge, sway, yaw; and roll; all."""
+__all__ = ["H", "added_mass_matrix", "is_positive_definite", "rigid_body_inertia"]
 
 _LEAST_EIGENVALUE = 1e-12
 """Of the matrix scaled to a unit diagonal. Below it, rounding alone could make an impulse add energy."""
@@ -67,26 +63,6 @@ def is_positive_definite(M: Array) -> bool:
     scaled = M * np.outer(scale, scale)
     symmetric = np.allclose(scaled, scaled.T, rtol=0.0, atol=1e-9)
     return bool(symmetric and np.linalg.eigvalsh(scaled)[0] > _LEAST_EIGENVALUE)
-
-
-def free_inverse(M: Array, degrees_of_freedom: int) -> Array:
-    """Inverse of the free block of M, zeros elsewhere, (6, 6): d(nu) = free_inverse @ impulse.
-
-    The rows and columns that are not free are deleted before the inversion, so the ship answers as if those motions
-    were held. Scaled to a unit diagonal first: mass and inertia differ by four orders of magnitude.
-    Raises ShipError when degrees_of_freedom is not 3, 4 or 6.
-    """
-    if degrees_of_freedom not in FREE:
-        raise ShipError(
-            f"degrees_of_freedom = {degrees_of_freedom} must be 3 (surge, sway, yaw), 4 (and roll) or 6 (all)"
-        )
-    free = np.ix_(FREE[degrees_of_freedom], FREE[degrees_of_freedom])
-    block = M[free]
-    scale = 1.0 / np.sqrt(np.diag(block))
-    scaling = np.outer(scale, scale)
-    inverse = np.zeros((6, 6))
-    inverse[free] = _symmetric(np.linalg.inv(block * scaling) * scaling)
-    return inverse
 
 
 def _symmetric(M: Array) -> Array:

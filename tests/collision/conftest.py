@@ -10,7 +10,7 @@ import pytest
 
 from shipcollision_fmu.collision.model import ShipCollision
 from shipcollision_fmu.ship.frames import attitude_from_rotation, rotation, rotation_vector
-from shipcollision_fmu.ship.inertia import free_inverse
+from shipcollision_fmu.ship.free_motions import free_inverse, tilted_inverse
 from shipcollision_fmu.ship.library import load_ship
 
 BOX = 'shape = "box"\ndepth = 20.0'
@@ -53,7 +53,8 @@ class World:
             else:
                 setattr(self.model.parameters, key, value)
         self.M = [load_ship(ship).M for ship in ships]
-        self.M_inverse = [free_inverse(M, degrees_of_freedom) for M in self.M]
+        self.upright = [free_inverse(M, degrees_of_freedom) for M in self.M]
+        self.free = degrees_of_freedom
         self.x = [np.array(s["position"], dtype=float) for s in start]
         self.R = [rotation(s.get("attitude", (0, 0, 0))) for s in start]
         self.nu = [np.array(s["nu"], dtype=float) for s in start]
@@ -86,7 +87,7 @@ class World:
                 issued, self.waiting[i] = self.waiting[i], issued
             new = issued - self.applied[i]
             rows.append((*poses[i], new))
-            after = self.nu[i] + self.M_inverse[i] @ new
+            after = self.nu[i] + tilted_inverse(self.upright[i], self.free, attitude_from_rotation(self.R[i])) @ new
             work += 0.5 * (after @ self.M[i] @ after - self.nu[i] @ self.M[i] @ self.nu[i])
             self.nu[i], self.applied[i] = after, issued
             v_n, w_n = self.R[i] @ after[:3], self.R[i] @ after[3:]

@@ -14,20 +14,28 @@ from hypothesis import strategies as st
 from shipcollision_fmu.collision.axes import contact_axes
 from shipcollision_fmu.collision.shadow import point_jacobian
 from shipcollision_fmu.ship.frames import rotation
-from shipcollision_fmu.ship.inertia import FREE, added_mass_matrix, free_inverse, rigid_body_inertia
+from shipcollision_fmu.ship.free_motions import FREE, free_inverse, level_axes
+from shipcollision_fmu.ship.inertia import added_mass_matrix, rigid_body_inertia
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 
 
 @dataclass(frozen=True, eq=False)
 class Ship:
-    """A ship at impact: CO x (3,) in n, R_nb, M (6, 6) about CO in b, its free inverse, twist nu (6,)."""
+    """A ship at impact: CO x (3,) in n, R_nb, M (6, 6) about CO, its free inverse, twist nu (6,) in b.
+
+    axes (6, 6): nu = axes nu_m, where M is the inertia of the motions nu_m; axes_n (3, 3): from theirs to n. Those of b
+    in 6 degrees of freedom, else level (ship/free_motions.py).
+    """
 
     x: Array
     R: Array
     M: Array
     M_inverse: Array
     nu: Array
+    axes: Array
+    axes_n: Array
+    free: int
 
     def jacobian(self, point: Array) -> Array:
         return point_jacobian(self.R, self.R.T @ (point - self.x))
@@ -38,13 +46,19 @@ class Ship:
 
     def momentum(self, about: Array) -> Array:
         """Virtual momentum M nu in n, linear and angular about a fixed point; (6,)."""
-        h = self.M @ self.nu
-        linear = self.R @ h[:3]
-        return np.concatenate([linear, self.R @ h[3:] + np.cross(self.x - about, linear)])
+        h = self.M @ self.motion
+        linear = self.axes_n @ h[:3]
+        return np.concatenate([linear, self.axes_n @ h[3:] + np.cross(self.x - about, linear)])
+
+    @property
+    def motion(self) -> Array:
+        """nu_m (6,)."""
+        nu_m: Array = np.linalg.solve(self.axes, self.nu)
+        return nu_m
 
     @property
     def energy(self) -> float:
-        return float(0.5 * self.nu @ self.M @ self.nu)
+        return float(0.5 * self.motion @ self.M @ self.motion)
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,7 +106,7 @@ class Impact:
 
     def moved(self, turn: Array, shift: Array) -> Impact:
         """The same in a world turned and shifted."""
-        a, b = (replace(s, x=turn @ s.x + shift, R=turn @ s.R) for s in (self.a, self.b))
+        a, b = (replace(s, x=turn @ s.x + shift, R=turn @ s.R, axes_n=turn @ s.axes_n) for s in (self.a, self.b))
         return replace(self, a=a, b=b, point=turn @ self.point + shift, normal=turn @ self.normal)
 
     def mirrored(self) -> Impact:
@@ -100,9 +114,12 @@ class Impact:
         F = np.diag([1.0, -1.0, 1.0])
         S = np.diag([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
         a, b = (
-            replace(s, x=F @ s.x, R=F @ s.R @ F, M=S @ s.M @ S, M_inverse=S @ s.M_inverse @ S, nu=S @ s.nu)
+            replace(
+                s, x=F @ s.x, R=F @ s.R @ F, M=S @ s.M @ S, M_inverse=S @ s.M_inverse @ S, nu=S @ s.nu,
+                axes=S @ s.axes @ S, axes_n=F @ s.axes_n @ F,
+            )
             for s in (self.a, self.b)
-        )
+        )  # fmt: skip
         return replace(self, a=a, b=b, point=F @ self.point, normal=F @ self.normal)
 
 
@@ -111,11 +128,12 @@ def floats(low: float, high: float) -> st.SearchStrategy[float]:
 
 
 SHARE = floats(0.0, 1.0)
+SLOPE = floats(-0.7, 0.7)
 
 
 @st.composite
 def ships(draw: st.DrawFn, degrees_of_freedom: int) -> Ship:
-    """10 t to 400 000 t, any heading; 6 degrees of freedom also heeled, trimmed and with heave, roll and pitch."""
+    """10 t to 400 000 t, any heading, heeled and trimmed; 6 degrees of freedom also with heave, roll and pitch."""
     m = 10.0 ** draw(floats(4.0, 8.6))
     L = 2.0 * m ** (1 / 3)
     m_y = draw(floats(0.0, 1.3)) * m
@@ -126,15 +144,18 @@ def ships(draw: st.DrawFn, degrees_of_freedom: int) -> Ship:
         draw(floats(0.0, 0.1)) * m, m_y, m, 0.2 * m * (0.06 * L) ** 2, m * (0.25 * L) ** 2,
         draw(floats(0.0, 0.9)) * m * (0.25 * L) ** 2, z_y=draw(floats(0.0, 0.02)) * L,
     )  # fmt: skip
-    tilt = [draw(floats(-0.3, 0.3)), draw(floats(-0.1, 0.1))] if degrees_of_freedom == 6 else [0.0, 0.0]
+    attitude = [draw(floats(-0.3, 0.3)), draw(floats(-0.1, 0.1)), draw(floats(-np.pi, np.pi))]
+    axes = np.eye(6) if degrees_of_freedom == 6 else level_axes(attitude)
     nu = np.array([draw(floats(-10, 10)), draw(floats(-3, 3)), 0.0, 0.0, 0.0, draw(floats(-0.03, 0.03))])
     if degrees_of_freedom == 6:
         nu[2:5] = [draw(floats(-1, 1)), draw(floats(-0.1, 0.1)), draw(floats(-0.03, 0.03))]
     if degrees_of_freedom == 4:
         nu[3] = draw(floats(-0.1, 0.1))
     offset = np.array([draw(floats(-0.5, 0.5)), draw(floats(-0.1, 0.1)), draw(floats(-0.05, 0.05))]) * L
-    R = rotation([*tilt, draw(floats(-np.pi, np.pi))])
-    return Ship(-R @ offset, R, M, free_inverse(M, degrees_of_freedom), nu)
+    R = rotation(attitude)
+    inverse = axes @ free_inverse(M, degrees_of_freedom) @ axes.T
+    axes_n = R if degrees_of_freedom == 6 else rotation([0.0, 0.0, attitude[2]])
+    return Ship(-R @ offset, R, M, inverse, axes @ nu, axes, axes_n, degrees_of_freedom)
 
 
 @st.composite
@@ -143,11 +164,15 @@ def impacts(
     mu: st.SearchStrategy[float] = SHARE,
     e: st.SearchStrategy[float] = SHARE,
     degrees_of_freedom: tuple[int, ...] = tuple(FREE),
+    slope: st.SearchStrategy[float] = SLOPE,
 ) -> Impact:
-    """Ships that approach each other at a contact point, both with the same degrees of freedom."""
+    """Ships that approach each other at a contact point, both with the same degrees of freedom.
+
+    slope: of the normal [rad].
+    """
     free = draw(st.sampled_from(degrees_of_freedom))
     one, other = draw(ships(free)), draw(ships(free))
-    angle, steep = draw(floats(-np.pi, np.pi)), draw(floats(-0.7, 0.7)) if free == 6 else 0.0
+    angle, steep = draw(floats(-np.pi, np.pi)), draw(slope)
     normal = np.array([np.cos(angle) * np.cos(steep), np.sin(angle) * np.cos(steep), np.sin(steep)])
     point = np.array([draw(floats(-1e3, 1e3)), draw(floats(-1e3, 1e3)), draw(floats(-10, 10))])
     one, other = replace(one, x=one.x + point), replace(other, x=other.x + point)
@@ -164,5 +189,6 @@ def impacts(
 
 def free_push(ship: Ship, normal: Array) -> Array:
     """A twist of 1 m/s along the horizontal part of the normal."""
-    forward = ship.R.T @ np.array([normal[0], normal[1], 0.0])
-    return np.array([forward[0], forward[1], 0.0, 0.0, 0.0, 0.0])
+    forward = ship.axes_n.T @ np.array([normal[0], normal[1], 0.0])
+    push: Array = ship.axes @ np.array([forward[0], forward[1], 0.0, 0.0, 0.0, 0.0])
+    return push

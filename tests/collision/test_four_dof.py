@@ -14,7 +14,7 @@ from shipcollision_fmu.collision.four_dof import FourDofImpact, FourDofShip, fou
 from shipcollision_fmu.collision.shadow import point_jacobian
 from shipcollision_fmu.collision.slip_path import solve_slip_path
 from shipcollision_fmu.ship.frames import rotation
-from shipcollision_fmu.ship.inertia import free_inverse
+from shipcollision_fmu.ship.free_motions import free_inverse
 from tests.collision.impacts import Array, floats
 
 Case = tuple[FourDofShip, FourDofShip, float, float, float, float, float]

@@ -179,8 +179,8 @@ def test_a_fixed_body_is_the_limit_of_a_heavy_ship(make_ship: Make, world: MakeW
     ships = [make_ship("a"), make_ship("box", BOX)]
     heavy = world(ships, start)
     body = heavy.model._bodies[1]
-    heavy.model._bodies[1] = replace(body, M_inverse=1e-9 * body.M_inverse)
-    heavy.M_inverse[1] = 1e-9 * heavy.M_inverse[1]
+    heavy.model._bodies[1] = replace(body, upright_inverse=1e-9 * body.upright_inverse)
+    heavy.upright[1] = 1e-9 * heavy.upright[1]
     wall = '[wall]\nkind = "x"\nshape = "box"\nlength = 200.0\nbreadth = 30.0\nposition = [118.0, 0.0]\n' \
            "heading_deg = 90.0\ntop = 10.0\nbottom = 10.0"  # fmt: skip
     fixed = world(ships[:1], start[:1], obstacles=wall)

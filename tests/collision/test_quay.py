@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from shipcollision_fmu.collision.model import ShipCollision
-from shipcollision_fmu.ship.inertia import free_inverse
+from shipcollision_fmu.ship.free_motions import free_inverse
 from shipcollision_fmu.ship.library import load_ship
 from tests.collision.conftest import BOX
 

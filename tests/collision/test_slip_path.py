@@ -182,7 +182,7 @@ def test_virtual_momentum_about_any_fixed_point_is_kept(impact: Impact) -> None:
 
 def _free(impact: Impact) -> list[int]:
     """Components of momentum in n about a fixed point that no constraint of the ships touches."""
-    if impact.a.M_inverse[2, 2] > 0.0:
+    if impact.a.free == 6:
         return [0, 1, 2, 3, 4, 5]
     return [0, 1, 5]
 
@@ -268,7 +268,7 @@ def test_plastic_impact_that_ends_in_stick_is_the_closed_form_and_pgs(impact: Im
     assert lost == pytest.approx(energy_of_stick(impact.W, impact.v), rel=1e-8)
 
 
-@given(impacts(degrees_of_freedom=(3,)))
+@given(impacts(degrees_of_freedom=(3,), slope=st.just(0.0)))
 def test_impact_in_the_plane_that_slides_one_way_is_the_closed_form_and_pgs(impact: Impact) -> None:
     """With restitution too: over a constant slope the rules of Newton, Poisson and Stronge are one."""
     path = solved(impact)

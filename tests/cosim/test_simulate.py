@@ -18,7 +18,7 @@ from shipcollision_fmu.cosim import simulate as module
 from shipcollision_fmu.cosim.simulate import Run
 from shipcollision_fmu.errors import HostError, ScenarioError, StepError
 from shipcollision_fmu.ship.frames import rotation
-from shipcollision_fmu.ship.inertia import free_inverse
+from shipcollision_fmu.ship.free_motions import free_inverse
 
 from .conftest import Write
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
 from shipcollision_fmu.ship.frames import Array
-from shipcollision_fmu.ship.inertia import FREE
+from shipcollision_fmu.ship.free_motions import FREE
 from shipcollision_fmu.ship.library import load_ship
 
 from .conftest import started

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import cos, degrees, log, pi, radians, sin, sqrt
+from math import cos, degrees, log, pi, radians, sin, sqrt, tan
 from pathlib import Path
 from typing import Any
 
@@ -12,11 +12,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from shipcollision_fmu.errors import StepError
+from shipcollision_fmu.errors import ScenarioError, StepError
 from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
 from shipcollision_fmu.manoeuvring.spatial import SpatialMmg
-from shipcollision_fmu.ship.frames import Array
-from shipcollision_fmu.ship.inertia import FREE
+from shipcollision_fmu.ship.frames import Array, rotation
+from shipcollision_fmu.ship.free_motions import FREE, level_axes
 from shipcollision_fmu.ship.library import load_ship
 from shipcollision_fmu.ship.seakeeping import Seakeeping, seakeeping
 
@@ -191,18 +191,21 @@ def test_sway_coupling_shortens_the_roll_period(start: Start) -> None:
     st.floats(-3.0, 3.0),
 )  # fmt: skip
 def test_an_impulse_changes_M_nu_by_itself_at_any_speed(n: int, P: list[float], u: float, v: float) -> None:
-    given_impulse = np.array(P) * SCALE
+    """M nu in b; in 4 degrees of freedom of the level axes, which L gives (ship/free_motions.py)."""
+    attitude, given_impulse = [0.05, 0.0, 1.0], np.array(P) * SCALE
+    axes = np.eye(6) if n == 6 else level_axes(attitude)
+    nu = axes @ [u, v, 0.0, 0.002, 0.0, 0.005]
     ship = started(
-        degrees_of_freedom=n, hydrodynamics=True, velocity=[u, v, 0.0], rate=[0.002, 0.0, 0.005],
-        attitude=[0.05, 0.0, 1.0], orders=[0.0, 1.0], impulse=given_impulse, again=REUSED,
+        degrees_of_freedom=n, hydrodynamics=True, velocity=nu[:3], rate=nu[3:], attitude=attitude, orders=[0.0, 1.0],
+        impulse=given_impulse, again=REUSED,
     )  # fmt: skip
     before = state(ship)[6:]
     ship.step(0.0, 1e-16)
     free = list(FREE[n])
-    change = state(ship)[6:] - before
+    change = np.linalg.solve(axes, state(ship)[6:] - before)
     taken = M[np.ix_(free, free)] @ change[free]
-    np.testing.assert_allclose(taken / SCALE[free], np.array(P)[free], atol=1e-12)
-    assert not np.delete(change, free).any()
+    np.testing.assert_allclose(taken / SCALE[free], (axes.T @ given_impulse / SCALE)[free], atol=1e-12)
+    np.testing.assert_allclose((change * SPEEDS)[[i for i in range(6) if i not in free]], 0.0, atol=1e-13)
 
 
 @settings(max_examples=15, deadline=None)
@@ -391,13 +394,41 @@ def test_standing_on_end_is_refused(start: Start) -> None:
 
 
 def test_four_degrees_hold_heave_and_pitch(start: Start) -> None:
+    """CO stays at its depth, however she heels: the velocity in b is level in n, the rate turns no pitch up."""
     ship = start(**FOUR, velocity=[7.0, 0.0, 0.0], position=[0.0, 0.0, 0.3], orders=[0.5, 1.2])
     ship.inputs.impulse[:] = list(0.1 * SCALE)
     sail(ship, 60.0)
     x = state(ship)
     assert x[2] == 0.3
-    assert x[4] == x[8] == x[10] == 0.0
-    assert x[3] != 0.0
+    assert x[4] == 0.0
+    assert abs(x[3]) > 1e-3
+    R = rotation(x[3:6])
+    assert R[2] @ x[6:9] == pytest.approx(0.0, abs=1e-15)
+    assert cos(x[3]) * x[10] - sin(x[3]) * x[11] == pytest.approx(0.0, abs=1e-17)
+
+
+def test_in_four_degrees_velocity_is_that_of_the_track_in_b(start: Start) -> None:
+    """R_nb velocity is d(position)/dt, and the Euler angles' rates are those of the rate in b: heeled by a blow."""
+    ship, h = start(**FOUR, velocity=[5.0, 0.0, 0.0], orders=[0.3, 1.0]), 1e-4
+    ship.inputs.impulse[:] = list(SCALE * [0.0, 1.0, 0.0, 0.5, 0.0, 0.3])
+    sail(ship, 3.0)
+    assert abs(ship.outputs.attitude[0]) > 0.05
+    states = []
+    for _ in range(3):
+        states.append(state(ship))
+        ship.step(3.0, h)
+    before, x, after = states
+    rates = (after[:6] - before[:6]) / (2 * h)
+    np.testing.assert_allclose(rotation(x[3:6]) @ x[6:9], rates[:3], atol=1e-7)
+    np.testing.assert_allclose(np.linalg.solve(level_axes(x[3:6]), x[6:])[3:], rates[3:], atol=1e-8)
+
+
+def test_a_start_that_moves_what_is_held_is_refused(start: Start) -> None:
+    """Heeled, sway along b has a part down; the same motion, level, is taken."""
+    match = r"initial heave velocity = 0\.0998334 in level axes must be 0 .* give heave = -sway tan\(roll\)"
+    with pytest.raises(ScenarioError, match=match):
+        start(**FOUR, velocity=[0.0, 1.0, 0.0], attitude=[0.1, 0.0, 0.0])
+    start(**FOUR, velocity=[0.0, 1.0, -tan(0.1)], attitude=[0.1, 0.0, 0.0])
 
 
 def test_roll_damping_is_stronger_under_way(start: Start) -> None:

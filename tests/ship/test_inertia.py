@@ -7,17 +7,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from shipcollision_fmu.errors import ShipError
 from shipcollision_fmu.ship.frames import Array, skew
+from shipcollision_fmu.ship.free_motions import free_inverse
 from shipcollision_fmu.ship.inertia import (
-    FREE,
     H,
     added_mass_matrix,
-    free_inverse,
     is_positive_definite,
     rigid_body_inertia,
 )
-from shipcollision_fmu.ship.library import load_ship
 
 MASS, R_BG, RADII = 3.2e8, [11.2, -0.5, 2.2], [20.3, 80.0, 78.0]
 component = st.floats(-10.0, 10.0)
@@ -71,26 +68,6 @@ def test_planar_effective_mass_is_the_textbook_one() -> None:
     J = np.concatenate([n, skew(r) @ n])
     m_n = 1.0 / (J @ free_inverse(M, 3) @ J)
     assert m_n == pytest.approx(1.0 / (1.0 / MASS + np.cross(r, n)[2] ** 2 / (MASS * RADII[2] ** 2)), rel=1e-13)
-
-
-@pytest.mark.parametrize("degrees_of_freedom", [3, 4, 6])
-def test_free_inverse_inverts_the_free_block_and_only_that(degrees_of_freedom: int) -> None:
-    M = load_ship("kvlcc2").M
-    inverse = free_inverse(M, degrees_of_freedom)
-    free = list(FREE[degrees_of_freedom])
-    product = (M @ inverse)[np.ix_(free, free)]
-    scale = np.sqrt(np.diag(M))[free]  # a unit diagonal makes the units comparable
-    np.testing.assert_allclose(product * scale[None, :] / scale[:, None], np.eye(len(free)), atol=1e-14)
-    held = [i for i in range(6) if i not in free]
-    assert not inverse[held].any()
-    assert not inverse[:, held].any()
-    np.testing.assert_array_equal(inverse, inverse.T)
-
-
-@pytest.mark.parametrize("degrees_of_freedom", [0, 2, 5, 7])
-def test_other_degrees_of_freedom_are_refused(degrees_of_freedom: int) -> None:
-    with pytest.raises(ShipError, match=rf"degrees_of_freedom = {degrees_of_freedom} must be 3 .* 4 .* or 6"):
-        free_inverse(np.eye(6), degrees_of_freedom)
 
 
 def _with(i: int, j: int, value: float) -> Array:
