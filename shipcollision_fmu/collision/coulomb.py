@@ -23,7 +23,7 @@ More and Sorensen (1983), SIAM J. Sci. Stat. Comput. 4:553-572 (the quadratic fo
 
 from __future__ import annotations
 
-from math import atan2, cos, hypot, sin, sqrt
+from math import atan2, cos, hypot, inf, sin, sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -200,15 +200,14 @@ def law_residual(W: Array, v: Array, mu: float, P: Array) -> float:
 
     Zero if and only if the law holds at every contact (the natural map of the complementarity problem).
     """
-    if not len(v):
-        return 0.0
-    after = (v + W @ P.ravel()).reshape(-1, 3)
-    stiff = np.diag(W).reshape(-1, 3)
-    normal = np.abs(np.minimum(P[:, 0] * stiff[:, 0], after[:, 0]))
-    rho = stiff[:, 1:].max(axis=1)
-    rho = np.where(rho > 0.0, rho, 1.0)
-    moved = P[:, 1:] - after[:, 1:] / rho[:, None]
-    size, radius = np.hypot(moved[:, 0], moved[:, 1]), mu * np.maximum(P[:, 0], 0.0)
-    share = np.where(size > radius, radius / np.where(size > 0.0, size, 1.0), 1.0)
-    missed = P[:, 1:] - moved * share[:, None]
-    return float(max(normal.max(), (np.hypot(missed[:, 0], missed[:, 1]) * rho).max()))
+    after, stiff = (v + W @ P.ravel()).reshape(-1, 3), np.diag(W).reshape(-1, 3).tolist()
+    if not np.isfinite(after).all():
+        return inf
+    worst = 0.0
+    for (P_n, P_1, P_2), (v_n, v_1, v_2), (w_n, w_1, w_2) in zip(P.tolist(), after.tolist(), stiff, strict=True):
+        rho = max(w_1, w_2) or 1.0
+        x, y = P_1 - v_1 / rho, P_2 - v_2 / rho
+        size, radius = hypot(x, y), mu * max(P_n, 0.0)
+        share = radius / size if size > radius else 1.0
+        worst = max(worst, abs(min(P_n * w_n, v_n)), hypot(P_1 - x * share, P_2 - y * share) * rho)
+    return worst
