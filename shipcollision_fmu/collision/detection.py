@@ -19,7 +19,7 @@ import numpy as np
 from ..ship.frames import Array
 from ..ship.hull import HullMesh
 from .contact import Contact, make_contact
-from .engine import Closest, Engine
+from .engine import MARGIN, Closest, Engine
 from .joined import JoinedParts, as_one, on_the_outside
 from .level import least_overlap
 from .manifold import FEATURE_DEPTH, contact_manifold, foremost
@@ -55,11 +55,11 @@ class Detector:
 
     def clearance(self, a: int, b: int, cap: float) -> float:
         """Least distance [m] between two placed hulls, negative in overlap, at most `cap`."""
-        return min((c.gap for c in self.engine.closest(a, b, cap)), default=cap)
+        return self.engine.gap(a, b, cap)
 
     def touching(self, a: int, b: int) -> bool:
         """Whether two placed hulls touch or overlap."""
-        return any(c.gap <= 0.0 for c in self.engine.closest(a, b, 0.0))
+        return self.engine.gap(a, b, MARGIN) <= 0.0
 
     def contacts(self, a: int, b: int, shadows: Sequence[Shadow], kept: KeptNormals) -> list[Contact]:
         """Contact points of two placed hulls, gap <= 0. Updates `kept` while the overlap is shallow."""

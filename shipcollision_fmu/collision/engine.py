@@ -96,6 +96,8 @@ class Engine:
         # One body per convex part; mass 0 keeps them out of any dynamics.
         self._parts = [[self._body(0.0, part) for part in hull.parts] for hull in hulls]
         self._dynamic_shapes: dict[tuple[int, bytes], Any] = {}
+        self._placed: list[tuple[Array, Array] | None] = [None] * len(hulls)
+        self._overlaps: dict[tuple[int, int], float] = {}  # gaps of pairs found touching where they are now
 
     def close(self) -> None:
         """Leave the Bullet world; safe to call twice."""
@@ -106,6 +108,11 @@ class Engine:
 
     def place(self, ship: int, x: Array, R_nb: Array) -> None:
         """Put a ship's parts at CO = x (3,) in n [m] with the attitude R_nb."""
+        before = self._placed[ship]
+        if before is not None and before[0] is x and before[1] is R_nb:
+            return
+        self._placed[ship] = x, R_nb
+        self._overlaps = {pair: gap for pair, gap in self._overlaps.items() if ship not in pair}
         position, orientation = swapped(x), quaternion_w(R_nb)
         for body in self._parts[ship]:
             self._p.resetBasePositionAndOrientation(body, position, orientation, physicsClientId=self._client)
@@ -123,7 +130,20 @@ class Engine:
                     found.append(
                         Closest(on_a - MARGIN * normal, on_b + MARGIN * normal, normal, row[8] + 2 * MARGIN, i, j)
                     )
+        if found and (gap := min(c.gap for c in found)) <= 0.0:
+            self._overlaps[a, b] = gap
         return found
+
+    def gap(self, a: int, b: int, cap: float) -> float:
+        """Least distance [m] between ships a and b, negative in overlap, at most `cap`."""
+        if (a, b) in self._overlaps:
+            return min(cap, self._overlaps[a, b])
+        least = cap
+        for part_a in self._parts[a]:
+            for part_b in self._parts[b]:
+                rows = self._p.getClosestPoints(part_a, part_b, least - 2 * MARGIN, physicsClientId=self._client)
+                least = min((row[8] + 2 * MARGIN for row in rows), default=least)
+        return least
 
     def dynamic_step(
         self,

@@ -8,7 +8,7 @@ Trackers read contacts and never write back.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from math import acos
 from typing import Any
 
@@ -95,7 +95,8 @@ class Episodes:
     def get_state(self) -> dict[str, Any]:
         """All of it as plain data."""
         pairs = [[a, b, p.impact, p.scratch, p.last_contact] for (a, b), p in self._pairs.items()]
-        return {"pairs": pairs, "impacts": self.impacts, "scratches": self.scratches, "latest": asdict(self.latest)}
+        latest = {**vars(self.latest), "point": list(self.latest.point)}
+        return {"pairs": pairs, "impacts": self.impacts, "scratches": self.scratches, "latest": latest}
 
     def set_state(self, state: dict[str, Any]) -> None:
         """Back to a state that get_state returned."""
