@@ -64,5 +64,5 @@ def contact_velocity(contact: Contact, shadows: Sequence[Shadow]) -> Array:
 
 def actual_velocity(contact: Contact, shadows: Sequence[Shadow]) -> Array:
     """The same with the ships' twists as they are now, without what other forces may add; (3,)."""
-    v: Array = contact.G_b @ shadows[contact.b].nu - contact.G_a @ shadows[contact.a].nu
+    v: Array = contact.G_b @ shadows[contact.b].centred - contact.G_a @ shadows[contact.a].centred
     return v

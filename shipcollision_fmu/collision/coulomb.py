@@ -92,7 +92,7 @@ def _stick(W: Block, v: Row, mu: float) -> Row | None:
     P_n = _least_in_cone(W, v_1, v_2, mu) if held else -left / rest
     P_1, P_2 = -(v_1 + W.w_1 * P_n) * W.h_1, -(v_2 + W.w_2 * P_n) * W.h_2
     size, most = hypot(P_1, P_2), mu * P_n
-    if held and 0.0 < most and abs(size - most) <= 1e-6 * most:  # on the cone, but for rounding
+    if held and most > 0.0 and abs(size - most) <= 1e-6 * most:  # on the cone, but for rounding
         P_1, P_2 = P_1 * most / size, P_2 * most / size
     elif size > most:
         return None

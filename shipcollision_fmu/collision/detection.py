@@ -32,10 +32,13 @@ SHALLOW = 0.5
 which least overlap no longer tells the side that was struck."""
 
 SAME_POINT = 0.5
-"""Contact points of different convex parts closer than this [m] are one point."""
+"""Contact points closer than this [m] are one point: different convex parts give the same one."""
 
 FLUSH = 1e-6
 """Gap [m] at which a corner counts as touching when another one of the same face touches."""
+
+SMALL = 15.0
+"""Least extent [m] of a hull below which SAME_POINT and FEATURE_DEPTH shrink with it: a boat is met like a ship."""
 
 KeptNormals = dict[tuple[int, int], tuple[int, list[float]]]
 """Per pair of ships (a, b): which of them carries the last shallow normal, and that normal in its body frame."""
@@ -47,6 +50,7 @@ class Detector:
     def __init__(self, hulls: Sequence[HullMesh]) -> None:
         self._hulls = tuple(hulls)
         self._joined = [JoinedParts(hull) for hull in hulls]
+        self._scales = [min(1.0, float(np.ptp(hull.vertices, axis=0).min()) / SMALL) for hull in hulls]
         self.engine = Engine(hulls)
 
     def place(self, ship: int, shadow: Shadow) -> None:
@@ -67,7 +71,7 @@ class Detector:
         if not touching:
             kept.pop((a, b), None)
             return []
-        one, other = self._joined[a], self._joined[b]
+        one, other, scale = self._joined[a], self._joined[b], self._scale(a, b)
         joined = not (one.whole and other.whole)
         if joined:
             touching = on_the_outside(touching, one, other, (shadows[a], shadows[b]))
@@ -79,7 +83,7 @@ class Detector:
         hidden: list[Contact] = []
         for closest in touching:
             normal = closest.normal if carried is None else _turned(carried, shadows[a], shadows[b])
-            feature_a, feature_b = self._features(a, b, closest, normal, shadows)
+            feature_a, feature_b = self._features(a, b, closest, normal, shadows, scale * FEATURE_DEPTH)
             if shallow and closest is touching[0]:
                 carrier = 0 if len(feature_a) > len(feature_b) else 1
                 kept[(a, b)] = (carrier, (normal @ shadows[(a, b)[carrier]].R).tolist())
@@ -94,7 +98,7 @@ class Detector:
                     # With a kept normal, parts that pass each other along it or lie behind others have no contact.
                     inside = joined and not shallow and (not corners or self._is_inside(contact, closest, shadows))
                     (hidden if inside else found).append(contact)
-        return _distinct(as_one(found or hidden) if joined else found)
+        return _distinct(as_one(found or hidden) if joined else found, scale * SAME_POINT)
 
     def facing(self, a: int, b: int, distance: float, shadows: Sequence[Shadow], kept: KeptNormals) -> Contact | None:
         """The middle of what is nearer than `distance` [m] of two placed hulls, with the least gap; None: nothing."""
@@ -105,7 +109,8 @@ class Detector:
         gap, normal = nearest.gap, nearest.normal
         if gap <= -SHALLOW and (a, b) in kept:
             normal = _turned(kept[a, b], shadows[a], shadows[b])
-        feature_a, feature_b = self._features(a, b, nearest, normal, shadows, max(FEATURE_DEPTH, distance - gap))
+        depth = max(self._scale(a, b) * FEATURE_DEPTH, distance - gap)
+        feature_a, feature_b = self._features(a, b, nearest, normal, shadows, depth)
         places = contact_manifold(feature_a, feature_b, normal) or [(0.5 * (nearest.on_a + nearest.on_b), gap)]
         weights = [max(distance - g, 0.0) for _, g in places]
         if not any(weights):
@@ -115,11 +120,14 @@ class Detector:
         return make_contact(a, b, shadows, middle, normal, gap)
 
     def _level(self, a: int, b: int, touching: Sequence[Closest], shadows: Sequence[Shadow]) -> tuple[int, list[float]]:
-        """Level normal of least overlap of the two hulls' plans, carried by ship a."""
+        """Level normal of least overlap of the two hulls' plans, carried by the ship whose side it belongs to."""
         in_a = np.vstack([self._placed_part(a, i, shadows) for i in sorted({c.part_a for c in touching})])
         in_b = np.vstack([self._placed_part(b, i, shadows) for i in sorted({c.part_b for c in touching})])
-        _, normal = least_overlap(in_a, in_b)
-        return 0, (normal @ shadows[a].R).tolist()
+        _, normal, carrier = least_overlap(in_a, in_b)
+        return carrier, (normal @ shadows[(a, b)[carrier]].R).tolist()
+
+    def _scale(self, a: int, b: int) -> float:
+        return min(self._scales[a], self._scales[b])
 
     def _is_inside(self, contact: Contact, closest: Closest, shadows: Sequence[Shadow]) -> bool:
         """Whether a contact with a kept normal lies on a face that another part of the same hull covers."""
@@ -134,7 +142,7 @@ class Detector:
         return points
 
     def _features(
-        self, a: int, b: int, closest: Closest, normal: Array, shadows: Sequence[Shadow], depth: float = FEATURE_DEPTH
+        self, a: int, b: int, closest: Closest, normal: Array, shadows: Sequence[Shadow], depth: float
     ) -> tuple[Array, Array]:
         """Points (n, 3) of either part that face the other one: foremost along the normal, within `depth` [m]."""
         in_a = self._placed_part(a, closest.part_a, shadows)
@@ -142,11 +150,11 @@ class Detector:
         return foremost(in_a, normal, depth), foremost(in_b, -normal, depth)
 
 
-def _distinct(contacts: list[Contact]) -> list[Contact]:
-    """Contacts more than SAME_POINT apart, the first of those that are nearer."""
+def _distinct(contacts: list[Contact], apart: float) -> list[Contact]:
+    """Contacts more than `apart` [m] from each other, the first of those that are nearer."""
     found: list[Contact] = []
     for contact in contacts:
-        if all(dist(contact.point, c.point) > SAME_POINT for c in found):
+        if all(dist(contact.point, c.point) > apart for c in found):
             found.append(contact)
     return found
 

@@ -12,10 +12,15 @@ Coasting on: CG straight ahead and CO round it. What is left is the work of forc
 
 and contact is looked for, and solved, with nu + drift. Under a parallel master an impulse is applied one step after it
 was issued, to a ship that has gained speed by then: nu + gain is the velocity that it will meet. The drift is measured
-where it acts, from poses, so it does not matter how the ship's model integrates. It is looked at only for ships that
-are in a collision: a first impact is solved with the velocities as they are. An answer with drift may turn an approach
-round (from -a H/2 to +a H/2, which the other forces turn back); that it never adds energy is seen to where it is booked
-(passive.py).
+where it acts, from poses. It is looked at only for ships that are in a collision: a first impact is solved with the
+velocities as they are. An answer with drift may turn an approach round (from -a H/2 to +a H/2, which the other forces
+turn back); that it never adds energy is seen to where it is booked (passive.py).
+
+Ships' models differ in what they move by under a constant force: the mean of the velocities at both ends of a step
+(exact), the one at its start (explicit Euler) or at its end (semi-implicit). Energy is reckoned with the velocity that
+an exact model would have, moving alike:
+
+    nu centred = nu + mean - gain/2                        exact: nu; explicit: nu - a H/2; semi-implicit: nu + a H/2
 
 What it costs: two poses per ship in contact, and one step of lag. A force that grows in a step lets the ship in by
 1/2 H^2 of its growth; when it falls the ship comes out by as much.
@@ -56,6 +61,11 @@ class Drift(NamedTuple):
     mean: Array
     gain: Array
 
+    @property
+    def off_centre(self) -> Array:
+        """By how much the received twist (6,) falls short of that of a model that moves alike and is exact."""
+        return self.mean - 0.5 * self.gain
+
 
 def drift(before: Seen, now: Seen, M_inverse: Array, r_bg: Array, reach: float) -> Drift | None:
     """Of the step that `before` began and `now` ended, M_inverse at the attitude before; None where there is nothing to
@@ -71,12 +81,12 @@ def drift(before: Seen, now: Seen, M_inverse: Array, r_bg: Array, reach: float) 
     mean_v = v + v_bg + (r_bg - coasted @ r_bg) / H  # of CO, coasting
     moved = R.T @ (np.array(now.position) - np.array(before.position))
     mean = np.concatenate([moved / H - mean_v, _turned(turn) / H - omega])
-    speed = _speed(mean, reach)
-    if not LEAST < speed <= 0.5 * MOST * H:
-        return None
     nu = np.array(now.nu)
     gain = np.concatenate([turn @ nu[:3] - (v + v_bg - coasted @ v_bg), turn @ nu[3:] - omega])
-    return Drift(mean, gain) if _speed(gain, reach) <= MOST * H else None
+    moved_on, sped_up = _speed(mean, reach), _speed(gain, reach)
+    if moved_on > MOST * H or sped_up > MOST * H or max(moved_on, sped_up) <= LEAST:
+        return None
+    return Drift(mean, gain)
 
 
 def _speed(nu: Array, reach: float) -> float:

@@ -16,20 +16,22 @@ from .clipping import Point, convex_polygon
 __all__ = ["least_overlap"]
 
 
-def least_overlap(points_a: Array, points_b: Array) -> tuple[float, Array]:
-    """(overlap [m], unit normal (3,) from a to b, level) of the plans of two convex solids, points (n, 3) in n.
+def least_overlap(points_a: Array, points_b: Array) -> tuple[float, Array, int]:
+    """(overlap [m], level unit normal (3,) from a to b, whose side it is, 0 or 1) of the plans of two convex solids.
+
+    Points (n, 3) in n.
 
     Negative: the plans are apart, by at least so much. Separating axes: the sides of both plans.
     """
     plan_a, plan_b = (convex_polygon((float(x), float(y)) for x, y, _ in p) for p in (points_a, points_b))
-    best, normal = float("inf"), (1.0, 0.0)
-    for plan, sign in ((plan_a, 1.0), (plan_b, -1.0)):
+    best, normal, owner = float("inf"), (1.0, 0.0), 0
+    for carrier, (plan, sign) in enumerate(((plan_a, 1.0), (plan_b, -1.0))):
         for x, y in _outward(plan):
             n = (sign * x, sign * y)
             overlap = max(_along(n, plan_a)) - min(_along(n, plan_b))
             if overlap < best:
-                best, normal = overlap, n
-    return best, np.array([normal[0], normal[1], 0.0])
+                best, normal, owner = overlap, n, carrier
+    return best, np.array([normal[0], normal[1], 0.0]), owner
 
 
 def _outward(plan: list[Point]) -> list[Point]:

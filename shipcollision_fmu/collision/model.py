@@ -172,7 +172,7 @@ class ShipCollision:
         if (before := self._seen[i]) is not None and feedback == "ledger":
             found = drift(before, _seen(t, 0.0, state), body.inverse_at(before.attitude), body.bullet.r_bg, body.reach)
             if found is not None:
-                shadow.drift = found.mean
+                shadow.drift, shadow.off_centre = found.mean, found.off_centre
                 if reading.pending.any():  # a parallel master: what is issued now is applied to a ship that has gone on
                     shadow.nu = shadow.nu + found.gain
         shadow.nu_received = shadow.nu

@@ -5,7 +5,8 @@ model will apply the impulse, so there it is booked, and momentum balances to ro
 with the substeps and is where contact is looked for.
 
     nu      twist about CO in b of the received pose, changed by impulses only
-    drift   what other forces are expected to add to it, in the mean over the step (drift.py); None: nothing
+    drift   what other forces are expected to add to it, in the mean over the step; off_centre: what it lacks to the
+            twist by which energy is reckoned (drift.py); None: nothing
     G       = [R, -R skew(r)]              velocity of the point r (in b) in n is G nu;  (3, 6)
     J       = G^T P                        impulse P (in n) at that point, as the ship books it, in b about CO
     nu     += M^-1 J
@@ -51,6 +52,7 @@ class Shadow:
     r_bg: Array
     issued: Array  # (6,) impulse booked in this communication step, in b about CO at the received pose
     drift: Array | None = None  # (6,)
+    off_centre: Array | None = None  # (6,)
     fixed: bool = False  # an obstacle: M_inverse is zero, and it never moves
 
     @classmethod
@@ -96,6 +98,11 @@ class Shadow:
     def expected(self) -> Array:
         """Mean twist (6,) over the step, other forces taken in."""
         return self.nu if self.drift is None else self.nu + self.drift
+
+    @property
+    def centred(self) -> Array:
+        """The twist (6,) by which energy is reckoned."""
+        return self.nu if self.off_centre is None else self.nu + self.off_centre
 
     def point(self, r_b: Array) -> Array:
         """Where the point r_b [m] (in b) is at the predicted pose, in n; (3,)."""

@@ -27,8 +27,11 @@ class Berthed:
 
     def __init__(
         self, ship: str, algorithm: str, *, speed: float = 0.0, twist: float = 0.0, quay: str = QUAY,
-        response: str = "pgs", force: Callable[[float], float] = lambda t: FORCE,
+        response: str = "pgs", force: Callable[[float], float] = lambda t: FORCE, moves_by: float = 0.5,
+        along: float = 0.0,
     ) -> None:  # fmt: skip
+        """moves_by: share of a step's force in the velocity that she moves by; 1/2 is exact. along: force ahead [N]."""
+        self.moves_by, self.along = moves_by, along
         self.model = ShipCollision(("own",))
         p = self.model.parameters
         p.ships[0].ship, p.ships[0].degrees_of_freedom, p.obstacles, p.response = ship, 3, quay, response
@@ -58,11 +61,11 @@ class Berthed:
         nu = self.nu + self.M_inverse @ (issued - self.applied)
         self.contact_work.append(0.5 * (nu @ self.M @ nu - self.nu @ self.M @ self.nu))
         self.applied = issued
-        kick = self.M_inverse @ np.array([0, self.force(self.t), 0, 0, 0, self.twist]) * (0.5 * H)
-        nu = nu + kick
+        kick = self.M_inverse @ np.array([self.along, self.force(self.t), 0, 0, 0, self.twist]) * H
+        moving = nu + self.moves_by * kick
         c, s = cos(self.psi), sin(self.psi)
-        self.x = self.x + H * np.array([c * nu[0] - s * nu[1], s * nu[0] + c * nu[1]])
-        self.psi += H * nu[5]
+        self.x = self.x + H * np.array([c * moving[0] - s * moving[1], s * moving[0] + c * moving[1]])
+        self.psi += H * moving[5]
         self.nu = nu + kick
         self.t += H
 
@@ -119,6 +122,22 @@ def test_a_minute_at_the_quay(berthed: MakeBerthed, algorithm: str, response: st
 def test_ten_minutes_at_the_quay(berthed: MakeBerthed, algorithm: str, H: float) -> None:
     b = berthed(algorithm)
     is_held(b, b.run(600.0, H), H)
+
+
+@pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
+@pytest.mark.parametrize("H", [0.1, 0.5])
+@pytest.mark.parametrize("moves_by", [0.0, 0.5, 1.0])
+def test_however_a_ship_model_integrates_she_stays(
+    berthed: MakeBerthed, algorithm: str, H: float, moves_by: float
+) -> None:
+    """Explicit Euler, exact, semi-implicit Euler; held by friction against a push along the quay as well."""
+    b = berthed(algorithm, moves_by=moves_by, along=0.2 * FORCE)
+    b.run(40.0, H)
+    x = b.x.copy()
+    b.run(60.0, H)
+    assert np.abs(b.x - x).max() < 1e-5
+    assert b.model.outputs.impact_count == 1
+    assert b.model.outputs.energy[0] > 0.0
 
 
 def test_along_the_quay_friction_slows_her_down(berthed: MakeBerthed) -> None:
