@@ -22,14 +22,19 @@ ABSURD_PLACE = 1e9
 
 def check_parameters(p: CollisionParameters) -> None:
     """Raises InputError on a parameter out of its range."""
-    bounds = (("friction", p.friction, 0.0, 10.0), ("restitution", p.restitution, 0.0, 1.0))
-    for name, value, low, high in bounds:
+    bounds = (
+        ("friction", p.friction, 0.0, 10.0, "Coulomb's coefficient, 0.1 to 0.6 for steel"),
+        ("restitution", p.restitution, 0.0, 1.0, "the share of the approach that comes back, 0 for ships that crush"),
+    )
+    for name, value, low, high, remedy in bounds:
         if not low <= value <= high:
-            raise InputError(f"{name} = {value} is outside {low:g} to {high:g}")
-    for name, value in (("substep", p.substep), ("minimum_separation_time", p.minimum_separation_time),
-                        ("clearance_range", p.clearance_range)):  # fmt: skip
+            raise InputError(f"{name} = {value} is outside {low:g} to {high:g}: give {remedy}")
+    for name, value, usual in (
+        ("substep", p.substep, "0.01 s"), ("minimum_separation_time", p.minimum_separation_time, "10 s"),
+        ("clearance_range", p.clearance_range, "200 m"),
+    ):  # fmt: skip
         if not (isfinite(value) and value > 0.0):
-            raise InputError(f"{name} = {value} must be a positive number")
+            raise InputError(f"{name} = {value} must be a positive number: leave it out, or give e.g. {usual}")
     if p.response not in RESPONSES:
         raise InputError(f"response = {p.response!r} is not known: choose one of {', '.join(RESPONSES)}")
     if p.feedback not in FEEDBACKS:

@@ -18,7 +18,7 @@ from ..ship.frames import Array
 from .contact import Contact, contact_velocity
 from .shadow import Shadow
 
-__all__ = ["SCRATCH_PAUSE", "Episodes", "Impact"]
+__all__ = ["SCRATCH_PAUSE", "Episodes", "Impact", "heading_angle"]
 
 SCRATCH_PAUSE = 0.5
 """Pause of contact [s] that a scratch survives: ships that slide along each other touch and part at every substep."""

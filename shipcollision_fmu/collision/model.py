@@ -47,10 +47,10 @@ from .fenders import Fender, friction_impulse, in_series, squeezed
 from .ledger import Books, Reading
 from .neighbours import Neighbours, Pair, room
 from .passive import passive
-from .ports import SLOTS, CollisionInputs, CollisionOutputs, CollisionParameters, ShipParameters, ShipPost, ShipState
+from .ports import CollisionInputs, CollisionOutputs, CollisionParameters, ShipParameters, ShipPost, ShipState
 from .responses import RESPONSES, Encounter
 from .shadow import Shadow
-from .slots import Slot, merged
+from .slots import Slot, fitted, merged
 from .warm_start import WarmStarts
 
 __all__ = ["ShipCollision"]
@@ -268,7 +268,7 @@ class ShipCollision:
         lost = self._apply(Impulse(contact, P), shadows)
         self._fenders[pair] = squeeze.stored
         self._fender_dissipated += lost - (squeeze.stored - stored)
-        return merged(slots, Slot(contact, P, lost, 0, 0))
+        return merged(slots, Slot.of(contact, P, lost, 0, 0))
 
     def _apply(self, impulse: Impulse, shadows: list[Shadow]) -> float:
         """Book one impulse; the kinetic energy that it takes [J]."""
@@ -311,7 +311,7 @@ class ShipCollision:
             along, across = energy_lost(impulse.P, c.normal, v_before, actual_velocity(c, shadows))
             self._energy = self._energy + [along + across, along, across]
             collision, scratch = self._episodes.numbers(c.a, c.b)
-            slots = merged(slots, Slot(c, impulse.P, along + across, collision, scratch))
+            slots = merged(slots, Slot.of(c, impulse.P, along + across, collision, scratch))
         return slots
 
     # -- outputs ------------------------------------------------------------------------------------
@@ -349,7 +349,7 @@ class ShipCollision:
         out, latest = self.outputs, self._episodes.latest
         if not slots and not out.contact_count and out.impact_count == self._episodes.impacts:
             return  # nothing to show, and nothing shown: most steps
-        slots = sorted(slots, key=lambda s: -float(np.linalg.norm(s.P)))[:SLOTS] if len(slots) > SLOTS else slots
+        slots = fitted(slots, len(out.contacts))
         for k, place in enumerate(out.contacts):
             if k < len(slots):
                 slots[k].fill(place)

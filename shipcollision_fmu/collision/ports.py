@@ -8,17 +8,21 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 __all__ = [
-    "SLOTS", "CollisionInputs", "CollisionOutputs", "CollisionParameters", "ContactSlot", "ShipParameters", "ShipPost",
-    "ShipState",
+    "CollisionInputs", "CollisionOutputs", "CollisionParameters", "ContactSlot", "ShipParameters", "ShipPost",
+    "ShipState", "contact_slots",
 ]  # fmt: skip
 
-SLOTS = 8
-"""Contact points that are output per communication step."""
+LEAST_SLOTS, SLOTS_PER_SHIP, MOST_SLOTS = 8, 4, 64
 
 
 def zeros(n: int) -> list[float]:
     """n zeros, as a field of its own."""
     return [0.0] * n
+
+
+def contact_slots(ships: int) -> int:
+    """Contact points that are output per communication step, for so many ships."""
+    return min(max(LEAST_SLOTS, SLOTS_PER_SHIP * ships), MOST_SLOTS)
 
 
 @dataclass
@@ -125,7 +129,7 @@ class CollisionOutputs:
     1e-9, or had to be scaled back so as not to add energy."""
 
     ships: list[ShipPost]
-    contacts: list[ContactSlot] = field(default_factory=lambda: [ContactSlot() for _ in range(SLOTS)])
+    contacts: list[ContactSlot] = field(default_factory=list)
     contact_active: bool = False
     contact_count: int = 0
     impact_count: int = 0
@@ -141,3 +145,6 @@ class CollisionOutputs:
     solver_sweeps: int = 0
     solver_unconverged: int = 0
     solver_scaled: int = 0
+
+    def __post_init__(self) -> None:
+        self.contacts = self.contacts or [ContactSlot() for _ in range(contact_slots(len(self.ships)))]

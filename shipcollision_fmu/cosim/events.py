@@ -9,6 +9,8 @@
     collision                 sides that meet nearly parallel, the middle of the line
     energy                    sum of what its contact points dissipated
     angle                     between the headings, 0 (overtaking) to pi (head-on)
+    start, closing speed      as the collision FMU gave them; of all but the last of the collisions that began in one
+                              step, from the states at its start
     damage                    indicative, from the energy, only when the scenario asks for it (collision/damage.py);
                               the striking bow is that of the ship that was touched farther forward, if that far
 
@@ -25,6 +27,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..collision.damage import BOW, indicative_damage
+from ..collision.episodes import heading_angle
 from ..ship.frames import Array, rotation, rotation_vector
 from ..ship.free_motions import free_inverse, tilted_inverse
 from ..ship.ship import Ship
@@ -38,17 +41,21 @@ Rows = npt.NDArray[Any]
 
 
 def events(
-    record: Record, ships: Mapping[str, Ship], free: Mapping[str, int], damage: DamageTable | None = None
+    record: Record,
+    ships: Mapping[str, Ship],
+    free: Mapping[str, int],
+    damage: DamageTable | None = None,
+    obstacles: Mapping[str, float] | None = None,
 ) -> dict[str, Any]:
     """{"collisions": [...], "scratches": [...]} as JSON-able data; the schema is cosim/events.schema.json.
 
-    `free` are the ships' degrees of freedom; with `damage` every collision has an
-    object of that name.
+    `free` are the ships' degrees of freedom, `obstacles` the headings [rad] of what is fixed; with `damage` every
+    collision has an object of that name.
     """
     contacts = record.contacts
     gained = _velocity_gains(record, ships, free)
     collisions = [
-        _collision(int(number), contacts[contacts["impact"] == number], record, gained)
+        _collision(int(number), contacts[contacts["impact"] == number], record, gained, obstacles or {})
         for number in np.unique(contacts["impact"])
         if number > 0  # 0: a fender acts, which is no collision
     ]
@@ -64,24 +71,50 @@ def events(
     }  # fmt: skip
 
 
-def _collision(number: int, rows: Rows, record: Record, gained: dict[tuple[int, str], Array]) -> dict[str, Any]:
-    first = _strongest(rows[rows["time"] == rows["time"][0]])
-    start = record.impacts.get(number)
+def _collision(
+    number: int, rows: Rows, record: Record, gained: dict[tuple[int, str], Array], obstacles: Mapping[str, float]
+) -> dict[str, Any]:
+    touching = rows[rows["time"] == rows["time"][0]]
+    first = _strongest(touching)
+    start = record.impacts.get(number) or _start(touching, record, obstacles)
     impulse = sum((_triple(row, "impulse", _NED) for row in rows), start=np.zeros(3))
     pair = [str(first["ship_a"]), str(first["ship_b"])]
     return {
         "id": number,
         "ship_a": pair[0],
         "ship_b": pair[1],
-        "start": float(rows["time"][0]) if start is None else start.time,
+        "start": start.time,
         "end": float(rows["time"][-1]),
-        "first_point": _point(first) if start is None else _middle(first, start, record),
-        "closing_speed": None if start is None else start.closing_speed,
-        "angle": None if start is None else start.angle,
+        "first_point": _middle(first, start, record),
+        "closing_speed": start.closing_speed,
+        "angle": start.angle,
         "impulse": {"n": impulse.tolist(), "magnitude": float(np.linalg.norm(impulse))},
         "delta_v": {name: gained.get((number, name), np.zeros(3)).tolist() for name in pair},  # an obstacle's is none
         "energy": float(rows["energy"].sum()),
     }
+
+
+def _start(touching: Rows, record: Record, obstacles: Mapping[str, float]) -> Impact:
+    """Of a collision that began in the step in which another did, whose start the FMU shows: from the states at the
+    start of that step, and the points that touched at its end."""
+    time = float(touching["time"][0])
+    before = record.states[max(0, int(np.searchsorted(record.states["time"], time)) - 1)]
+    bodies = [str(touching[0][ship]) for ship in ("ship_a", "ship_b")]
+    states = [
+        np.array([float(before[f"{body}.{variable}"]) for variable in STATE]) if body not in obstacles
+        else np.array([0.0] * 5 + [obstacles[body]] + [0.0] * 6)
+        for body in bodies
+    ]  # fmt: skip
+    R = [rotation(state[3:6]) for state in states]
+    closing = 0.0
+    for row in touching:
+        v_a, v_b = (
+            R_nb @ (state[6:9] + np.cross(state[9:], _triple(row, group, _XYZ)))
+            for R_nb, state, group in zip(R, states, ("a", "b"), strict=True)
+        )
+        closing = max(closing, float((v_a - v_b) @ _triple(row, "normal", _NED)))
+    point = sum((_triple(row, None, _NED) for row in touching), start=np.zeros(3)) / len(touching)
+    return Impact(time, closing, heading_angle(R[0], R[1]), (float(point[0]), float(point[1]), float(point[2])))
 
 
 def _damage(collision: Mapping[str, Any], ships: Mapping[str, Ship], table: DamageTable) -> dict[str, Any]:
@@ -184,5 +217,5 @@ def _middle(row: Any, start: Impact, record: Record) -> dict[str, list[float]]:
     return {"n": n.tolist(), **places}
 
 
-def _triple(row: Any, group: str, components: tuple[str, ...]) -> Array:
-    return np.array([float(row[column]) for column in named(group, components)])
+def _triple(row: Any, group: str | None, components: tuple[str, ...]) -> Array:
+    return np.array([float(row[column]) for column in (components if group is None else named(group, components))])

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from typing import Literal
 from xml.etree.ElementTree import Element, SubElement
 
-from ..collision.ports import SLOTS
+from ..collision.ports import contact_slots
 from ..fmi.ship_collision import INTERFACE as COLLISION_INTERFACE
 from ..fmi.ship_manoeuvring import INTERFACE as SHIP_INTERFACE
 from ..fmi.variables import ANGLES, LINEAR, NED, Table
@@ -67,7 +67,7 @@ def ship_groups() -> list[Group]:
 def collision_groups(ships: Sequence[str]) -> list[Group]:
     """Of ShipCollision, built for these ships."""
     groups = [Group("LinearDisplacement", "impact", named("impact", NED))]
-    for k in range(1, SLOTS + 1):
+    for k in range(1, contact_slots(len(ships)) + 1):
         groups.append(Group("LinearDisplacement", f"contact[{k}]", named(f"contact[{k}]", NED)))
     for s in ships:
         groups += [

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ..collision.ports import contact_slots
 from ..ship.frames import Array
 from .component import Group
 from .master import System
@@ -20,7 +21,6 @@ from .wiring import IMPULSE, STATE, named
 
 __all__ = ["CONTACT_COLUMNS", "SIGNALS", "Impact", "Record", "Recorder"]
 
-SLOTS = 8
 _XYZ = ("x", "y", "z")
 _NED = ("north", "east", "down")
 CONTACT_COLUMNS = (
@@ -92,7 +92,7 @@ class Recorder:
         self._states = np.zeros((steps + 1, 1 + len(names) * len(STATE)))
         self._buffers = [np.ctypeslib.as_array(wire.outputs.values) for wire in system.states]
         collision = system.collision
-        slots = [f"contact[{i}]" for i in range(1, SLOTS + 1)]
+        slots = [f"contact[{i}]" for i in range(1, contact_slots(len(names)) + 1)]
         self._counts = collision.integers(["contact.count", "impact.count"])
         self._reals = collision.reals([variable for slot in slots for variable in named(slot, CONTACT_COLUMNS)])
         self._numbers = collision.integers([variable for slot in slots for variable in named(slot, _CONTACT_NUMBERS)])
@@ -121,7 +121,7 @@ class Recorder:
             time, closing_speed, angle, north, east, down = _read(self._impact)
             self._seen.impacts[impacts] = Impact(time, closing_speed, angle, (north, east, down))
         if count > 0:
-            self._record_contacts(k, min(count, SLOTS))
+            self._record_contacts(k, count)
 
     def finished(self) -> Record:
         """The record of the whole run."""

@@ -13,6 +13,7 @@ import re
 from collections.abc import Callable, Mapping
 from contextlib import ExitStack, closing
 from dataclasses import dataclass, field
+from math import radians
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -115,7 +116,8 @@ def simulate(
             factories = through_fmus(ready_fmus(tuple(scenario.ships), fmi), stack, tuple(scenario.ships), fmi)
         record, wall_time = stepped(scenario, factories, progress)
     free = {name: start.free for name, start in scenario.ships.items()}
-    found = events(record, ships, free, scenario.collision.damage)
+    headings = {name: radians(table.heading_deg) for name, table in scenario.obstacles.items()}
+    found = events(record, ships, free, scenario.collision.damage, headings)
     duration = scenario.step * scenario.steps
     run = Run(
         states=record.states,

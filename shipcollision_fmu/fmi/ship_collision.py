@@ -10,7 +10,7 @@ from math import pi
 
 from shipcollision_fmu.collision.ledger import FEEDBACKS
 from shipcollision_fmu.collision.model import ShipCollision
-from shipcollision_fmu.collision.ports import SLOTS
+from shipcollision_fmu.collision.ports import contact_slots
 from shipcollision_fmu.collision.responses import RESPONSES
 from shipcollision_fmu.fmi.interface import SHIPS, Interface
 from shipcollision_fmu.fmi.variables import (
@@ -40,7 +40,7 @@ def table(ships: tuple[str, ...] = SHIPS) -> Table:
     """The variables, in the order of their value references."""
     return (
         *(line for i, name in enumerate(ships) for line in _ship(i, name)),
-        *_contacts(),
+        *_contacts(contact_slots(len(ships))),
         *_events(),
         *_parameters(),
     )
@@ -106,28 +106,28 @@ def _ship(i: int, s: str) -> Table:
     )  # fmt: skip
 
 
-def _contacts() -> Table:
+def _contacts(slots: int) -> Table:
     """The contact points of the step, from 1; unused slots are zero."""
     lines: list[Table] = [(
         boolean("output", "contact.active", "outputs.contact_active", "Hulls touched in this step", depends_on=()),
         integer(
             "output", "contact.count", "outputs.contact_count", "Contact points in this step, fenders' included",
-            minimum=0, maximum=SLOTS, depends_on=(),
+            minimum=0, maximum=slots, depends_on=(),
         ),
     )]  # fmt: skip
-    for k in range(SLOTS):
-        lines.append(_contact(f"contact[{k + 1}]", f"outputs.contacts.{k}"))
+    for k in range(slots):
+        lines.append(_contact(f"contact[{k + 1}]", f"outputs.contacts.{k}", slots))
     return tuple(line for block in lines for line in block)
 
 
-def _contact(name: str, path: str) -> Table:
+def _contact(name: str, path: str, slots: int) -> Table:
     """A contact point; in FMI 3.0 a row of the arrays contact.*."""
 
     def each(field: str, description: str) -> Array:
-        return Array(f"contact.{field}", (SLOTS,), description)
+        return Array(f"contact.{field}", (slots,), description)
 
     def point(field: str, components: tuple[str, ...], description: str) -> Array:
-        return Array(f"contact.{field}", (SLOTS, 3), f"{description}: {', '.join(components)}")
+        return Array(f"contact.{field}", (slots, 3), f"{description}: {', '.join(components)}")
 
     def triple(group: str, components: tuple[str, ...], unit: str, at: str, description: str, field: str) -> Table:
         return vector(

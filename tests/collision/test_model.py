@@ -386,10 +386,10 @@ def test_impossible_steps_are_refused(make_ship: Make, world: MakeWorld, h: floa
 @pytest.mark.parametrize(
     ("index", "value", "message"),
     [
-        (0, -0.1, "friction = -0.1 is outside 0 to 10"),
+        (0, -0.1, "friction = -0.1 is outside 0 to 10: give Coulomb's coefficient"),
         (1, 1.5, "restitution = 1.5 is outside 0 to 1"),
         (1, float("nan"), "restitution = nan is outside 0 to 1"),
-        (2, 0.0, "substep = 0.0 must be a positive number"),
+        (2, 0.0, "substep = 0.0 must be a positive number: leave it out, or give e.g. 0.01 s"),
         (3, -1.0, "minimum_separation_time = -1.0 must be a positive number"),
     ],
 )

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from math import pi
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
+from shipcollision_fmu import load_scenario, simulate
 from shipcollision_fmu.cosim.events import events
 from shipcollision_fmu.cosim.recorder import CONTACT_COLUMNS, SIGNALS, Impact, Record
 from shipcollision_fmu.cosim.wiring import STATE
@@ -77,13 +80,20 @@ def test_a_ship_hit_from_both_sides_at_once_takes_its_share_from_each() -> None:
     """The impulses on the middle ship cancel in the ledger, and must not in its two collisions."""
     rows = [contact(1, ("left", "middle"), (1, 1), 5.0, 4e6), contact(1, ("middle", "right"), (2, 2), 9.0, 4e6)]
     issued = {1: [sway(-4e6), sway(0.0), sway(4e6)]}
-    first, second = found(record(rows, issued, {2: Impact(0.2, 1.0, 0.0, (0.0, 9.0, 0.0))}))["collisions"]
+    made = record(rows, issued, {2: Impact(0.2, 1.0, 0.0, (0.0, 9.0, 0.0))})
+    made.states["left.velocity.sway"][0], made.states["middle.rate.yaw"][0] = 1.5, 0.02
+    made.states["middle.attitude.yaw"][0] = 0.0
+    first, second = found(made)["collisions"]
     M = SHIP.M[np.ix_([0, 1, 5], [0, 1, 5])]
     on_b = np.linalg.solve(M, [0.0, 4e6, -20.0 * 4e6])[1]
     on_a = np.linalg.solve(M, [0.0, -4e6, -10.0 * 4e6])[1]
     assert first["delta_v"]["middle"][1] == pytest.approx(on_b, rel=1e-12)
     assert second["delta_v"]["middle"][1] == pytest.approx(on_a, rel=1e-12)
-    assert (first["start"], first["closing_speed"], first["angle"]) == (0.5, None, None)  # its start was overwritten
+    # The FMU showed the start of the second one only. Left's side moves at 1.5 m/s, middle's stern, 20 m abaft, comes
+    # towards it at 20 x 0.02 m/s.
+    assert first["start"] == 0.5
+    assert first["closing_speed"] == pytest.approx(1.5 + 0.4)
+    assert first["angle"] == 0.0
     assert second["start"] == 0.2
 
 
@@ -101,3 +111,74 @@ def test_a_scratch_has_one_point_per_step_that_of_the_largest_impulse() -> None:
     assert first["b_b"] == [[-20.0, -6.0, 0.0], [-20.0, -7.0, 0.0]]
     assert first["first_point"]["n"] == [0.0, 6.0, 0.0]
     assert (second["id"], second["start"], second["end"]) == (2, 2.0, 2.0)
+
+
+def test_a_start_beside_another_against_an_obstacle_that_stands_across() -> None:
+    """Its velocity is none, its heading that of its table: a right angle."""
+    rows = [contact(1, ("left", "quay"), (1, 1), 5.0, 4e6), contact(1, ("middle", "right"), (2, 2), 9.0, 4e6)]
+    made = record(rows, {1: [sway(0.0)] * 3}, {2: Impact(0.2, 1.0, 0.0, (0.0, 9.0, 0.0))})
+    made.states["left.velocity.sway"][0] = 2.0
+    first, _ = events(made, dict.fromkeys(NAMES, SHIP), dict.fromkeys(NAMES, 3), None, {"quay": pi / 2})["collisions"]
+    assert first["closing_speed"] == pytest.approx(2.0)
+    assert first["angle"] == pytest.approx(pi / 2)
+
+
+FLEET = 4
+HEAD_ON = """
+[scenario]
+name = "fleet"
+description = "pairs of boxes that meet head-on in one step, a kilometre apart"
+duration = 2.0
+step = 0.5
+[collision]
+friction = 0.0
+"""
+
+
+def test_pairs_that_meet_in_one_step_lose_nothing(tmp_path: Path) -> None:
+    """Equal boxes head-on at 5 m/s each: 1/2 m v^2 of both is lost, m v is exchanged, each stops; in every pair."""
+    (tmp_path / "box.toml").write_text(BOX)
+    text = HEAD_ON
+    for k in range(FLEET):
+        for name, north, heading in (("a", -104.0, 0.0), ("b", 104.0, 180.0)):
+            text += (
+                f'[ships.{name}{k}]\nship = "box.toml"\nposition = [{north}, {1000.0 * k}]\nheading_deg = {heading}\n'
+                "speed = 5.0\nhydrodynamics = false\ndegrees_of_freedom = 3\n"
+            )
+    (tmp_path / "fleet.toml").write_text(text)
+    run = simulate(load_scenario(tmp_path / "fleet.toml"), in_process=True)
+    collisions = run.events["collisions"]
+    assert [(c["ship_a"], c["ship_b"]) for c in collisions] == [(f"a{k}", f"b{k}") for k in range(FLEET)]
+    for collision in collisions:
+        assert collision["energy"] == pytest.approx(4e7 * 25.0, rel=1e-9)
+        assert collision["impulse"]["magnitude"] == pytest.approx(4e7 * 5.0, rel=1e-9)
+        assert collision["closing_speed"] == pytest.approx(10.0, rel=1e-9)
+        assert collision["angle"] == pytest.approx(pi)
+        for gained in collision["delta_v"].values():
+            assert np.linalg.norm(gained) == pytest.approx(5.0, rel=1e-9)
+    assert sum(c["energy"] for c in collisions) == pytest.approx(run.summary["energy"]["dissipated"], rel=1e-9)
+
+
+BOX = """
+[ship]
+name = "Box"
+kind = "test"
+source = "made for a test"
+licence = "MIT"
+[particulars]
+L_pp = 200.0
+L_oa = 200.0
+B = 30.0
+T = 10.0
+mass = 4e7
+[added_mass]
+m_x = 0.0
+m_y = 0.0
+m_z = 0.0
+j_x = 0.0
+j_y = 0.0
+j_z = 0.0
+[hull]
+shape = "box"
+depth = 20.0
+"""

@@ -27,18 +27,18 @@ def test_names_are_unique_and_differ_from_no_scalar_in_meaning(table: tuple[obje
 
 
 def test_vectors_and_blocks_become_arrays() -> None:
-    table = TABLES[0]
+    table = TABLES[0]  # of three ships: twelve contact points
     found = {array.name: array for array in arrays(table)}
     assert found["own.position"].shape == (3,)
     assert [table[k].name for k in found["own.position"].references] == [
         "own.position.north", "own.position.east", "own.position.down",
     ]  # fmt: skip
-    assert found["contact.gap"].shape == (8,)
-    assert found["contact.normal"].shape == (8, 3)
+    assert found["contact.gap"].shape == (12,)
+    assert found["contact.normal"].shape == (12, 3)
     rows = [table[k].name for k in found["contact.normal"].references]
     assert rows[:4] == [f"contact[{k}].normal.{c}" for k, c in ((1, "north"), (1, "east"), (1, "down"), (2, "north"))]
     assert found["contact.normal"].description == "Unit normal from ship_a to ship_b in n: north, east, down"
-    assert found["contact.ship_a"].shape == (8,)
+    assert found["contact.ship_a"].shape == (12,)
     assert found["clearance"].shape == ()
     assert found["impact.position"].shape == (3,)
     assert not [name for name in found if "[" in name]
