@@ -208,7 +208,7 @@ def test_contact_slots_add_up_to_the_ledger(make_ship: Make, world: MakeWorld) -
             assert (slot.ship_a, slot.ship_b, slot.impact) == (1, 2, 1)
             assert np.linalg.norm(slot.normal) == pytest.approx(1.0)
             normal_part = float(np.dot(slot.impulse, slot.normal))
-            assert slot.values[1] == pytest.approx(normal_part)
+            assert slot.values[1] == pytest.approx(normal_part, rel=1e-3)  # the normal turns with the hull in a step
             assert slot.values[2] <= 0.3 * slot.values[1] * (1 + 1e-9)
             step += slot.impulse
             energy += slot.values[3]
