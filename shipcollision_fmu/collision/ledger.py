@@ -28,6 +28,7 @@ energy.
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import hypot
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -35,6 +36,8 @@ import numpy as np
 from ..ship.frames import Array, skew
 
 __all__ = ["FEEDBACKS", "Books", "Reading"]
+
+_NOTHING = np.zeros(6)
 
 ROUNDING = 1e-12
 """What is owed, as a share of all that was ever given, that is rounding."""
@@ -87,44 +90,48 @@ class Books:
             pending = FEEDBACKS[feedback](self, nu, M_inverse)
             if pending.any():
                 nu = nu + M_inverse @ pending
-            return Reading(x, R, nu, applied, self._delivered, pending, np.zeros(6), False, False)
+            return Reading(x, R, nu, applied, self._delivered, pending, _NOTHING, False, False)
+        if self.is_quiet(feedback, applied.tolist()):
+            restless = _goes_far(nu, reach, H)
+            return Reading(x, R, nu, applied, self._delivered, _NOTHING, _NOTHING, self._late, restless)
         taken, pending = applied - self._applied, self.issued - applied
-        if pending.any():
+        waits = bool(pending.any())
+        if waits:
             nu = nu + M_inverse @ pending
-        restless = H * float(np.linalg.norm(nu[3:]) + np.linalg.norm(nu[:3]) / reach) > FAR
+        restless = _goes_far(nu, reach, H)
         delivered, late = self._delivered, self._late
         if taken.any():
             delivered = delivered + _wrench(self._x, self._R, taken)
         if self.last.any():
-            late = bool(pending.any())
+            late = waits
         owed = self._meant - delivered
-        if pending.any():
+        if waits:
             owed = owed - _wrench(x, R, pending)
         small = ROUNDING * self._size
         if restless or (np.abs(owed[:3]).max() <= small[0] and np.abs(owed[3:]).max() <= small[1]):
-            return Reading(x, R, nu, applied, delivered, pending, np.zeros(6), late, restless)
+            return Reading(x, R, nu, applied, delivered, pending, _NOTHING, late, restless)
         return Reading(x, R, nu, applied, delivered, pending, _in_body(x, R, owed), late, restless)
 
     def close(self, reading: Reading, J: Array, nu: Array, ahead: Callable[[], tuple[Array, Array]]) -> None:
         """End a step in which contact gave J (6,), solved at the received pose. nu: twist with which the step began;
         ahead: gives the pose (x, R) at which a late ship will apply what is issued now."""
         x, R = reading.x, reading.R
-        given = J + reading.owed
-        out = given
         if reading.restless:
             self._meant = reading.delivered + _wrench(x, R, reading.pending)
-        if J.any():
+        struck, out = bool(J.any()), _NOTHING
+        if struck:
             w = _wrench(x, R, J)
             self._meant = self._meant + w
-            linear = float(np.linalg.norm(w[:3]))
-            self._size = self._size + [linear, float(np.linalg.norm(J[3:])) + float(np.linalg.norm(x)) * linear]
-        if reading.late and given.any() and not reading.restless:
-            out = _in_body(*ahead(), _wrench(x, R, given))
-        if out.any():
+            linear = hypot(*w[:3].tolist())
+            self._size = self._size + [linear, hypot(*J[3:].tolist()) + hypot(*x.tolist()) * linear]
+        if struck or reading.owed is not _NOTHING:
+            out = J + reading.owed
+            if reading.late and not reading.restless:
+                out = _in_body(*ahead(), _wrench(x, R, out))
             self.issued = self.issued + out
             self._echo = self.issued.tolist()
         self.last, self._nu = out, nu
-        self.settled = not (out.any() or reading.pending.any())
+        self.settled = out is _NOTHING and (reading.pending is _NOTHING or not reading.pending.any())
         self._x, self._R, self._applied = x, R, reading.applied
         self._delivered, self._late = reading.delivered, reading.late
 
@@ -170,10 +177,16 @@ FEEDBACKS: dict[str, Callable[[Books, Array, Array], Array]] = {
 """By name, how the pending impulse (6,) of a ship is inferred that does not echo; "ledger" reads it."""
 
 
+def _goes_far(nu: Array, reach: float, H: float) -> bool:
+    u, v, w, p, q, r = nu.tolist()
+    return H * (hypot(p, q, r) + hypot(u, v, w) / reach) > FAR
+
+
 def _wrench(x: Array, R: Array, J: Array) -> Array:
     """J (6,), in b about CO at a pose, as a wrench in n about its origin."""
-    linear = R @ J[:3]
-    return np.concatenate([linear, R @ J[3:] + skew(x) @ linear])
+    linear, w = R @ J[:3], np.empty(6)
+    w[:3], w[3:] = linear, R @ J[3:] + skew(x) @ linear
+    return w
 
 
 def _in_body(x: Array, R: Array, wrench: Array) -> Array:
