@@ -12,9 +12,10 @@ import numpy as np
 from hypothesis import strategies as st
 
 from shipcollision_fmu.collision.axes import contact_axes
-from shipcollision_fmu.collision.shadow import point_jacobian
-from shipcollision_fmu.ship.frames import rotation
-from shipcollision_fmu.ship.free_motions import FREE, free_inverse, level_axes
+from shipcollision_fmu.collision.contact import make_contact
+from shipcollision_fmu.collision.shadow import Shadow, point_jacobian
+from shipcollision_fmu.ship.frames import attitude_from_rotation, rotation
+from shipcollision_fmu.ship.free_motions import FREE, free_inverse, level_axes, tilted_inverse
 from shipcollision_fmu.ship.inertia import added_mass_matrix, rigid_body_inertia
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
@@ -44,11 +45,11 @@ class Ship:
         """The ship after the impulse P (in n) at `point`."""
         return replace(self, nu=self.nu + self.M_inverse @ self.jacobian(point).T @ P)
 
-    def momentum(self, about: Array) -> Array:
-        """Virtual momentum M nu in n, linear and angular about a fixed point; (6,)."""
-        h = self.M @ self.motion
-        linear = self.axes_n @ h[:3]
-        return np.concatenate([linear, self.axes_n @ h[3:] + np.cross(self.x - about, linear)])
+    def shadow(self) -> Shadow:
+        """The same as the collision model knows her, from her position, attitude, twist and inertia alone."""
+        attitude = attitude_from_rotation(self.R)
+        inverse = tilted_inverse(free_inverse(self.M, self.free), self.free, attitude)
+        return Shadow.at(self.x, attitude, self.nu, inverse)
 
     @property
     def motion(self) -> Array:
@@ -121,6 +122,39 @@ class Impact:
             for s in (self.a, self.b)
         )  # fmt: skip
         return replace(self, a=a, b=b, point=F @ self.point, normal=F @ self.normal)
+
+
+def check_momentum(impact: Impact, P: Array) -> None:
+    """P (in contact axes), booked by the collision model's own shadows, changes M nu of both ships by equal and
+    opposite impulses at one point: -P on a and P on b in each of their free motions, and no moment about any fixed
+    point. To 1e-10 of the impulse and of its moment, but for the rounding of what the ships had before.
+    """
+    shadows = [impact.a.shadow(), impact.b.shadow()]
+    contact = make_contact(0, 1, shadows, impact.point, impact.normal, 0.0)
+    P_n = impact.axes.T @ P
+    for shadow, G, sign in zip(shadows, (contact.G_a, contact.G_b), (-1.0, 1.0), strict=True):
+        shadow.book(sign * P_n @ G)
+    size = float(np.linalg.norm(P_n))
+    wrenches, wrench_size = np.zeros((2, 3)), np.zeros((2, 3))
+    for ship, shadow, sign in zip((impact.a, impact.b), shadows, (-1.0, 1.0), strict=True):
+        before, after = (ship.M @ np.linalg.solve(ship.axes, nu) for nu in (ship.nu, shadow.nu))
+        had = np.abs(ship.M) @ np.abs(np.linalg.solve(ship.axes, ship.nu)) + np.abs(after)
+        arm, free = impact.point - ship.x, list(FREE[ship.free])
+        # Along and about which axes of n each motion is: roll is about the ship's own x, level or not.
+        turns = ship.axes_n.copy()
+        turns[:, 0] = ship.R[:, 0]
+        expected = sign * np.concatenate([ship.axes_n.T @ P_n, turns.T @ np.cross(arm, P_n)])
+        scale = np.repeat([size, float(np.linalg.norm(arm)) * size], 3)
+        missed = np.abs(after - before - expected)
+        assert (missed <= 1e-10 * scale + 1e-14 * had)[free].all(), (missed, scale, had)
+        # What the ship took, in n: level and about the vertical, which are free in all of them.
+        taken, rounding = ship.axes_n @ (after - before)[:3], float(had[:3].max())
+        for k, about in enumerate((np.zeros(3), np.array([-400.0, 900.0, 30.0]))):
+            moment = (ship.axes_n @ (after - before)[3:])[2] + np.cross(ship.x - about, taken)[2]
+            wrenches[k] += [taken[0], taken[1], moment]
+            far = float(np.linalg.norm(ship.x - about)) + float(np.linalg.norm(arm))
+            wrench_size[k] += [size + 1e-4 * rounding] * 2 + [far * (size + 1e-4 * rounding) + 1e-4 * had[3:].max()]
+    assert (np.abs(wrenches) <= 1e-10 * wrench_size).all(), (wrenches, wrench_size)
 
 
 def floats(low: float, high: float) -> st.SearchStrategy[float]:
