@@ -10,7 +10,7 @@ import pytest
 
 from shipcollision_fmu.collision.model import ShipCollision
 from shipcollision_fmu.ship.frames import attitude_from_rotation, rotation, rotation_vector
-from shipcollision_fmu.ship.free_motions import free_inverse, tilted_inverse
+from shipcollision_fmu.ship.free_motions import free_inverse, level_axes, tilted_inverse
 from shipcollision_fmu.ship.library import load_ship
 
 BOX = 'shape = "box"\ndepth = 20.0'
@@ -88,15 +88,37 @@ class World:
             new = issued - self.applied[i]
             rows.append((*poses[i], new))
             after = self.nu[i] + tilted_inverse(self.upright[i], self.free, attitude_from_rotation(self.R[i])) @ new
-            work += 0.5 * (after @ self.M[i] @ after - self.nu[i] @ self.M[i] @ self.nu[i])
+            had = self.energy(i)
             self.nu[i], self.applied[i] = after, issued
-            v_n, w_n = self.R[i] @ after[:3], self.R[i] @ after[3:]
-            self.x[i] = self.x[i] + v_n * H
-            self.R[i] = rotation_vector(w_n * H) @ self.R[i]
-            self.nu[i] = np.concatenate([self.R[i].T @ v_n, self.R[i].T @ w_n])
+            work += self.energy(i) - had
+            self._coast(i, H)
         self.work.append(work)
         self.increments.append(rows)
         self.t += H
+
+    def _coast(self, i: int, H: float) -> None:
+        """On by H with the velocity constant in n, and the angular velocity: in 3 and 4 degrees of freedom the rates of
+        heading and heel, so that what is held stays held."""
+        v_n, nu = self.R[i] @ self.nu[i][:3], self.nu[i]
+        self.x[i] = self.x[i] + v_n * H
+        if self.free == 6:
+            w_n = self.R[i] @ nu[3:]
+            self.R[i] = rotation_vector(w_n * H) @ self.R[i]
+            self.nu[i] = np.concatenate([self.R[i].T @ v_n, self.R[i].T @ w_n])
+            return
+        rates, attitude = self.motion(i)[3:], attitude_from_rotation(self.R[i]) + self.motion(i)[3:] * H
+        self.R[i] = rotation(attitude)
+        self.nu[i] = np.concatenate([self.R[i].T @ v_n, level_axes(attitude)[3:, 3:] @ rates])
+
+    def motion(self, i: int) -> np.ndarray:
+        """The twist (6,) in the axes of the motions that M is of: those of b, or level ones."""
+        if self.free == 6:
+            return self.nu[i]
+        return np.linalg.solve(level_axes(attitude_from_rotation(self.R[i])), self.nu[i])
+
+    def energy(self, i: int) -> float:
+        """Kinetic energy of a ship [J]."""
+        return float(0.5 * self.motion(i) @ self.M[i] @ self.motion(i))
 
     def run(self, duration: float, H: float) -> World:
         for _ in range(round(duration / H)):
@@ -104,7 +126,7 @@ class World:
         return self
 
     def momentum(self) -> np.ndarray:
-        """Virtual momentum, linear and angular about n's origin; (6,)."""
+        """Virtual momentum, linear and angular about n's origin, of ships in 6 degrees of freedom; (6,)."""
         total = np.zeros(6)
         for x, R, nu, M in zip(self.x, self.R, self.nu, self.M, strict=True):
             h = M @ nu

@@ -9,6 +9,7 @@ from math import atan2, cos, degrees, isfinite, pi, sin
 import numpy as np
 import pytest
 
+from shipcollision_fmu.ship.free_motions import level_axes
 from tests.collision.conftest import World
 
 Make = Callable[..., str]
@@ -61,32 +62,83 @@ def encounter(rng: random.Random) -> tuple[list[str], list[dict], dict]:
         "obstacles": obstacle(rng, REACH[names[1]] + rng.uniform(10.0, 40.0), towards), "substep": 0.05,
         "response": rng.choice(["pgs", "pgs", "closed_form"]),
     }  # fmt: skip
+    # Drawn last, so that a seed keeps its geometry.
+    parameters["restitution"] = rng.choice([0.0, 0.3, 1.0])
+    if rng.random() < 0.3:  # heeled and rolling, with what is held at rest
+        parameters["degrees_of_freedom"] = 4
+        for start in starts:
+            attitude, (u, v, _, _, _, r) = (rng.uniform(-0.2, 0.2), 0.0, start["attitude"][2]), start["nu"]
+            level = level_axes(attitude) @ [u, v, 0.0, rng.uniform(-0.05, 0.05), 0.0, r]
+            start |= {"attitude": attitude, "nu": level.tolist()}
     return names, starts, {**parameters, "time": min(40.0, 1.3 * (gap + abs(aim)) / closing)}
+
+
+SMALL = {"buoy", "floating_log"}
+
+
+class Balance:
+    """Wrenches that the ships of a world took, in n about its origin: of two that meet alone the sum is nothing."""
+
+    def __init__(self, w: World) -> None:
+        self.w, self.sum, self.size = w, np.zeros(6), np.zeros(2)
+        self.quiet, self.restless = 0, False
+
+    def look(self, H: float) -> None:
+        """Take in the world's last step, of H [s]."""
+        step, size = np.zeros(6), np.zeros(2)
+        for x, R, J in self.w.increments[-1]:
+            linear = R @ J[:3]
+            step += np.concatenate([linear, R @ J[3:] + np.cross(x, linear)])
+            size += [np.linalg.norm(linear), np.linalg.norm(J[3:]) + np.linalg.norm(x) * np.linalg.norm(linear)]
+        self.sum, self.size = self.sum + step, self.size + size
+        self.quiet = 0 if size.any() or any(waiting.any() for waiting in self.pending()) else self.quiet + 1
+        if self.w.algorithm == "gauss-seidel":  # step by step
+            assert np.abs(step[:3]).max() <= 1e-10 * size[0]
+            assert np.abs(step[3:]).max() <= 1e-10 * size[1]
+        elif self.quiet > 1 and not self.restless:  # a parallel one: once all is applied, of ships that do not go far
+            assert np.abs(self.sum[:3]).max() <= 1e-10 * self.size[0]
+            assert np.abs(self.sum[3:]).max() <= 1e-10 * self.size[1]
+        for nu, body in zip(self.w.nu, self.w.model._bodies, strict=False):
+            self.restless |= H * (np.linalg.norm(nu[3:]) + np.linalg.norm(nu[:3]) / body.reach) > 0.1
+
+    def pending(self) -> list[np.ndarray]:
+        return [np.array(o.impulse) - a for o, a in zip(self.w.model.outputs.ships, self.w.applied, strict=True)]
 
 
 def check(world: MakeWorld, seed: int) -> bool:
     """Run one encounter; whether the hulls touched. Nothing is NaN, and no energy is gained.
 
-    With a sequential master in no step, but what a fender held before. A parallel one applies an impulse to a ship that
-    has turned since it was computed, a buoy by some degrees: there the sum counts, to one per cent.
+    With a sequential master in no step, but what a fender held before; without a fender the energy lost is what the
+    model says, and without an obstacle the two ships' impulses are equal and opposite, linear and angular.
+
+    A parallel one applies an impulse to a ship that has turned since it was computed. There the sums count: the energy
+    of ships to one per cent (e = 1, seeds 0 to 300: up to 0.22 %), momentum once all is applied. Excepted are a buoy
+    and a log that spring back: within a step they turn by many degrees, and with e = 1 such encounters gained up to
+    4.6 % of what all had (seed 157; none with e = 0 or 0.3). They stay below a tenth.
     """
     names, starts, parameters = encounter(random.Random(seed))
     duration = parameters.pop("time")
     w = world(names, starts, **parameters)
-    kinetic = sum(0.5 * nu @ M @ nu for nu, M in zip(w.nu, w.M, strict=True))
-    H, spent, touched = 0.2, 0.0, False
+    sequential, alone = parameters["algorithm"] == "gauss-seidel", not parameters["obstacles"]
+    springs_back = parameters["restitution"] > 0.0 and not SMALL.isdisjoint(names)
+    most = 1e-9 if sequential else 0.1 if springs_back else 1e-2
+    kinetic = w.energy(0) + w.energy(1)
+    H, spent, touched, balance = 0.2, 0.0, False, Balance(w)
     for _ in range(round(duration / H)):
         held = w.model.outputs.fender[0]
         w.step(H)
         out = w.model.outputs
         spent += w.work[-1]
-        if parameters["algorithm"] == "gauss-seidel":
+        if sequential:
             assert w.work[-1] <= held * (1 + 1e-9) + 1e-9 * kinetic, (seed, w.t, w.work[-1])
-        assert spent <= (1e-9 if parameters["algorithm"] == "gauss-seidel" else 1e-2) * kinetic, (seed, w.t, spent)
+            assert "fender" in parameters["obstacles"] or abs(out.energy[0] + spent) <= 1e-9 * kinetic, (seed, w.t)
+        assert spent <= most * kinetic, (seed, w.t, spent / kinetic)
         values = [*out.energy, *out.fender, *out.clearance, *(x for s in out.ships for x in (
             *s.position, *s.attitude, *s.velocity, *s.rate, *s.impulse, *s.force))]  # fmt: skip
         assert all(map(isfinite, values)), (seed, w.t)
         touched |= out.contact_active
+        if alone:
+            balance.look(H)
     assert out.energy[0] >= -1e-9 * kinetic
     w.model.close()
     return touched
