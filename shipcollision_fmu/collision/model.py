@@ -175,6 +175,9 @@ class ShipCollision:
                 shadow.drift, shadow.off_centre = found.mean, found.off_centre
                 if reading.pending.any():  # a parallel master: what is issued now is applied to a ship that has gone on
                     shadow.nu = shadow.nu + found.gain
+        if reading.late and reading.restless:  # applied, as it is in b, to a body that has turned and gone far by then
+            turned = shadow.turned(shadow.nu, H) - shadow.nu
+            shadow.off_centre = turned if shadow.off_centre is None else shadow.off_centre + turned
         shadow.nu_received = shadow.nu
         self._readings[i] = reading
         return shadow
@@ -288,7 +291,7 @@ class ShipCollision:
         answer = RESPONSES[parameters.response](
             Encounter(
                 answered, shadows, detector, self._kept, self._warm, self._bullets, parameters.friction,
-                parameters.restitution, h,
+                0.0 if self._unforeseen(answered) else parameters.restitution, h,
             )
         )  # fmt: skip
         for pair in answered:
@@ -300,6 +303,12 @@ class ShipCollision:
         impulses, scaled = passive(answer.impulses, shadows)
         self._scaled += scaled
         return impulses
+
+    def _unforeseen(self, pairs: Sequence[Pair]) -> bool:
+        """Whether a body of these will have turned and gone far before it takes its impulse (a log that spins, under a
+        parallel master): then nothing springs back, for it would spring to a side not known."""
+        met = {i for pair in pairs for i in pair if i in self._readings}
+        return any(self._readings[i].late and self._readings[i].restless for i in met)
 
     def _book(self, impulses: list[Impulse], shadows: list[Shadow], slots: list[Slot]) -> list[Slot]:
         """Impulses into both ships' twists and ledgers, the energy they cost, and the contact slots of the step."""

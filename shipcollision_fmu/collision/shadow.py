@@ -87,10 +87,17 @@ class Shadow:
     @property
     def nu_predicted(self) -> Array:
         """The twist (6,) in b of the predicted pose."""
-        v, omega = self.nu[:3], self.nu[3:]
+        return self._seen_from(self.R, self.nu)
+
+    def turned(self, nu: Array, h: float) -> Array:
+        """The twist nu (6,), in b of the received pose, in b of the pose that it leads to in h [s]."""
+        return self._seen_from(self.ahead(nu, h)[1], nu)
+
+    def _seen_from(self, R: Array, nu: Array) -> Array:
+        v, omega = nu[:3], nu[3:]
         if not omega.any():
-            return self.nu
-        back = self.R.T @ self.R_received
+            return nu
+        back = R.T @ self.R_received
         omega_now = back @ omega
         return np.concatenate([back @ (v + skew(omega) @ self.r_bg) - skew(omega_now) @ self.r_bg, omega_now])
 

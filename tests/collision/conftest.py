@@ -37,7 +37,7 @@ def make_ship(tmp_path: Path) -> Callable[..., str]:
 
 
 class World:
-    """Two ships that coast (CO and CG coincide), coupled to a collision model by the ledger.
+    """Two ships that coast, coupled to a collision model by the ledger.
 
     The algorithm is a master's: "gauss-seidel" hands impulses over at once, "jacobi" one step late.
     """
@@ -53,6 +53,7 @@ class World:
             else:
                 setattr(self.model.parameters, key, value)
         self.M = [load_ship(ship).M for ship in ships]
+        self.r_bg = [np.array(load_ship(ship).r_bg) for ship in ships]
         self.upright = [free_inverse(M, degrees_of_freedom) for M in self.M]
         self.free = degrees_of_freedom
         self.x = [np.array(s["position"], dtype=float) for s in start]
@@ -97,15 +98,17 @@ class World:
         self.t += H
 
     def _coast(self, i: int, H: float) -> None:
-        """On by H with the velocity constant in n, and the angular velocity: in 3 and 4 degrees of freedom the rates of
-        heading and heel, so that what is held stays held."""
+        """On by H with the velocity of CG constant in n, and the angular velocity: in 3 and 4 degrees of freedom the
+        velocity of CO and the rates of heading and heel, so that what is held stays held."""
         v_n, nu = self.R[i] @ self.nu[i][:3], self.nu[i]
-        self.x[i] = self.x[i] + v_n * H
         if self.free == 6:
-            w_n = self.R[i] @ nu[3:]
+            w_n, r = self.R[i] @ nu[3:], self.r_bg[i]
+            v_g, g = v_n + np.cross(w_n, self.R[i] @ r), self.x[i] + self.R[i] @ r
             self.R[i] = rotation_vector(w_n * H) @ self.R[i]
-            self.nu[i] = np.concatenate([self.R[i].T @ v_n, self.R[i].T @ w_n])
+            self.x[i] = g + v_g * H - self.R[i] @ r
+            self.nu[i] = np.concatenate([self.R[i].T @ (v_g - np.cross(w_n, self.R[i] @ r)), self.R[i].T @ w_n])
             return
+        self.x[i] = self.x[i] + v_n * H
         rates, attitude = self.motion(i)[3:], attitude_from_rotation(self.R[i]) + self.motion(i)[3:] * H
         self.R[i] = rotation(attitude)
         self.nu[i] = np.concatenate([self.R[i].T @ v_n, level_axes(attitude)[3:, 3:] @ rates])
