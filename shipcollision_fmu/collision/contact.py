@@ -3,6 +3,8 @@
 The normal points from ship a to ship b; `gap` is negative in overlap; P acts on b and -P on a. Geometry is that of the
 instant of contact. The impulse is booked at `at`, one point in n for both ships, midway between where their two
 material points are at the received poses: so the two moments balance about any fixed point.
+
+Guan et al. 2014, equation (9), the contacts and where they act on either body: here G_a and G_b.
 """
 
 from __future__ import annotations

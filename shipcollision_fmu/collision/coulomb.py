@@ -3,7 +3,9 @@
     0 <= P_n   perpendicular to   v_n >= 0                         no approach left, no pull
     |P_t| <= mu P_n,   and while sliding   P_t = -mu P_n v_t / |v_t|    friction inside the cone, against the slip
 
-with v = v(0) + W P, W (3, 3) of the contact alone. The tangents are turned so that W_tt = diag(a_1, a_2):
+It is equation (13) of Guan et al. 2014, the law with bounds, with a cone for their pyramid.
+
+Here v = v(0) + W P, W (3, 3) of the contact alone. The tangents are turned so that W_tt = diag(a_1, a_2):
 
     W = [[W_nn, w_1, w_2], [w_1, a_1, 0], [w_2, 0, a_2]]
 

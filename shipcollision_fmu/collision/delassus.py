@@ -4,8 +4,8 @@
     W_ij = sum over ships s of +- G_s,i M_s^-1 G_s,j^T       (3 x 3 blocks)                         [1/kg]
     v(P) = v(0) + W P                             P (3k,) impulses on the b ships                    [N s]
 
-W is symmetric and positive semi-definite. It is J M^-1 J^T of Guan et al. 2014, equations (10)-(12), with M the 6x6
-rigid-body mass plus added mass of each ship, in place of their scalar mass and inertia.
+W is symmetric and positive semi-definite. It is J M^-1 J^T of Guan et al. 2014, equations (10)-(11), with M the 6x6
+rigid-body mass plus added mass of each ship, in place of their scalar mass and inertia, and with each ship's own arm.
 """
 
 from __future__ import annotations

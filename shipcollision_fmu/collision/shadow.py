@@ -11,6 +11,8 @@ with the substeps and is where contact is looked for.
     J       = G^T P                        impulse P (in n) at that point, as the ship books it, in b about CO
     nu     += M^-1 J
 
+Guan et al. 2014, equations (5)-(8), the motion of the bodies under impulses: here nu += M^-1 J.
+
 Between impulses the velocity of CG and the angular velocity stay constant in n, as a coasting ship's do: from the
 received pose on, twists turn with the hull, seen in b.
 """
