@@ -2,7 +2,8 @@
 
     ledger     per ship: impulse issued by the collision FMU, applied by the ship, and their difference, pending;
                in b about CO, cumulative [N s, N m s]. What jacobi issues in the very last step stays pending
-    momentum   M nu of every ship, summed: linear in n [N s], angular in n about the scenario's origin [N m s]
+    momentum   M nu of every ship, summed: linear in n [N s], angular in n about the scenario's origin [N m s]; nu is
+               that of the motions which M is of: in b, in 3 and 4 degrees of freedom level (ship/free_motions.py)
     energy     1/2 nu' M nu of every ship [J]; what contact dissipated, along the normals and across them; what fenders
                hold and dissipated, which is counted apart
     solver     answers of the contact solver that missed the law by more than 1e-9 of the approach, and answers
@@ -29,6 +30,7 @@ import numpy as np
 from .. import __version__
 from ..collision.ports import CollisionParameters
 from ..ship.frames import Array, rotation
+from ..ship.free_motions import level_axes
 from ..ship.ship import Ship
 from .recorder import Record
 from .reference import compared
@@ -43,6 +45,7 @@ _PACKAGES = ("numpy", "pybullet", "FMPy", "pythonfmu")
 def summary(scenario: Scenario, ships: Mapping[str, Ship], record: Record, found: Mapping[str, Any]) -> dict[str, Any]:
     """summary.json as JSON-able data; `found` are the run's events."""
     before, after = (_states(record, ships, row) for row in (0, -1))
+    free = {name: table.free for name, table in scenario.ships.items()}
     data: dict[str, Any] = {
         "scenario": scenario.name,
         "description": scenario.scenario.description,
@@ -61,8 +64,8 @@ def summary(scenario: Scenario, ships: Mapping[str, Ship], record: Record, found
             for name, issued, applied in zip(ships, record.issued_finally, record.applied, strict=True)
         },
         "momentum": {
-            "before": _momentum(ships, before),
-            "after": _momentum(ships, after),
+            "before": _momentum(ships, free, before),
+            "after": _momentum(ships, free, after),
             "closed": _closed(scenario, ships, record),
         },
         "solver": dict(zip(("unconverged", "scaled"), record.solver, strict=True)),
@@ -71,8 +74,8 @@ def summary(scenario: Scenario, ships: Mapping[str, Ship], record: Record, found
             for name, table in scenario.obstacles.items()
         },
         "energy": {
-            "before": _energy(ships, before),
-            "after": _energy(ships, after),
+            "before": _energy(ships, free, before),
+            "after": _energy(ships, free, after),
             **dict(zip(("dissipated", "normal", "tangential"), record.energy, strict=True)),
             **dict(zip(("fender_stored", "fender_dissipated"), record.fender, strict=True)),
         },
@@ -103,15 +106,25 @@ def _states(record: Record, ships: Mapping[str, Ship], row: int) -> dict[str, Ar
     return {name: np.array([float(record.states[f"{name}.{s}"][row]) for s in STATE]) for name in ships}
 
 
-def _momentum(ships: Mapping[str, Ship], states: Mapping[str, Array]) -> dict[str, list[float]]:
+def _momentum(
+    ships: Mapping[str, Ship], free: Mapping[str, int], states: Mapping[str, Array]
+) -> dict[str, list[float]]:
     linear, angular = np.zeros(3), np.zeros(3)
     for name, state in states.items():
-        R_nb = rotation(state[3:6])
-        p_b = ships[name].M @ state[6:12]
-        p_n = R_nb @ p_b[:3]
+        R, nu = _motion(state, free[name])
+        p = ships[name].M @ nu
+        p_n = R @ p[:3]
         linear += p_n
-        angular += R_nb @ p_b[3:] + np.cross(state[:3], p_n)
+        angular += R @ p[3:] + np.cross(state[:3], p_n)
     return {"linear": linear.tolist(), "angular": angular.tolist()}
+
+
+def _motion(state: Array, free: int) -> tuple[Array, Array]:
+    """Axes (3, 3), to n, and the twist (6,) of the motions that M is of: those of b, or level ones."""
+    if free == 6:
+        return rotation(state[3:6]), state[6:12]
+    nu_l: Array = np.linalg.pinv(level_axes(state[3:6])) @ state[6:12]  # pinv: a ship on end has no heading
+    return rotation([0.0, 0.0, state[5]]), nu_l
 
 
 def _impulse_taken(record: Record, obstacle: str) -> list[float]:
@@ -119,8 +132,11 @@ def _impulse_taken(record: Record, obstacle: str) -> list[float]:
     return [float(rows[f"impulse.{axis}"].sum()) for axis in ("north", "east", "down")]
 
 
-def _energy(ships: Mapping[str, Ship], states: Mapping[str, Array]) -> dict[str, float]:
-    kinetic = {name: float(0.5 * state[6:12] @ ships[name].M @ state[6:12]) for name, state in states.items()}
+def _energy(ships: Mapping[str, Ship], free: Mapping[str, int], states: Mapping[str, Array]) -> dict[str, float]:
+    kinetic = {}
+    for name, state in states.items():
+        _, nu = _motion(state, free[name])
+        kinetic[name] = float(0.5 * nu @ ships[name].M @ nu)
     return kinetic | {"total": sum(kinetic.values())}
 
 
