@@ -20,6 +20,7 @@ from shipcollision_fmu.collision.obstacles import (
     obstacles_toml,
 )
 from shipcollision_fmu.errors import InputError, StepError
+from shipcollision_fmu.ship.frames import attitude_from_rotation
 from shipcollision_fmu.ship.hull import HullMesh
 from tests.collision.conftest import BOX, NO_ADDED_MASS, World
 
@@ -227,11 +228,60 @@ def test_a_light_buoy_changes_a_ships_speed_by_its_share(make_ship: Make, world:
 
 
 def test_a_log_struck_at_its_end_turns_away(make_ship: Make, world: MakeWorld) -> None:
-    start = [STERN_ON[0], {"position": [100.8, 15.0, 0.0], "attitude": (0, 0, pi / 2), "nu": [0.0] * 6}]
-    w = world([make_ship("box", BOX), "floating_log"], start, degrees_of_freedom=3).run(2.0, 0.05)
-    assert w.nu[1][5] != 0.0
-    assert abs(w.nu[0][0] - 2.0) < 1e-3
+    """The log lies across, its last half metre before the corner of the flat stem. The corner, 4.5 m abaft the log's
+    centre and 15 m to starboard of the ship's, stops it; abaft of that the log swings away faster than the stem comes:
+
+        P = V / (1/m + 4.5^2/I + 1/M + 15^2/I_ship),      yaw rate of the log + 4.5 P/I
+    """
+    start = [STERN_ON[0], {"position": [100.8, 19.5, 0.0], "attitude": (0, 0, pi / 2), "nu": [0.0] * 6}]
+    w = world([make_ship("box", BOX), "floating_log"], start, degrees_of_freedom=3, friction=0.0)
+    while not w.model.outputs.contact_active:
+        w.step(0.01)  # one substep: the first impulse alone
+    ship, log = w.M
+    assert (ship[1, 5], log[1, 5]) == (0.0, 0.0)
+    P = 2.0 / (1.0 / log[1, 1] + 4.5**2 / log[5, 5] + 1.0 / ship[0, 0] + 15.0**2 / ship[5, 5])
+    np.testing.assert_allclose(w.applied[1][[0, 1, 5]], [0.0, -P, 4.5 * P], rtol=0.0, atol=1e-6 * P)
+    assert w.nu[1][5] == pytest.approx(4.5 * P / log[5, 5], rel=1e-6)
+    assert 2.0 - w.nu[0][0] == pytest.approx(P / ship[0, 0], rel=1e-6)
     assert max(w.work) <= 1e-9 * abs(sum(w.work))
+
+
+def test_a_breakwater_of_two_boxes_stops_a_ship_as_one(make_ship: Make, world: MakeWorld) -> None:
+    """The flat stem hits both at once, straddling their joint: all of m V is taken, in shares, and nothing turns."""
+    parts = "".join(
+        WALL.replace("wall", name).replace("300.0", "100.0").replace("[110.5, 0.0]", f"[110.5, {east}]")
+        for name, east in (("west", -50.0), ("east", 50.0))
+    )
+    w = world([make_ship("box", BOX)], STERN_ON, obstacles=parts)
+    w.run(1.0, 0.05)
+    assert w.model.obstacles == ("west", "east")
+    np.testing.assert_allclose(w.nu[0], np.zeros(6), atol=1e-9)
+    np.testing.assert_allclose(w.applied[0], [-2.0 * w.M[0][0, 0], 0, 0, 0, 0, 0], atol=1.0)
+    assert w.model.outputs.energy[0] == pytest.approx(2.0 * w.M[0][0, 0], rel=1e-9)
+
+
+def test_a_lock_chamber_holds_a_ship_by_both_walls(make_ship: Make, world: MakeWorld) -> None:
+    """A box of 200 x 30 m that yaws in a chamber a hand wider: a bow corner and a quarter touch opposite walls at once,
+    two equal forces a pair apart. That takes all of the yaw and, being a couple, no way sideways."""
+    width = 30.5
+    walls = "".join(
+        f'[{name}]\nkind = "lock"\nshape = "box"\nlength = 400.0\nbreadth = 10.0\nposition = [0.0, {east}]\n'
+        for name, east in (("port", -5.0 - 0.5 * width), ("starboard", 5.0 + 0.5 * width))
+    )
+    w = world(
+        [make_ship("box", BOX)], [{"position": [0.0, 0.0, 0.0], "nu": [0.0, 0.0, 0.0, 0.0, 0.0, 0.002]}],
+        obstacles=walls, degrees_of_freedom=3, friction=0.0,
+    )  # fmt: skip
+    touched = set()
+    for _ in range(80):
+        w.step(0.05)
+        touched |= {s.ship_b for s in w.model.outputs.contacts[: w.model.outputs.contact_count]}
+    assert touched == {2, 3}
+    np.testing.assert_allclose(w.nu[0], np.zeros(6), atol=1e-9)
+    np.testing.assert_allclose(w.applied[0], [0, 0, 0, 0, 0, -0.002 * w.M[0][5, 5]], atol=1e-6 * w.M[0][5, 5])
+    # She stops where the corner meets the wall: 100 sin(psi) + 15 cos(psi) = half the width.
+    psi = attitude_from_rotation(w.R[0])[2]
+    assert 100.0 * np.sin(psi) + 15.0 * np.cos(psi) == pytest.approx(0.5 * width, abs=0.02)
 
 
 # -- bad input, and the state -----------------------------------------------------------------------

@@ -8,10 +8,12 @@
 from __future__ import annotations
 
 from math import pi
+from pathlib import Path
 
 import pytest
 
 from shipcollision_fmu.collision.four_dof import FourDofShip, four_dof_impact
+from tests.collision.conftest import World
 
 CASES = [(1e7, 1e7, 5.0), (4e7, 1e7, 3.0), (2e6, 3e8, 8.0)]
 
@@ -45,3 +47,52 @@ def test_without_friction_only_the_speed_across_counts(M_A: float, M_B: float, V
     expected = M_A * M_B * (V * 0.75**0.5) ** 2 / (2.0 * M_B + 2.0 / 1.4 * M_A)
     assert r.E_xi == pytest.approx(expected, rel=1e-12)
     assert r.E_eta == 0.0
+
+
+SHIP = """
+[ship]
+name = "{name}"
+kind = "test"
+source = "made for a test"
+licence = "MIT"
+[particulars]
+L_pp = 200.0
+L_oa = 200.0
+B = 30.0
+T = 10.0
+mass = {mass}
+r_bg = [0.0, 0.0, 0.0]
+[added_mass]
+m_x = 0.0
+m_y = 0.4
+[hull]
+shape = "box"
+depth = 20.0
+"""
+
+
+@pytest.mark.parametrize("response", ["pgs", "closed_form"])
+@pytest.mark.parametrize(("M_A", "M_B", "V"), [(4e7, 2.5e7, 3.0), (2.5e7, 5e7, 5.0)])
+@pytest.mark.parametrize("drift", [0.0, 1.0])
+def test_the_collision_model_loses_minorskys_energy(
+    tmp_path: Path, response: str, M_A: float, M_B: float, V: float, drift: float
+) -> None:
+    """Hulls that meet: A's flat stem on B's side, in line with both centres and without friction, so that a drift of B
+    along her own side, which makes the course oblique, changes nothing."""
+    paths = []
+    for name, mass in (("striking", M_A), ("struck", M_B)):
+        paths.append(tmp_path / f"{name}.toml")
+        paths[-1].write_text(SHIP.format(name=name, mass=mass), encoding="utf-8")
+    # The stem is a metre before the side when the ships are in line.
+    start = [
+        {"position": (0.0, -116.0, 0.0), "attitude": (0, 0, pi / 2), "nu": (V, 0, 0, 0, 0, 0)},
+        {"position": (-drift / V, 0.0, 0.0), "nu": (drift, 0, 0, 0, 0, 0)},
+    ]
+    w = World([str(p) for p in paths], start, degrees_of_freedom=3, response=response, friction=0.0, restitution=0.0)
+    try:
+        w.run(1.0, 0.05)
+        E = M_A * M_B * V**2 / (2.0 * M_B + 2.0 / 1.4 * M_A)
+        assert w.model.outputs.energy[0] == pytest.approx(E, rel=1e-9 if drift == 0.0 else 1e-3)
+        assert w.model.outputs.impact_count == 1
+    finally:
+        w.model.close()
