@@ -98,8 +98,8 @@ class World:
         self.t += H
 
     def _coast(self, i: int, H: float) -> None:
-        """On by H with the velocity of CG constant in n, and the angular velocity: in 4 degrees of freedom the velocity of
-        CO and the rates of heading and heel, so that what is held stays held."""
+        """On by H with the velocity of CG constant in n, and the angular velocity: in 4 degrees of freedom the velocity
+        of CO and the rates of heading and heel, so that what is held stays held."""
         v_n, nu = self.R[i] @ self.nu[i][:3], self.nu[i]
         if self.free != 4:
             w_n, r = self.R[i] @ nu[3:], self.r_bg[i]
