@@ -74,6 +74,7 @@ class ShipCollision:
         self.parameters = CollisionParameters([ShipParameters() for _ in ships])
         self.inputs = CollisionInputs([ShipState() for _ in ships])
         self.outputs = CollisionOutputs([ShipPost() for _ in ships])
+        self.warning = ""  # what was not as it should be in the last step
         self._detector: Detector | None = None
         self._bodies: list[Body] = []
 
@@ -126,6 +127,7 @@ class ShipCollision:
         """Advance from t by H [s]. Raises StepError on an input that is not finite or absurd; nothing changes then."""
         self._ready()
         check_step(t, H, self._bodies, self.inputs.ships)
+        self.warning = ""
         self._readings.clear()
         shadows, candidates = self._read(t, H)
         near = self._neighbours.near(candidates, shadows, H)
@@ -141,6 +143,11 @@ class ShipCollision:
         except Exception:
             self.set_state(before)
             raise
+        if (missed := self._unconverged - self.outputs.solver_unconverged) > 0:
+            self.warning = (
+                f"contact was not solved to {CONVERGED:g} of the approach {missed} times in the step from t = {t:g} s "
+                f"by {H:g} s, at worst to {self._residual:.2g}: its impulses are less exact (solver.residual)"
+            )
         self._publish(t + H, H, shadows, slots, candidates)
 
     def _read(self, t: float, H: float) -> tuple[list[Shadow], list[Pair]]:

@@ -24,7 +24,10 @@ __all__ = [
     "start", "to_bytes", "type_name",
 ]  # fmt: skip
 
-LOG_CATEGORIES = {"logStatusError": "Calls that were refused and steps that could not be made, one line each."}
+LOG_CATEGORIES = {
+    "logStatusError": "Calls that were refused and steps that could not be made, one line each.",
+    "logStatusWarning": "Steps that were made but are less exact than they should be, one line each.",
+}
 
 _CAPABILITIES = {
     "needsExecutionTool": True,  # a Python interpreter with the packages of resources/requirements.txt

@@ -231,6 +231,12 @@ class Ports:
                 raise
             raise InputError(f"{self.name}: this saved state cannot be read: {_described(error)}") from error
 
+    @property
+    def warning(self) -> str:
+        """What was not as it should be in the last step, in one line, or nothing: a model may have an attribute
+        `warning`."""
+        return str(getattr(self.model, "warning", ""))
+
     def close(self) -> None:
         """Let the model give back what it holds outside Python, if anything: a model may have a method `close`."""
         close = getattr(self.model, "close", None)

@@ -87,6 +87,10 @@ class ModelSlave(SlaveBase, Fmi2Slave):  # type: ignore[misc]  # pythonfmu has n
         """Log a line as an error."""
         self.log(self._text(line), Fmi2Status.error)
 
+    def warn(self, line: str) -> None:
+        """Log a line as a warning."""
+        self.log(self._text(line), Fmi2Status.warning)
+
     @staticmethod
     def _text(line: str) -> str:
         """FMI 2.0's logger takes a printf format: a lone percent sign would read the host's memory."""

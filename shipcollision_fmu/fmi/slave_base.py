@@ -1,7 +1,8 @@
 """What a slave does whatever the version of FMI: a model behind its ports, and no exception that crosses into the host.
 
     exit_initialization_mode        the model reads its parameters
-    do_step                         one step, or a refusal and one logged line; the state before the step stays
+    do_step                         one step, or a refusal and one logged line; the state before the step stays. A step
+                                    that was made with a reservation of the model logs it as a warning, and is OK
     _get_fmu_state, ...             the whole state, exact to the bit, JSON as bytes
 
 The wrappers of pythonfmu 0.7 (FMI 2.0) and pythonfmu3 0.3 (FMI 3.0) decide the rest. Where a call raises, they answer
@@ -88,6 +89,10 @@ class SlaveBase:
         """Log a line as an error."""
         raise NotImplementedError
 
+    def warn(self, line: str) -> None:
+        """Log a line as a warning; no status follows from it."""
+        raise NotImplementedError
+
     # In time. ------------------------------------------------------------------------------
 
     def enter_initialization_mode(self) -> None:
@@ -126,6 +131,9 @@ class SlaveBase:
                 if self._phase == TERMINATED:
                     raise StepError(f"{self._made_from.name} is terminated at t = {t:g} s: reset it or restore a state")
                 self.ports.do_step(t, h)
+                if warning := self.ports.warning:
+                    self.warn(warning)
+                    self._print(f"warning: {warning}")
                 return True
             line = f"no step at t = {t} s after a refused call: {self._refused}"
         except BaseException as error:

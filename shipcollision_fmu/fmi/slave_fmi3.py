@@ -162,6 +162,10 @@ class ModelSlave3(SlaveBase, Fmi3Slave):  # type: ignore[misc]  # pythonfmu3 has
         """Log a line as an error."""
         self.log(line, Fmi3Status.error)
 
+    def warn(self, line: str) -> None:
+        """Log a line as a warning."""
+        self.log(line, Fmi3Status.warning)
+
     def _float64(self, vrs: Sequence[int]) -> list[float]:
         values = self.answered(lambda vrs: self.ports.get_real(self._scalars(vrs, "Real")), vrs)
         return [math.nan] * self._spare(None) if values is None else values

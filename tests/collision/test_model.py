@@ -9,6 +9,7 @@ from math import pi
 import numpy as np
 import pytest
 
+from shipcollision_fmu.collision import model as module
 from shipcollision_fmu.collision.model import ShipCollision
 from shipcollision_fmu.errors import InputError, StepError
 from tests.collision.conftest import BOX, NO_ADDED_MASS, World
@@ -374,6 +375,26 @@ def test_absurd_inputs_end_the_step_and_change_nothing(
     with pytest.raises(StepError, match=message):
         w.model.step(w.t, 0.05)
     assert (w.model.get_state(), repr(w.model.outputs)) == (before, outputs)
+
+
+def test_answers_that_did_not_converge_are_warned_of_in_their_step_alone(
+    make_ship: Make, world: MakeWorld, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Any answer is one, with a limit below nought."""
+    monkeypatch.setattr(module, "CONVERGED", -1.0)
+    w = world([make_ship("a"), make_ship("b")], T_BONE)
+    before, warned = 0, 0
+    for k in range(80):
+        w.step(0.05)
+        rise, before = w.model.outputs.solver_unconverged - before, w.model.outputs.solver_unconverged
+        assert w.model.warning.startswith(
+            f"contact was not solved to -1 of the approach {rise} times in the step from t = {0.05 * k:g} s"
+            if rise
+            else ""
+        )
+        assert bool(w.model.warning) == (rise > 0)
+        warned += rise > 0
+    assert 0 < warned < 80
 
 
 @pytest.mark.parametrize("h", [0.0, -0.1, float("nan"), float("inf")])

@@ -41,6 +41,7 @@ class Model:
     def __init__(self) -> None:
         self.parameters, self.inputs, self.outputs = Parameters(), Inputs(), Outputs()
         self.hidden: list[float] = []
+        self.warning = ""
         self.initialised = 0
 
     def initialise(self) -> None:
@@ -59,6 +60,7 @@ class Model:
         if self.inputs.word == "divide":
             self.outputs.place[0] = 1e9
             self.outputs.place[0] /= self.outputs.steps - self.outputs.steps
+        self.warning = f"only 90% right at t = {t} s" if self.inputs.word == "doubt" else ""
         if self.inputs.word == "exit":
             raise SystemExit(3)
         (hidden,) = self.hidden

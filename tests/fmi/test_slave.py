@@ -15,7 +15,7 @@ from fmpy.fmi1 import FMICallException
 
 from shipcollision_fmu.fmi.slave_base import state_to_bytes
 
-OK, DISCARD, ERROR, FATAL = 0, 2, 3, 4
+OK, WARNING, DISCARD, ERROR, FATAL = 0, 1, 2, 3, 4
 Make = Callable[..., Any]
 
 
@@ -113,6 +113,20 @@ def test_nan_discards_the_step_and_keeps_the_state_before(host: Make) -> None:
     assert (a.step(1), b.step(1)) == (OK, OK)
     assert a.everything() == b.everything()
     assert len(a.messages) == 1
+
+
+def test_a_reservation_of_the_model_is_logged_as_a_warning_and_the_step_is_made(host: Make) -> None:
+    a, b = host("a"), host("b")
+    for instance in (a, b):
+        instance.begin()
+    a.fmu.setString(a.reference("word"), ["doubt"])
+    assert (a.step(0), b.step(0)) == (OK, OK)
+    assert a.messages == [(WARNING, "only 90%% right at t = 0.0 s")]
+    a.fmu.setString(a.reference("word"), ["start"])
+    assert (a.step(1), b.step(1)) == (OK, OK)
+    assert len(a.messages) == 1
+    assert b.messages == []
+    assert a.everything() == b.everything()
 
 
 def test_a_fault_of_the_model_discards_until_restored(host: Make) -> None:

@@ -19,7 +19,7 @@ from fmpy import read_model_description, simulate_fmu
 from fmpy.fmi3 import FMU3Slave
 from fmpy.validation import validate_fmu
 
-OK, DISCARD, ERROR, FATAL = 0, 2, 3, 4
+OK, WARNING, DISCARD, ERROR, FATAL = 0, 1, 2, 3, 4
 Make = Callable[..., Any]
 
 
@@ -174,6 +174,14 @@ def test_fmpy_simulates_it(unpacked3: Path) -> None:
     np.testing.assert_allclose(
         rows["place"][-1] - rows["place"][0] - rows["place"][-1, 1], [0.9, -0.1, -1.1], rtol=1e-9
     )
+
+
+def test_a_reservation_of_the_model_is_logged_as_a_warning_and_the_step_is_made(host: Make) -> None:
+    a = host()
+    a.begin()
+    a.set("word", "doubt")
+    assert a.step(0) == OK
+    assert a.messages == [(WARNING, "only 90% right at t = 0.0 s")]
 
 
 def test_nan_discards_the_step_and_keeps_the_state_before(host: Make) -> None:

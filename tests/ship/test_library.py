@@ -99,6 +99,17 @@ def test_added_mass_must_not_give_energy(tmp_path: Path, coupling: float | None)
         load_ship(written(tmp_path, "barge.toml", full_M_A(M_A)))
 
 
+def test_inertia_that_leaves_a_motion_without_any_is_refused(tmp_path: Path) -> None:
+    """All mass on one line below CO, and no water: swaying and rolling about it, the ship could turn without effort."""
+    line = full_M_A(np.zeros((6, 6))).replace("mass = 8.2e6", "mass = 8.2e6\nr_bg = [0.0, 0.0, 4.0]\nk_xx = 1e-6")
+    with pytest.raises(
+        ShipError,
+        match=r"the inertia M_RB \+ M_A is not positive definite \(diagonal \[8200000.0, .*\]\): check r_bg, "
+        r"the radii of gyration and \[added_mass\]",
+    ):
+        load_ship(written(tmp_path, "barge.toml", line))
+
+
 def test_matrices_cannot_be_changed() -> None:
     ship = load_ship("kvlcc2")
     with pytest.raises(ValueError, match="read-only"):
