@@ -14,7 +14,7 @@ residual.
     turn every contact's tangents to the principal axes of its own W_tt
     start from the impulses of the substep before, scaled to take most energy (warm start)
     sweep over the contacts until none changes its velocity by more than RESIDUAL of the approach; sweeps that slow down
-    steadily are extrapolated
+    steadily are extrapolated (extrapolation.py)
     sweeps that do not get there in PATIENCE are followed by Newton's method on all contacts at once (newton.py), and
     where that fails, by a sequence of convex problems (sliding_speed.py), now and then with Newton's method from there
     measure what is left by the law itself: Solution.residual
@@ -22,7 +22,7 @@ residual.
 Plain floats in the sweeps: a block is nine numbers, arrays would cost more than the sums.
 
 References: Guan et al. (2014); Catto (2005), "Iterative dynamics with temporal coherence"; Jourdan, Alart and Jean
-(1998) for the block form with friction; Irons and Tuck (1969), Int. J. Numer. Methods Eng. 1:275-277.
+(1998) for the block form with friction.
 """
 
 from __future__ import annotations
@@ -33,6 +33,7 @@ import numpy as np
 
 from ..ship.frames import Array
 from .coulomb import Block, law_residual, solve_contact
+from .extrapolation import Extrapolation
 from .newton import newton
 from .sliding_speed import nearer_by_sliding_speed
 
@@ -43,9 +44,6 @@ RESIDUAL = 1e-11
 
 PATIENCE = 60
 """Bound on the sweeps; what has not got there by then is solved for all contacts at once."""
-
-SLOWEST = 0.98
-"""Ratio of a sweep's step to that of the one before up to which the rest of the sequence is foreseen."""
 
 ROUNDS = 20
 """Bound on the trials of both."""
@@ -154,29 +152,6 @@ def _swept(W: Array, v: Array, mu: float, blocks: list[Block], scale: float, sta
         if sweeps == PATIENCE:
             return _all_at_once(W, v, mu, np.array(P).reshape(-1, 3), wanted), sweeps
         P = ahead(P, last)
-
-
-class Extrapolation:
-    """Where a sequence of sweeps is going, from how its last step compares with the one before (Irons and Tuck 1969).
-
-    What it gives is only a start for the next sweep, which puts every contact back into its law.
-    """
-
-    def __init__(self) -> None:
-        self._step: list[float] = []
-
-    def __call__(self, P: list[float], last: list[float]) -> list[float]:
-        """A better start for the next sweep than P, of which the sweep before was `last`; P where none can be told."""
-        before, self._step = self._step, [x - y for x, y in zip(P, last, strict=True)]
-        square = sum(d * d for d in before)
-        if square == 0.0:
-            return P
-        ratio = sum(d * e for d, e in zip(self._step, before, strict=True)) / square
-        if not 0.0 < ratio < SLOWEST:
-            return P
-        factor, step = ratio / (1.0 - ratio), self._step
-        self._step = []
-        return [x + factor * d for x, d in zip(P, step, strict=True)]
 
 
 def _all_at_once(W: Array, v: Array, mu: float, P: Array, wanted: float) -> Array:
