@@ -78,13 +78,18 @@ def test_far_ships_are_never_given_to_the_narrow_phase(
     make_ship: Make, world: MakeWorld, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     asked: list[tuple[int, int]] = []
-    closest = Engine.closest
+    closest, gap = Engine.closest, Engine.gap
 
     def counted(self: Engine, a: int, b: int, distance: float) -> list:
         asked.append((a, b))
         return closest(self, a, b, distance)
 
+    def measured(self: Engine, a: int, b: int, cap: float) -> float:
+        asked.append((a, b))
+        return gap(self, a, b, cap)
+
     monkeypatch.setattr(Engine, "closest", counted)
+    monkeypatch.setattr(Engine, "gap", measured)
     box = make_ship("box", BOX)
     grid = [{"position": [1000.0 * (k % 10), 1000.0 * (k // 10), 0.0], "nu": [5.0, 0, 0, 0, 0, 0]} for k in range(99)]
     near = [*grid, {"position": [150.0, 200.0, 0.0], "nu": [0.0] * 6}]
