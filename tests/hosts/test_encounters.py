@@ -22,8 +22,8 @@ from .masters import MASTERS
 
 EXACT = {"fmpy-loop", "fmpy-ssp", "ecos-api", "ecos-ssp"}
 JITTER = 1e-10
-"""Relative difference from ours in the others: at 6 s a step's length jitters by 1e-14 of itself, which an impact with its
-deep overlap multiplies. 2e-12 on one processor, 1.7e-11 on another, as each rounds."""
+"""Relative difference from ours in the others: at 6 s a step's length jitters by 1e-14 of itself, which an impact with
+its deep overlap multiplies. 2e-12 on one processor, 1.7e-11 on another, as each rounds."""
 
 Ours = dict[str, tuple[Rows, int, dict[str, list[float]]]]
 Ran = dict[tuple[str, str], tuple[Rows, int | None]]
