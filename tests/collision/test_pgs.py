@@ -94,7 +94,7 @@ def test_several_contacts_obey_the_law(seed: int, contacts: int, mu: float, dof:
 def test_every_patch_is_solved(scatter: float) -> None:
     """Contacts some metres apart on ships of hundreds, nearly dependent; normals alike, and up to a wedge apart."""
     patches = [
-        (seed, k, dof, mu) for dof in (3, 4, 6) for k in (2, 4, 6) for mu in (0.0, 0.3, 1.0) for seed in range(25)
+        (seed, k, dof, mu) for dof in (3, 4, 6) for k in (2, 4, 6) for mu in (0.0, 0.3, 1.0) for seed in range(15)
     ]  # fmt: skip
     missed = {p: solve_pgs(*encounter(*p[:3], scatter), p[3]).residual for p in patches}
     assert {p: r for p, r in missed.items() if r > 1e-10} == {}

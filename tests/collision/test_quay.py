@@ -125,7 +125,7 @@ def test_ten_minutes_at_the_quay(berthed: MakeBerthed, algorithm: str, H: float)
 
 
 @pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
-@pytest.mark.parametrize("H", [0.1, 0.5])
+@pytest.mark.parametrize("H", [pytest.param(0.1, marks=pytest.mark.slow), 0.5])
 @pytest.mark.parametrize("moves_by", [0.0, 0.5, 1.0])
 def test_however_a_ship_model_integrates_she_stays(
     berthed: MakeBerthed, algorithm: str, H: float, moves_by: float

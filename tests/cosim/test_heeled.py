@@ -56,7 +56,7 @@ def level_momentum(model: ShipManoeuvring, free: int) -> Array:
     return np.array([*P, h[-1] + o.position[0] * P[1] - o.position[1] * P[0]])
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=12, deadline=None)
 @given(
     st.sampled_from([(3, False), (4, False), (4, True)]), st.floats(-0.2, 0.2), st.floats(-0.2, 0.2),
     st.floats(0.6, 2.4), st.floats(0.0, 1.0), st.floats(-1.0, 1.0), st.floats(-0.01, 0.01),
