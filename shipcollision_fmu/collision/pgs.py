@@ -37,7 +37,7 @@ from .extrapolation import Extrapolation
 from .newton import newton
 from .sliding_speed import nearer_by_sliding_speed
 
-__all__ = ["RESIDUAL", "Solution", "principal_axes", "solve_pgs"]
+__all__ = ["RESIDUAL", "Solution", "principal_axes", "solve_pgs", "without_rounding"]
 
 RESIDUAL = 1e-11
 """Change of a contact's velocity in a sweep, in units of the largest approach speed, at which the sweeps end."""
@@ -75,7 +75,7 @@ def solve_pgs(W: Array, v: Array, mu: float, start: Array | None = None) -> Solu
         return Solution(np.zeros((k, 3)), 0.0, 0)
     T = principal_axes(W)
     W_p, v_p = T @ W @ T.T, T @ v
-    _without_rounding(W_p, v_p)
+    without_rounding(W_p, v_p)
     blocks = [Block.of(W_p[i : i + 3, i : i + 3]) for i in range(0, 3 * k, 3)]
     if k == 1:
         P_p, sweeps = np.array([solve_contact(blocks[0], (v_p[0], v_p[1], v_p[2]), mu)[0]]), 1
@@ -95,7 +95,7 @@ def principal_axes(W: Array) -> Array:
     return T
 
 
-def _without_rounding(W: Array, v: Array) -> None:
+def without_rounding(W: Array, v: Array) -> None:
     """Exact zeros, in place, for the tangents along which neither ship can move."""
     largest = float(np.diag(W).max())
     for n in range(len(v)):

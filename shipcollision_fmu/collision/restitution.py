@@ -21,9 +21,12 @@ import numpy as np
 
 from ..ship.frames import Array
 from .coulomb import Block, friction_in_disc
-from .pgs import RESIDUAL, Solution, principal_axes, solve_pgs
+from .pgs import RESIDUAL, Solution, principal_axes, solve_pgs, without_rounding
 
 __all__ = ["solve_impact"]
+
+NO_REBOUND = 1e-12
+"""Restitution that counts as none: what springs back is rounding."""
 
 MAX_SWEEPS = 1000
 """Bound on the sweeps over the friction of restitution. What they leave is not against any law but in the split: the
@@ -34,7 +37,7 @@ def solve_impact(W: Array, v: Array, mu: float, e: float, start: Array | None = 
     """Impulses of k contacts with restitution e. W (3k, 3k) [1/kg], v (3k,) [m/s] before, in contact axes; start (k,
     3): impulses like those expected (see solve_pgs)."""
     plastic = solve_pgs(W, v, mu, start)
-    if e == 0.0 or not plastic.P.any():
+    if e <= NO_REBOUND or not plastic.P.any():
         return plastic
     P = plastic.P.ravel()
     whole = P + _sprung_back(W, v + W @ P, mu, e * P)
@@ -50,6 +53,7 @@ def _sprung_back(W: Array, v: Array, mu: float, P: Array) -> Array:
     it can. Projected Gauss-Seidel on the tangential pairs alone: what it minimises is convex, so it gets there."""
     T = principal_axes(W)
     W, v = T @ W @ T.T, T @ v
+    without_rounding(W, v)
     P = T @ P
     blocks = [Block.of(W[n : n + 3, n : n + 3]) for n in range(0, len(P), 3)]
     for n in range(0, len(P), 3):
