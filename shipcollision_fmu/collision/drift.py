@@ -22,6 +22,10 @@ an exact model would have, moving alike:
 
     nu centred = nu + mean - gain/2                        exact: nu; explicit: nu - a H/2; semi-implicit: nu + a H/2
 
+Of an exact model mean - gain/2 is not nil either, but what the force grew by in the step, H^2/12 of it. That moves
+no ship, and energy reckoned with it would be gained: so where it is below a quarter of the gain, halfway between exact
+and Euler, it counts as nil.
+
 What it costs: two poses per ship in contact, and one step of lag. A force that grows in a step lets the ship in by
 1/2 H^2 of its growth; when it falls the ship comes out by as much.
 """
@@ -44,6 +48,10 @@ LEAST = 1e-9
 """Drift [m/s] below which there is none: rounding of the poses."""
 
 
+EXACT = 0.25
+"""Share of the gain below which mean - gain/2 is growth of the force, not the mark of an Euler scheme (1/2)."""
+
+
 class Seen(NamedTuple):
     """A ship as received at the start t [s] of a step of H [s]: pose, twist (6), impulse_applied (6); plain lists."""
 
@@ -56,15 +64,15 @@ class Seen(NamedTuple):
 
 
 class Drift(NamedTuple):
-    """What other forces did to a ship in a step, in the mean and by its end; (6,) each, in b at the step's start."""
+    """What other forces did to a ship in a step, in the mean and by its end; (6,) each, in b at the step's start.
+
+    off_centre: by how much the received twist (6,) falls short of that of a model that moves alike and is exact; None
+    for one that is.
+    """
 
     mean: Array
     gain: Array
-
-    @property
-    def off_centre(self) -> Array:
-        """By how much the received twist (6,) falls short of that of a model that moves alike and is exact."""
-        return self.mean - 0.5 * self.gain
+    off_centre: Array | None
 
 
 def drift(before: Seen, now: Seen, M_inverse: Array, r_bg: Array, reach: float) -> Drift | None:
@@ -86,7 +94,8 @@ def drift(before: Seen, now: Seen, M_inverse: Array, r_bg: Array, reach: float) 
     moved_on, sped_up = _speed(mean, reach), _speed(gain, reach)
     if moved_on > MOST * H or sped_up > MOST * H or max(moved_on, sped_up) <= LEAST:
         return None
-    return Drift(mean, gain)
+    off_centre = mean - 0.5 * gain
+    return Drift(mean, gain, off_centre if _speed(off_centre, reach) > EXACT * sped_up else None)
 
 
 def _speed(nu: Array, reach: float) -> float:

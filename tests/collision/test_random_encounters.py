@@ -112,6 +112,7 @@ def check(world: MakeWorld, seed: int) -> bool:
     A parallel one applies an impulse to a ship that has turned since it was computed. There the sums count: the energy
     to one per cent, momentum once all is applied. Excepted are a buoy and a log that spring back: the first impulse is
     issued before the master's order can be known, to a body that turns by many degrees in a step (2.2 % in seed 2870).
+    And nothing rights a ship that coasts with heave held: once she lies on her side, the run is over.
     """
     names, starts, parameters = encounter(random.Random(seed))
     duration = parameters.pop("time")
@@ -128,8 +129,7 @@ def check(world: MakeWorld, seed: int) -> bool:
         spent += w.work[-1]
         if sequential:
             assert w.work[-1] <= held * (1 + 1e-9) + 1e-9 * kinetic, (seed, w.t, w.work[-1])
-            # In 4 degrees of freedom what holds heave and pitch here is a force to the model, which it reckons with.
-            known = "fender" not in parameters["obstacles"] and parameters["degrees_of_freedom"] != 4
+            known = "fender" not in parameters["obstacles"]
             assert not known or abs(out.energy[0] + spent) <= 1e-9 * kinetic, (seed, w.t)
         assert spent <= most * kinetic, (seed, w.t, spent / kinetic)
         values = [*out.energy, *out.fender, *out.clearance, *(x for s in out.ships for x in (
@@ -138,6 +138,8 @@ def check(world: MakeWorld, seed: int) -> bool:
         touched |= out.contact_active
         if alone:
             balance.look(H)
+        if not sequential and parameters["degrees_of_freedom"] == 4 and max(abs(s.attitude[0]) for s in out.ships) > 1.0:
+            break
     assert out.energy[0] >= -1e-9 * kinetic
     w.model.close()
     return touched
