@@ -11,7 +11,10 @@ from .ledger import FEEDBACKS
 from .ports import CollisionParameters, ShipState
 from .responses import RESPONSES
 
-__all__ = ["check_parameters", "check_states", "check_step"]
+__all__ = ["MAXIMUM_FRICTION", "check_parameters", "check_states", "check_step"]
+
+MAXIMUM_FRICTION = 10.0
+"""Coulomb's coefficient that still counts as one: more is a mistake, and sticking is what 10 gives too."""
 
 ABSURD_SPEED = 1e3
 """Speeds [m/s] from here on are refused: a broken signal, not a ship."""
@@ -23,7 +26,7 @@ ABSURD_PLACE = 1e9
 def check_parameters(p: CollisionParameters) -> None:
     """Raises InputError on a parameter out of its range."""
     bounds = (
-        ("friction", p.friction, 0.0, 10.0, "Coulomb's coefficient, 0.1 to 0.6 for steel"),
+        ("friction", p.friction, 0.0, MAXIMUM_FRICTION, "Coulomb's coefficient, 0.1 to 0.6 for steel"),
         ("restitution", p.restitution, 0.0, 1.0, "the share of the approach that comes back, 0 for ships that crush"),
     )
     for name, value, low, high, remedy in bounds:

@@ -78,7 +78,8 @@ def solve_pgs(W: Array, v: Array, mu: float, start: Array | None = None) -> Solu
     without_rounding(W_p, v_p)
     blocks = [Block.of(W_p[i : i + 3, i : i + 3]) for i in range(0, 3 * k, 3)]
     if k == 1:
-        P_p, sweeps = np.array([solve_contact(blocks[0], (v_p[0], v_p[1], v_p[2]), mu)[0]]), 1
+        v_n, v_1, v_2 = v_p.tolist()
+        P_p, sweeps = np.array([solve_contact(blocks[0], (v_n, v_1, v_2), mu)[0]]), 1
     else:
         P_p, sweeps = _swept(W_p, v_p, mu, blocks, scale, _scaled(W, v, start, T))
     return Solution((P_p.ravel() @ T).reshape(k, 3), law_residual(W_p, v_p, mu, P_p) / scale, sweeps)

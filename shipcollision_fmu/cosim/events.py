@@ -11,6 +11,7 @@
     angle                     between the headings, 0 (overtaking) to pi (head-on)
     start, closing speed      as the collision FMU gave them; of all but the last of the collisions that began in one
                               step, from the states at its start
+    relative velocity         of ship_a against ship_b at the first point, from the states at the start of that step
     damage                    indicative, from the energy, only when the scenario asks for it (collision/damage.py);
                               the striking bow is that of the ship that was touched farther forward, if that far
 
@@ -79,14 +80,20 @@ def _collision(
     start = record.impacts.get(number) or _start(touching, record, obstacles)
     impulse = sum((_triple(row, "impulse", _NED) for row in rows), start=np.zeros(3))
     pair = [str(first["ship_a"]), str(first["ship_b"])]
+    first_point = _middle(first, start, record)
+    v_a, v_b = (
+        _velocity(state, np.array(first_point[b]))
+        for state, b in zip(_states_before(first, record, obstacles), ("b_a", "b_b"), strict=True)
+    )
     return {
         "id": number,
         "ship_a": pair[0],
         "ship_b": pair[1],
         "start": start.time,
         "end": float(rows["time"][-1]),
-        "first_point": _middle(first, start, record),
+        "first_point": first_point,
         "closing_speed": start.closing_speed,
+        "relative_velocity": (v_a - v_b).tolist(),
         "angle": start.angle,
         "impulse": {"n": impulse.tolist(), "magnitude": float(np.linalg.norm(impulse))},
         "delta_v": {name: gained.get((number, name), np.zeros(3)).tolist() for name in pair},  # an obstacle's is none
@@ -97,24 +104,34 @@ def _collision(
 def _start(touching: Rows, record: Record, obstacles: Mapping[str, float]) -> Impact:
     """Of a collision that began in the step in which another did, whose start the FMU shows: from the states at the
     start of that step, and the points that touched at its end."""
-    time = float(touching["time"][0])
-    before = record.states[max(0, int(np.searchsorted(record.states["time"], time)) - 1)]
-    bodies = [str(touching[0][ship]) for ship in ("ship_a", "ship_b")]
-    states = [
-        np.array([float(before[f"{body}.{variable}"]) for variable in STATE]) if body not in obstacles
-        else np.array([0.0] * 5 + [obstacles[body]] + [0.0] * 6)
-        for body in bodies
-    ]  # fmt: skip
-    R = [rotation(state[3:6]) for state in states]
+    states = _states_before(touching[0], record, obstacles)
     closing = 0.0
     for row in touching:
-        v_a, v_b = (
-            R_nb @ (state[6:9] + np.cross(state[9:], _triple(row, group, _XYZ)))
-            for R_nb, state, group in zip(R, states, ("a", "b"), strict=True)
-        )
+        v_a, v_b = (_velocity(state, _triple(row, group, _XYZ)) for state, group in zip(states, "ab", strict=True))
         closing = max(closing, float((v_a - v_b) @ _triple(row, "normal", _NED)))
-    point = sum((_triple(row, None, _NED) for row in touching), start=np.zeros(3)) / len(touching)
-    return Impact(time, closing, heading_angle(R[0], R[1]), (float(point[0]), float(point[1]), float(point[2])))
+    n, e, d = (sum((_triple(row, None, _NED) for row in touching), start=np.zeros(3)) / len(touching)).tolist()
+    return Impact(float(touching["time"][0]), closing, heading_angle(*(rotation(s[3:6]) for s in states)), (n, e, d))
+
+
+def _before(row: Any, record: Record) -> Any:
+    """The states at the start of the step that a row is of."""
+    return record.states[max(0, int(np.searchsorted(record.states["time"], row["time"])) - 1)]
+
+
+def _states_before(row: Any, record: Record, obstacles: Mapping[str, float]) -> list[Array]:
+    """Those of the pair that a row is of; (12,) each: position, attitude, velocity, rate."""
+    before = _before(row, record)
+    return [
+        np.array([float(before[f"{body}.{variable}"]) for variable in STATE]) if body not in obstacles
+        else np.array([0.0] * 5 + [obstacles[body]] + [0.0] * 6)
+        for body in (str(row["ship_a"]), str(row["ship_b"]))
+    ]  # fmt: skip
+
+
+def _velocity(state: Array, r_b: Array) -> Array:
+    """Of the point r_b [m] (in b) of a body, in n [m/s]."""
+    v: Array = rotation(state[3:6]) @ (state[6:9] + np.cross(state[9:], r_b))
+    return v
 
 
 def _damage(collision: Mapping[str, Any], ships: Mapping[str, Ship], table: DamageTable) -> dict[str, Any]:
@@ -204,7 +221,7 @@ def _point(row: Any) -> dict[str, list[float]]:
 def _middle(row: Any, start: Impact, record: Record) -> dict[str, list[float]]:
     """The first point of a collision, in n and in b of either ship as she was then; in that of an obstacle `row`'s."""
     n = np.array(start.point)
-    before = record.states[max(0, int(np.searchsorted(record.states["time"], row["time"])) - 1)]
+    before = _before(row, record)
     places = {}
     for body, group in ((str(row["ship_a"]), "a"), (str(row["ship_b"]), "b")):
         places[f"b_{group}"] = _triple(row, group, _XYZ).tolist()

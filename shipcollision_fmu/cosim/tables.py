@@ -30,6 +30,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 
+from ..collision.checks import MAXIMUM_FRICTION
 from ..collision.obstacles import FenderTable
 from ..collision.responses import RESPONSES
 from ..ship.frames import Array, attitude_from_quaternion, rotation
@@ -292,7 +293,9 @@ class DamageTable(Table):
 class Collision(Table):
     """[collision]: parameters of the collision FMU; what is left out keeps the FMU's own start value."""
 
-    friction: float | None = Field(default=None, ge=0, le=2, description="Coulomb's coefficient, e.g. 0.3")
+    friction: float | None = Field(
+        default=None, ge=0, le=MAXIMUM_FRICTION, description="Coulomb's coefficient, e.g. 0.3"
+    )
     restitution: float | None = Field(default=None, ge=0, le=1, description="0 for plastic, 1 for elastic")
     response: str | None = Field(default=None, description='the rule of contact, e.g. "pgs"')
     substep: float | None = Field(default=None, gt=0, description="internal step of the collision FMU [s], e.g. 0.01")

@@ -97,6 +97,15 @@ def test_a_ship_hit_from_both_sides_at_once_takes_its_share_from_each() -> None:
     assert second["start"] == 0.2
 
 
+def test_the_relative_velocity_is_that_of_the_first_point_on_either_ship() -> None:
+    """Left goes sideways; middle, on the same spot, turns: her side 5 m to starboard goes astern."""
+    made = record([contact(1, ("left", "middle"), (1, 1), 5.0, 4e6)], {1: [sway(0.0)] * 3},
+                  {1: Impact(0.0, 1.5, 0.0, (0.0, 5.0, 0.0))})  # fmt: skip
+    made.states["left.velocity.sway"][0], made.states["middle.rate.yaw"][0] = 1.5, 0.02
+    (collision,) = found(made)["collisions"]
+    assert collision["relative_velocity"] == pytest.approx([0.02 * 5.0, 1.5, 0.0], rel=1e-12)
+
+
 def test_a_scratch_has_one_point_per_step_that_of_the_largest_impulse() -> None:
     rows = [
         contact(1, ("left", "middle"), (1, 1), 5.0, 2e6),
@@ -120,6 +129,7 @@ def test_a_start_beside_another_against_an_obstacle_that_stands_across() -> None
     made.states["left.velocity.sway"][0] = 2.0
     first, _ = events(made, dict.fromkeys(NAMES, SHIP), dict.fromkeys(NAMES, 3), None, {"quay": pi / 2})["collisions"]
     assert first["closing_speed"] == pytest.approx(2.0)
+    assert first["relative_velocity"] == pytest.approx([0.0, 2.0, 0.0])
     assert first["angle"] == pytest.approx(pi / 2)
 
 
@@ -153,6 +163,7 @@ def test_pairs_that_meet_in_one_step_lose_nothing(tmp_path: Path) -> None:
         assert collision["energy"] == pytest.approx(4e7 * 25.0, rel=1e-9)
         assert collision["impulse"]["magnitude"] == pytest.approx(4e7 * 5.0, rel=1e-9)
         assert collision["closing_speed"] == pytest.approx(10.0, rel=1e-9)
+        assert np.linalg.norm(collision["relative_velocity"]) == pytest.approx(10.0, rel=1e-9)
         assert collision["angle"] == pytest.approx(pi)
         for gained in collision["delta_v"].values():
             assert np.linalg.norm(gained) == pytest.approx(5.0, rel=1e-9)

@@ -145,6 +145,7 @@ def test_every_shipped_scenario_can_be_loaded() -> None:
         ("[ships.own]", '[ships."own ship"]', r"\[ships.own ship\] is no name for a ship, .* take letters"),
         ("[ships.own]", "[ships.contact]", r"\[ships.contact\] is no name for a ship, .* none of .*contact"),
         ("friction = 0.3", "friction = -0.3", r"\[collision\] friction = -0.3 must be greater than or equal to 0"),
+        ("friction = 0.3", "friction = 10.5", r"\[collision\] friction = 10.5 must be less than or equal to 10"),
         ("friction = 0.3", "restitution = 1.5", r"\[collision\] restitution = 1.5 must be less than or equal to 1"),
         ("friction = 0.3", 'response = "psg"', r"\[collision\] response = 'psg' is not offered: take one of .*pgs"),
         ("friction = 0.3", 'feedback = "state"', r'\[collision\] feedback = "state" wants ships that adopt post'),
