@@ -357,7 +357,8 @@ class ShipCollision:
         self._publish_contacts(t, slots)
         self.outputs.energy[:] = self._energy.tolist()
         self.outputs.fender[:] = [sum(self._fenders.values()), self._fender_dissipated]
-        self.outputs.clearance[0] = self._neighbours.clearance(candidates, shadows)
+        self.outputs.clearance[0], nearest = self._neighbours.clearance(candidates, shadows)
+        self.outputs.nearest_ship_a, self.outputs.nearest_ship_b = nearest
         self.outputs.solver[0], self.outputs.solver_sweeps = self._residual, self._sweeps
         self.outputs.solver_unconverged, self.outputs.solver_scaled = self._unconverged, self._scaled
 

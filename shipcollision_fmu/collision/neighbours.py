@@ -66,15 +66,17 @@ class Neighbours:
                 found[a, b] = gap
         return found
 
-    def clearance(self, candidates: Sequence[Pair], shadows: Sequence[Shadow]) -> float:
-        """Least distance between hulls [m], capped. The nearest bounds first: they soon rule out the others."""
-        least = self._range
+    def clearance(self, candidates: Sequence[Pair], shadows: Sequence[Shadow]) -> tuple[float, Pair]:
+        """Least distance between hulls [m], capped, and between which, numbered from 1; (0, 0): none are within the
+        range. The nearest bounds first: they soon rule out the others."""
+        least, nearest = self._range, (0, 0)
         bounds = [(self._bounds_apart(a, b, shadows), a, b) for a, b in candidates]
         for bound, a, b in sorted(bounds) if len(bounds) > 1 else bounds:
             if bound >= least:
                 break
-            least = min(least, self._gap(a, b, shadows, least))
-        return least
+            if (gap := self._gap(a, b, shadows, least)) < least:
+                least, nearest = gap, (a + 1, b + 1)
+        return least, nearest
 
     def _bounds_apart(self, a: int, b: int, shadows: Sequence[Shadow]) -> float:
         """Horizontal distance [m] of the bounds of two hulls, circles or an obstacle's rectangle; not more than the

@@ -57,6 +57,7 @@ class Record:
     energy     dissipated, normal, tangential [J] at the end
     applied    what the ships say they applied at the end (ships, 6); the final `issued` is `issued_finally`
     clearance  least distance between hulls at any communication point [m], capped
+    nearest    between which, at the first of them: two names, none if they were never within the cap
     solver     answers that did not meet the law of contact to 1e-9, and answers scaled back so as not to add energy
     fender     stored in fenders, dissipated in them [J] at the end
     """
@@ -70,6 +71,7 @@ class Record:
     issued_finally: Array
     applied: Array
     clearance: float
+    nearest: tuple[str, ...] = ()
     fender: tuple[float, float] = (0.0, 0.0)
     solver: tuple[int, int] = (0, 0)
 
@@ -93,7 +95,7 @@ class Recorder:
         self._buffers = [np.ctypeslib.as_array(wire.outputs.values) for wire in system.states]
         collision = system.collision
         slots = [f"contact[{i}]" for i in range(1, contact_slots(len(names)) + 1)]
-        self._counts = collision.integers(["contact.count", "impact.count"])
+        self._counts = collision.integers(["contact.count", "impact.count", "nearest.ship_a", "nearest.ship_b"])
         self._reals = collision.reals([variable for slot in slots for variable in named(slot, CONTACT_COLUMNS)])
         self._numbers = collision.integers([variable for slot in slots for variable in named(slot, _CONTACT_NUMBERS)])
         self._impact = collision.reals(_IMPACT)
@@ -104,6 +106,7 @@ class Recorder:
         self._signals = np.zeros((steps + 1, 1 + len(SIGNALS)))
         self._seen = _Contacts()
         self._impacts = 0
+        self._least, self._nearest = float("inf"), list[int]()
 
     def record(self, k: int) -> None:
         """Take down communication point k; its values are in the wires."""
@@ -115,7 +118,9 @@ class Recorder:
         self._watched.read()
         self._signals[k] = (row[0], *self._watched.values)
         self._counts.read()
-        count, impacts = self._counts.values
+        count, impacts, *nearest = self._counts.values
+        if (clearance := self._watched.values[0]) < self._least:
+            self._least, self._nearest = clearance, nearest
         if impacts > self._impacts:
             self._impacts = impacts
             time, closing_speed, angle, north, east, down = _read(self._impact)
@@ -146,7 +151,8 @@ class Recorder:
             solver=(unconverged, scaled),
             issued_finally=np.array(_read(self._issued)).reshape(-1, 6),
             applied=np.array([buffer[len(STATE) :] for buffer in self._buffers]),
-            clearance=float(signals["clearance"].min()),
+            clearance=self._least,
+            nearest=tuple(self._bodies[ship - 1] for ship in self._nearest if ship > 0),
         )
 
     def _record_contacts(self, k: int, count: int) -> None:

@@ -49,8 +49,8 @@ def lines(run: Run) -> Iterator[str]:
         within = sum(row["within"] for row in summary["paper"])
         yield f"{within} of {len(summary['paper'])} numbers within tolerance; * corrected, printed as shown"
     if not run.events["collisions"]:
-        capped = " or more (clearance_range)" if summary["least_clearance"] >= summary["clearance_range"] else ""
-        yield f"no collision; least clearance {summary['least_clearance']:.1f} m{capped}"
+        where = f", {' - '.join(summary['nearest'])}" if summary["nearest"] else " or more (clearance_range)"
+        yield f"no collision; least clearance {summary['least_clearance']:.1f} m{where}"
     energy = summary["energy"]
     before, after, lost = (x / 1e6 for x in (energy["before"]["total"], energy["after"]["total"], energy["dissipated"]))
     yield f"kinetic energy {before:.1f} MJ before, {after:.1f} MJ after:"

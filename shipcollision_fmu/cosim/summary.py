@@ -58,6 +58,7 @@ def summary(scenario: Scenario, ships: Mapping[str, Ship], record: Record, found
         "collisions": len(found["collisions"]),
         "scratches": len(found["scratches"]),
         "least_clearance": record.clearance,
+        "nearest": list(record.nearest),
         "clearance_range": scenario.collision.clearance_range or CollisionParameters([]).clearance_range,
         "ledger": {
             name: {"issued": issued.tolist(), "applied": applied.tolist(), "pending": (issued - applied).tolist()}

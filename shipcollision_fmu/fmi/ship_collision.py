@@ -235,6 +235,14 @@ def _events() -> Table:
             "output", "clearance", "m", "outputs.clearance", 0,
             "Least distance between hulls, and between hulls and obstacles, at most clearance_range",
         ),
+        integer(
+            "output", "nearest.ship_a", "outputs.nearest_ship_a",
+            "First ship of the pair that clearance is of, from 1; 0: none within clearance_range", minimum=0,
+        ),
+        integer(
+            "output", "nearest.ship_b", "outputs.nearest_ship_b",
+            "Second ship of that pair; beyond the ships: an obstacle, in their order", minimum=0,
+        ),
     )  # fmt: skip
 
 

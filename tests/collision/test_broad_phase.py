@@ -56,11 +56,16 @@ def test_clearance_is_that_of_the_nearest_pair(
     box = make_ship("box", BOX)
     easts = [0.0, 330.0, 660.0, 770.0, 1100.0]
     start = [{"position": [0.0, e, 0.0], "nu": [0.0] * 6} for e in easts]
-    assert world([box] * 5, start).run(0.1, 0.05).model.outputs.clearance[0] == pytest.approx(80.0, abs=1e-6)
+    out = world([box] * 5, start).run(0.1, 0.05).model.outputs
+    assert out.clearance[0] == pytest.approx(80.0, abs=1e-6)
+    assert (out.nearest_ship_a, out.nearest_ship_b) == (3, 4)
     quay = '[q]\nkind = "quay"\nshape = "box"\nlength = 5000.0\nbreadth = 10.0\nposition = [2000.0, -70.0]'
     w = world([box] * 5, start, obstacles=quay).run(0.1, 0.05)
-    assert w.model.outputs.clearance[0] == pytest.approx(50.0, abs=1e-6)
-    assert world([box] * 5, start, clearance_range=60.0).run(0.1, 0.05).model.outputs.clearance == [60.0]
+    out = w.model.outputs
+    assert out.clearance[0] == pytest.approx(50.0, abs=1e-6)
+    assert (out.nearest_ship_a, out.nearest_ship_b) == (1, 6)
+    out = world([box] * 5, start, clearance_range=60.0).run(0.1, 0.05).model.outputs
+    assert (out.clearance, out.nearest_ship_a, out.nearest_ship_b) == ([60.0], 0, 0)
 
 
 def test_ships_that_close_fast_are_found_before_they_meet(make_ship: Make, world: MakeWorld) -> None:

@@ -165,6 +165,7 @@ def test_without_a_collision_there_are_no_events(scenario_file: Write) -> None:
     assert len(run.contacts) == 0
     assert run.summary["energy"]["dissipated"] == 0.0
     assert run.summary["least_clearance"] == pytest.approx(4.0, abs=0.1)
+    assert run.summary["nearest"] == ["own", "target"]
 
 
 def test_more_than_two_ships_and_other_names(scenario_file: Write, tmp_path: Path) -> None:
