@@ -125,8 +125,8 @@ class CollisionOutputs:
     """energy: dissipated, normal, tangential [J]; impact: time [s], closing speed [m/s], angle [rad] of the latest
     collision, impact_point its first contact point in n; fender: energy stored in fenders now and dissipated by them
     so far [J]; clearance [m] (one entry), nearest_ship_a and _b its pair. Of the solver: by how much the law of contact
-    is missed in the step, as a share of the approach, at worst (one entry); its sweeps, at most; and how many answers so
-    far missed it by more than 1e-9, or had to be scaled back so as not to add energy."""
+    is missed in the step, as a share of the approach, at worst (one entry); its sweeps, at most; and how many answers
+    so far missed it by more than 1e-9, or had to be scaled back so as not to add energy."""
 
     ships: list[ShipPost]
     contacts: list[ContactSlot] = field(default_factory=list)
