@@ -17,7 +17,8 @@ any other is cut along planes by CoACD (Wei et al. 2022, ACM Trans. Graph. 41(4)
 whole solid and little more: what is added is measured, and refused above VOLUME_TOLERANCE. The cutting is seeded, so
 the same file gives the same parts, to the bit, in every run. Nothing is cached on disk.
 
-Not checked: a surface that passes through itself, and which end is the bow.
+Not checked: a surface that passes through itself, which end is the bow, and where T is about half the depth, which way
+is up.
 """
 
 from __future__ import annotations
@@ -45,8 +46,9 @@ _NAMES = {"m": "metres", "cm": "centimetres", "mm": "millimetres", "ft": "feet",
 
 SIZE_TOLERANCE = 0.25
 """Relative difference allowed between the mesh's length and breadth and those of [particulars]: bulb, rudder."""
-PLACE_TOLERANCE = 0.25
-"""Distance allowed between the mesh's middle and CO, over L_oa and B, and between its keel and T, over the depth."""
+MIDSHIP_TOLERANCE, CENTRELINE_TOLERANCE, KEEL_TOLERANCE = 0.1, 0.05, 0.25
+"""Distance allowed between the mesh's middle and CO, over L_oa (bulb) and B, and between its keel and T, over the depth
+(rudder, sonar dome)."""
 VOLUME_TOLERANCE = 0.05
 """Largest volume that the convex parts may add to the solid, relative."""
 BULGE_GOAL = 0.01
@@ -118,6 +120,8 @@ def _read(path: Path) -> tuple[Array, Indices]:
         )
     if (size := path.stat().st_size) > LARGEST_FILE:
         raise ShipError(f"{path.name}: has {size} bytes, more than {LARGEST_FILE}: simplify the mesh")
+    if kind == "stl":
+        _check_whole(path, size)
     trimesh = _module("trimesh", "a hull from a mesh file is read with it")
     try:
         with path.open("rb") as file:
@@ -144,6 +148,19 @@ def _read(path: Path) -> tuple[Array, Indices]:
     triangles = triangles[(a != b) & (b != c) & (c != a)]
     used, corners = np.unique(triangles, return_inverse=True)
     return vertices[first[used]], corners.reshape(-1, 3).astype(np.int64)
+
+
+def _check_whole(path: Path, size: int) -> None:
+    """A binary STL (80 bytes of header, a count, 50 bytes per triangle) is as long as it says."""
+    with path.open("rb") as file:
+        head = file.read(1024)
+    if b"\0" not in head or len(head) < 84:  # text
+        return
+    count = int.from_bytes(head[80:84], "little")
+    if size < (wanted := 84 + 50 * count):
+        raise ShipError(
+            f"{path.name}: is cut short: its {count} triangles take {wanted} bytes, and it has {size}: export it again"
+        )
 
 
 def _axes(table: HullTable) -> Array:
@@ -232,12 +249,12 @@ def _check_place(name: str, placed: Array, L_oa: float, B: float, T: float, tabl
     low, high = placed.min(axis=0), placed.max(axis=0)
     middle = 0.5 * (low + high)
     remedy = "set origin to midship, centreline and waterline in the file's coordinates"
-    for what, value, size in (("forward of", middle[0], L_oa), ("to starboard of", middle[1], B)):
-        if abs(value) > PLACE_TOLERANCE * size:
-            raise ShipError(
-                f"{name}: its middle lies {value:.6g} m {what} CO, at most {PLACE_TOLERANCE * size:.6g} m: {remedy}"
-            )
-    if abs(high[2] - T) > PLACE_TOLERANCE * table.depth:
+    for what, value, most in (
+        ("forward of", middle[0], MIDSHIP_TOLERANCE * L_oa), ("to starboard of", middle[1], CENTRELINE_TOLERANCE * B),
+    ):  # fmt: skip
+        if abs(value) > most:
+            raise ShipError(f"{name}: its middle lies {value:.6g} m {what} CO, at most {most:.6g} m: {remedy}")
+    if abs(high[2] - T) > KEEL_TOLERANCE * table.depth:
         raise ShipError(
             f"{name}: its lowest point lies {high[2]:.6g} m below CO, and the draught is T = {T:.6g} m: {remedy} (or "
             "up is wrong)"
