@@ -1,12 +1,15 @@
-"""Two hulls touch: detection, the rival responses, the impulse ledger, energy and events.
+"""Two hulls touch: who is near, where they touch, the rival responses, the impulse ledger, energy and events.
 
-contact     the data of a contact point, and the shadow of a ship
-engine      the one module that knows pybullet
-clipping    which points of two touching features are common to both
-detection   Bullet's answer, cleaned: contacts, normals, clearance
-delassus    inertia felt at the contacts
-pgs, bullet the rival responses, one signature; RESPONSES in responses.py chooses
-ledger      impulses issued, applied, pending
-episodes    collisions and scratches in time
-model       a step of the collision model, readable as its stages
+model           a step, readable as its stages; README.md has the equations
+
+what it is of   ports, checks, bodies, obstacles
+where to        shadow, ahead, drift, ledger: the ships' poses and twists within a step, and what they have been given
+who is near     neighbours, broad_phase
+where           detection: engine (the one module that knows pybullet), level, manifold, clipping, joined, axes, contact
+how much        responses, which chooses: delassus, then
+                pgs         coulomb, extrapolation, newton, sliding_speed, warm_start, restitution
+                closed_form slip_path, slip_curve, resultant; four_dof is its oracle
+                passive: no answer adds energy
+besides         fenders, fender_books; energy; damage
+told            slots, episodes
 """

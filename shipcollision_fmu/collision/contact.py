@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from ..ship.frames import Array
 from .shadow import Shadow
 
-__all__ = ["Contact", "Impulse", "actual_velocity", "contact_velocity", "make_contact"]
+__all__ = ["Contact", "Impulse", "actual_velocity", "book", "contact_velocity", "make_contact"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,3 +68,11 @@ def actual_velocity(contact: Contact, shadows: Sequence[Shadow]) -> Array:
     """The same with the ships' twists as they are now, without what other forces may add; (3,)."""
     v: Array = contact.G_b @ shadows[contact.b].centred - contact.G_a @ shadows[contact.a].centred
     return v
+
+
+def book(impulse: Impulse, shadows: Sequence[Shadow]) -> None:
+    """The impulse into the twists and ledgers of both bodies; an obstacle has neither."""
+    c, P = impulse.contact, impulse.P
+    for i, G, sign in ((c.a, c.G_a, -1.0), (c.b, c.G_b, 1.0)):
+        if not shadows[i].fixed:
+            shadows[i].book(sign * P @ G)

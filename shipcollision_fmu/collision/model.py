@@ -5,7 +5,7 @@ A communication step [t, t + H]:
     read          check what came in; the books say what is pending (ledger.py); shadows at the received poses
     find near     pairs whose hulls could touch within the step (neighbours.py); far pairs are never looked at
     for each substep of fixed length h:
-        press     fenders that are compressed (fenders.py), booked one by one
+        press     fenders that are compressed (fender_books.py), booked one by one
         advance   the predicted poses of the shadows that are near another
         respond   contacts there, answered by one of the rival responses
         book      impulses into twists and ledger, energy lost, contact points, episodes
@@ -34,16 +34,15 @@ import numpy as np
 from ..errors import StepError
 from ..ship.frames import attitude_from_rotation, attitude_unwrapped
 from .ahead import state_ahead
-from .axes import contact_axes
 from .bodies import Body, prepared
 from .checks import check_parameters, check_states, check_step
-from .contact import Impulse, actual_velocity
-from .delassus import mobility
+from .contact import Impulse, actual_velocity, book
 from .detection import Detector, KeptNormals
 from .drift import Seen, drift
 from .energy import energy_lost
 from .episodes import Episodes
-from .fenders import Fender, friction_impulse, in_series, squeezed
+from .fender_books import FenderBooks
+from .fenders import Fender, in_series
 from .ledger import Books, Reading
 from .neighbours import Neighbours, Pair, room
 from .passive import passive
@@ -98,8 +97,7 @@ class ShipCollision:
         self._books = [Books() for _ in range(n)]
         self._seen: list[Seen | None] = [None] * n
         self._energy = np.zeros(3)
-        self._fenders: dict[Pair, float] = {}
-        self._fender_dissipated = 0.0
+        self._fenders = FenderBooks()
         self._kept: KeptNormals = {}
         self._warm: WarmStarts = {}
         self._episodes = Episodes(self.parameters.minimum_separation_time)
@@ -261,30 +259,13 @@ class ShipCollision:
         return in_series(self._bodies[pair[0]].fender, self._bodies[pair[1]].fender)
 
     def _press(self, pair: Pair, fender: Fender, h: float, shadows: list[Shadow], slots: list[Slot]) -> list[Slot]:
-        """One substep of the fender between two bodies: its impulse booked, its energy kept."""
+        """One substep of the fender between two bodies."""
         contact = self._ready().facing(*pair, fender.thickness, shadows, self._kept)
-        stored = self._fenders.get(pair, 0.0)
-        compression = 0.0 if contact is None else fender.thickness - contact.gap
-        if contact is None or compression <= 0.0:
-            self._fender_dissipated += self._fenders.pop(pair, 0.0)  # what a released spring still holds is lost
+        if contact is None:
+            self._fenders.release(pair)
             return slots
-        axes = contact_axes(contact.normal)
-        W = axes @ mobility(contact, shadows) @ axes.T
-        v = axes @ actual_velocity(contact, shadows)
-        squeeze = squeezed(fender, compression, -float(v[0]), float(W[0, 0]), stored, h)
-        P = squeeze.P * contact.normal
-        rubbed = friction_impulse(W[1:, 1:], v[1:] + squeeze.P * W[1:, 0], self.parameters.friction, squeeze.P)
-        P = P + rubbed @ axes[1:]
-        lost = self._apply(Impulse(contact, P), shadows)
-        self._fenders[pair] = squeeze.stored
-        self._fender_dissipated += lost - (squeeze.stored - stored)
-        return merged(slots, Slot.of(contact, P, lost, 0, 0))
-
-    def _apply(self, impulse: Impulse, shadows: list[Shadow]) -> float:
-        """Book one impulse; the kinetic energy that it takes [J]."""
-        c, before = impulse.contact, actual_velocity(impulse.contact, shadows)
-        _take(impulse, shadows)
-        return float(-impulse.P @ (before + actual_velocity(c, shadows)) * 0.5)
+        pressed = self._fenders.press(fender, contact, shadows, self.parameters.friction, h)
+        return slots if pressed is None else merged(slots, pressed)
 
     def _respond(self, t: float, h: float, near: list[Pair], shadows: list[Shadow]) -> list[Impulse]:
         """Contacts at the predicted poses and their impulses; collisions and scratches are opened here."""
@@ -321,7 +302,7 @@ class ShipCollision:
         """Impulses into both ships' twists and ledgers, the energy they cost, and the contact slots of the step."""
         before = [actual_velocity(i.contact, shadows) for i in impulses]
         for impulse in impulses:
-            _take(impulse, shadows)
+            book(impulse, shadows)
         for impulse, v_before in zip(impulses, before, strict=True):
             c = impulse.contact
             along, across = energy_lost(impulse.P, c.normal, v_before, actual_velocity(c, shadows))
@@ -356,7 +337,7 @@ class ShipCollision:
             out.velocity[:], out.rate[:] = nu[:3], nu[3:]
         self._publish_contacts(t, slots)
         self.outputs.energy[:] = self._energy.tolist()
-        self.outputs.fender[:] = [sum(self._fenders.values()), self._fender_dissipated]
+        self.outputs.fender[:] = self._fenders.energy
         self.outputs.clearance[0], nearest = self._neighbours.clearance(candidates, shadows)
         self.outputs.nearest_ship_a, self.outputs.nearest_ship_b = nearest
         self.outputs.solver[0], self.outputs.solver_sweeps = self._residual, self._sweeps
@@ -389,8 +370,7 @@ class ShipCollision:
             "books": [books.get_state() for books in self._books],
             "energy": self._energy.tolist(),
             "seen": [None if s is None else list(s) for s in self._seen],
-            "fenders": [[a, b, stored] for (a, b), stored in self._fenders.items()],
-            "fender_dissipated": self._fender_dissipated,
+            "fenders": self._fenders.get_state(),
             "kept": [[a, b, carrier, list(normal)] for (a, b), (carrier, normal) in self._kept.items()],
             "warm": [[a, b, [[*row] for row in rows]] for (a, b), rows in self._warm.items()],
             "solver": [self._unconverged, self._scaled],
@@ -406,8 +386,7 @@ class ShipCollision:
             books.set_state(saved)
         self._energy = np.array(state["energy"])
         self._seen = [None if s is None else Seen(*s) for s in state["seen"]]
-        self._fenders = {(a, b): stored for a, b, stored in state["fenders"]}
-        self._fender_dissipated = state["fender_dissipated"]
+        self._fenders.set_state(state["fenders"])
         self._kept = {(a, b): (carrier, list(normal)) for a, b, carrier, normal in state["kept"]}
         self._warm = {(a, b): [(place, impulse) for place, impulse in rows] for a, b, rows in state["warm"]}
         self._unconverged, self._scaled = state["solver"]
@@ -435,11 +414,3 @@ def _seen(t: float, H: float, state: ShipState) -> Seen:
     return Seen(
         t, H, list(state.position), list(state.attitude), state.velocity + state.rate, list(state.impulse_applied)
     )
-
-
-def _take(impulse: Impulse, shadows: Sequence[Shadow]) -> None:
-    """The impulse into the twists and ledgers of both bodies; an obstacle has neither."""
-    c, P = impulse.contact, impulse.P
-    for i, G, sign in ((c.a, c.G_a, -1.0), (c.b, c.G_b, 1.0)):
-        if not shadows[i].fixed:
-            shadows[i].book(sign * P @ G)
