@@ -60,7 +60,7 @@ def contact_velocity(contact: Contact, shadows: Sequence[Shadow]) -> Array:
 
     It is the mean expected over the step, which is what a response has to stop; the ships' own is actual_velocity.
     """
-    v: Array = contact.G_b @ shadows[contact.b].expected - contact.G_a @ shadows[contact.a].expected
+    v: Array = contact.G_b @ shadows[contact.b].met - contact.G_a @ shadows[contact.a].met
     return v
 
 

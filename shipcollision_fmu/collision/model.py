@@ -43,6 +43,7 @@ from .energy import energy_lost
 from .episodes import Episodes
 from .fender_books import FenderBooks
 from .fenders import Fender, in_series
+from .late import apply_late
 from .ledger import Books, Reading
 from .neighbours import Neighbours, Pair, room
 from .passive import passive
@@ -180,9 +181,10 @@ class ShipCollision:
                 shadow.drift, shadow.off_centre = found.mean, found.off_centre
                 if reading.pending.any():  # a parallel master: what is issued now is applied to a ship that has gone on
                     shadow.nu = shadow.nu + found.gain
-        if reading.late and reading.restless:  # applied, as it is in b, to a body that has turned and gone far by then
-            turned = shadow.turned(shadow.nu, H) - shadow.nu
-            shadow.off_centre = turned if shadow.off_centre is None else shadow.off_centre + turned
+        if reading.late:
+            x, R = shadow.ahead(reading.nu, H)
+            M_inverse = body.inverse_at(attitude_from_rotation(R).tolist())
+            apply_late(shadow, x, R, M_inverse, carried_over=not reading.restless)
         shadow.nu_received = shadow.nu
         self._readings[i] = reading
         return shadow

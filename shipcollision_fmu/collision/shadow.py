@@ -7,6 +7,7 @@ with the substeps and is where contact is looked for.
     nu      twist about CO in b of the received pose, changed by impulses only
     drift   what other forces are expected to add to it, in the mean over the step; off_centre: what it lacks to the
             twist by which energy is reckoned (drift.py); None: nothing
+    later   what the twist is short of that by which impulses are applied, where they are applied late (late.py)
     G       = [R, -R skew(r)]              velocity of the point r (in b) in n is G nu;  (3, 6)
     J       = G^T P                        impulse P (in n) at that point, as the ship books it, in b about CO
     nu     += M^-1 J
@@ -55,6 +56,7 @@ class Shadow:
     issued: Array  # (6,) impulse booked in this communication step, in b about CO at the received pose
     drift: Array | None = None  # (6,)
     off_centre: Array | None = None  # (6,)
+    later: Array | None = None  # (6,)
     fixed: bool = False  # an obstacle: M_inverse is zero, and it never moves
 
     @classmethod
@@ -89,13 +91,10 @@ class Shadow:
     @property
     def nu_predicted(self) -> Array:
         """The twist (6,) in b of the predicted pose."""
-        return self._seen_from(self.R, self.nu)
+        return self.seen_from(self.R, self.nu)
 
-    def turned(self, nu: Array, h: float) -> Array:
-        """The twist nu (6,), in b of the received pose, in b of the pose that it leads to in h [s]."""
-        return self._seen_from(self.ahead(nu, h)[1], nu)
-
-    def _seen_from(self, R: Array, nu: Array) -> Array:
+    def seen_from(self, R: Array, nu: Array) -> Array:
+        """The twist nu (6,), in b of the received pose, in b of a pose R that it leads to."""
         v, omega = nu[:3], nu[3:]
         if not omega.any():
             return nu
@@ -109,9 +108,15 @@ class Shadow:
         return self.nu if self.drift is None else self.nu + self.drift
 
     @property
+    def met(self) -> Array:
+        """The twist (6,) that a contact has to stop: the mean over the step, when impulses are applied."""
+        return self.expected if self.later is None else self.expected + self.later
+
+    @property
     def centred(self) -> Array:
         """The twist (6,) by which energy is reckoned."""
-        return self.nu if self.off_centre is None else self.nu + self.off_centre
+        nu = self.nu if self.off_centre is None else self.nu + self.off_centre
+        return nu if self.later is None else nu + self.later
 
     def point(self, r_b: Array) -> Array:
         """Where the point r_b [m] (in b) is at the predicted pose, in n; (3,)."""
