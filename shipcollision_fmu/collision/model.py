@@ -281,7 +281,7 @@ class ShipCollision:
         answer = RESPONSES[parameters.response](
             Encounter(
                 answered, shadows, detector, self._kept, self._warm, self._bullets, parameters.friction,
-                0.0 if self._unforeseen(answered) else parameters.restitution, h,
+                parameters.restitution, h,
             )
         )  # fmt: skip
         for pair in answered:
@@ -293,12 +293,6 @@ class ShipCollision:
         impulses, scaled = passive(answer.impulses, shadows)
         self._scaled += scaled
         return impulses
-
-    def _unforeseen(self, pairs: Sequence[Pair]) -> bool:
-        """Whether a body of these will have turned and gone far before it takes its impulse (a log that spins, under a
-        parallel master): then nothing springs back, for it would spring to a side not known."""
-        met = {i for pair in pairs for i in pair if i in self._readings}
-        return any(self._readings[i].late and self._readings[i].restless for i in met)
 
     def _book(self, impulses: list[Impulse], shadows: list[Shadow], slots: list[Slot]) -> list[Slot]:
         """Impulses into both ships' twists and ledgers, the energy they cost, and the contact slots of the step."""
