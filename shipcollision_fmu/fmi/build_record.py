@@ -33,7 +33,7 @@ RECORD = "build.json"
 START = "start.json"
 """Name of the start values, in an FMU that has its own."""
 
-_LEFT_OUT = {"__pycache__", "cli.py", "cosim", "fmu_src", "models", "show"}
+_LEFT_OUT = {"__pycache__", "cli", "cosim", "fmu_src", "models", "show"}
 """Top-level parts of the package that no FMU needs; models are packed apart."""
 _DATA = ("hulls", "ships")
 """Folders under models/ that ships are made from."""

@@ -228,7 +228,7 @@ def test_the_digest_sees_every_file_and_its_name(tmp_path: Path) -> None:
     assert tree("other name", {"shipcollision_fmu/b.py": "1", "models/ships/x.toml": "2"}) != digest
     # As installed: ship data inside the package. And what no FMU carries does not count.
     assert tree("installed", {"shipcollision_fmu/a.py": "1", "shipcollision_fmu/models/ships/x.toml": "2"}) == digest
-    unseen = ("shipcollision_fmu/cli.py", "shipcollision_fmu/cosim/m.py", "shipcollision_fmu/__pycache__/a.pyc",
+    unseen = ("shipcollision_fmu/cli/m.py", "shipcollision_fmu/cosim/m.py", "shipcollision_fmu/__pycache__/a.pyc",
               "models/scenarios/s.toml", "shipcollision_fmu/fmu_src/S.py")  # fmt: skip
     assert tree("more", {**plain, **dict.fromkeys(unseen, "4")}) == digest
 

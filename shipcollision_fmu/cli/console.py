@@ -1,0 +1,49 @@
+"""What is written where: results to stdout, progress to stderr, both plain when not a terminal."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from time import monotonic
+
+import click
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
+
+__all__ = ["console", "progress"]
+
+PLAIN_WIDTH = 110
+"""Characters in a line when stdout is not a terminal: wide enough for every table here."""
+PLAIN_PAUSE = 2.0
+"""Time [s] between lines of progress when stderr is not a terminal: a short run prints none."""
+
+
+def console() -> Console:
+    """For tables on stdout."""
+    return Console() if sys.stdout.isatty() else Console(width=PLAIN_WIDTH)
+
+
+@contextmanager
+def progress(name: str) -> Iterator[Callable[[int, int], None]]:
+    """A bar on stderr; a line now and then when stderr is not a terminal."""
+    if not sys.stderr.isatty():
+        last = monotonic()
+
+        def tell(done: int, total: int) -> None:
+            nonlocal last
+            if monotonic() - last >= PLAIN_PAUSE:
+                last = monotonic()
+                click.echo(f"{name}: {done} of {total} steps", err=True)
+
+        yield tell
+        return
+    columns = (TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(name, total=None)
+
+        def show(done: int, total: int) -> None:
+            if done == total or done % max(1, total // 200) == 0:  # drawing costs more than stepping
+                bar.update(task, completed=done, total=total)
+
+        yield show

@@ -1,0 +1,89 @@
+"""`encounter` and `import`: scenarios made backwards from an impact, or from a traffic situation."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from .options import PATH
+
+__all__ = ["encounter", "import_"]
+
+
+@click.command()
+@click.argument("kind", metavar="TYPE")
+@click.option("--own", default="kvlcc2", show_default=True, metavar="SHIP", help="The ship that strikes.")
+@click.option("--target", default="kvlcc2", show_default=True, metavar="SHIP", help="The ship that is struck.")
+@click.option("--angle-deg", type=float, metavar="DEG", help="Between the headings: 0 overtaking, 180 head-on.")
+@click.option("--at", type=float, metavar="S", help="Place on the target: -0.5 stern, 0 amidships, 0.5 stem.")
+@click.option("--side", type=click.Choice(["starboard", "port"]), default="starboard", show_default=True)
+@click.option("--own-speed", type=float, metavar="M/S")
+@click.option("--target-speed", type=float, metavar="M/S")
+@click.option("--time", type=float, metavar="S", help="From the start to the impact.  [default: 60; imazu 1800]")
+@click.option("--after", type=float, metavar="S", help="From the impact to the end.  [default: 60; imazu 120]")
+@click.option("--before", type=float, metavar="S", help="Of the rudder order: late-evasive, loss-of-steering.")
+@click.option("--rudder-deg", type=float, metavar="DEG", help="That order, positive to starboard.")
+@click.option("--drift-speed", type=float, metavar="M/S", help="Of a drifting target.")
+@click.option("--drift-deg", type=float, metavar="DEG", help="Where she drifts, from her bow.  [default: 90]")
+@click.option("--case", type=int, metavar="N", help="Of imazu: 1 to 22.")
+@click.option("--hydrodynamics/--coasting", default=None, help="Sail the ships, or let them coast.  [default: by TYPE]")
+@click.option("--degrees-of-freedom", type=click.Choice(["3", "4", "6"]), help="Of all ships.  [default: 3]")
+@click.option("--step", type=float, default=0.05, show_default=True, metavar="S", help="Communication step.")
+@click.option("--name", help="Of the scenario.")
+@click.option("--out", type=PATH, metavar="FILE.toml", help="Store it; else it is printed.")
+def encounter(kind: str, out: Path | None, case: int | None, degrees_of_freedom: str | None, **options: Any) -> None:
+    """Make a scenario in which two ships collide as wanted.
+
+    TYPE is head-on, crossing, overtaking, glancing, t-bone, drifting-target, late-evasive, loss-of-steering, or imazu
+    with --case: one of the 22 cases of Imazu's problem, with one to three targets.
+    """
+    from ..cosim.encounters import encounter as made
+    from ..cosim.folder import check_writable, write_file
+    from ..cosim.imazu import imazu_with
+
+    directory = Path(".") if out is None else out.parent
+    options["degrees_of_freedom"] = None if degrees_of_freedom is None else int(degrees_of_freedom)
+    if kind == "imazu":
+        text = imazu_with(case, options, directory).text
+    else:
+        if case is not None:
+            raise click.UsageError("--case goes with TYPE imazu only")
+        text = made(kind, directory, **options).text
+    if out is None:
+        click.echo(text, nl=False)
+        return
+    check_writable(directory)
+    write_file(out, text)
+    click.echo(f"stored in {out}: run it with `shipcollision run {out}`")
+
+
+@click.command("import")
+@click.argument("file", type=PATH)
+@click.option("--ship", metavar="SHIP", help="Plays every ship.  [default: ships made from the file's dimensions]")
+@click.option("--own", metavar="SHIP", help="Plays own ship.")
+@click.option("--duration", type=float, metavar="S", help="[default: what own ship's route takes]")
+@click.option("--step", type=float, default=0.05, show_default=True, metavar="S", help="Communication step.")
+@click.option("--hydrodynamics", is_flag=True, help="Sail the ships along their waypoints; else they coast.")
+@click.option("--out", type=PATH, required=True, metavar="FILE.toml", help="Scenario to write.")
+def import_(
+    file: Path, ship: str | None, own: str | None, duration: float | None, step: float, hydrodynamics: bool, out: Path
+) -> None:
+    """Make a scenario of a traffic situation in JSON.
+
+    FILE is one of DNV's trafficgen or maritime-schema, version 0.1 or 0.2. Ships of which it gives the size only get a
+    ship file beside the scenario.
+    """
+    from ..cosim.folder import check_writable, write_files
+    from ..cosim.traffic import traffic_scenario
+
+    made = traffic_scenario(
+        file, out=out, ship=ship, own=own, duration=duration, step=step, hydrodynamics=hydrodynamics
+    )
+    check_writable(out.parent)
+    write_files(out.parent, {**made.ship_files, out.name: made.text})
+    for name in (*made.ship_files, out.name):
+        click.echo(out.parent / name)
+    for note in made.notes:
+        click.echo(f"note: {note}", err=True)

@@ -1,0 +1,83 @@
+"""`build`, `package` and `validate`: FMUs made, put together for other hosts, and checked."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from .mistakes import fail
+from .options import FMI, PATH
+
+__all__ = ["build", "package", "validate"]
+
+
+@click.command()
+@click.option("--out", type=PATH, default=Path("build"), show_default=True, help="Folder.")
+@click.option("--fmi", type=FMI, default="2", show_default=True, help="Version of FMI.")
+def build(out: Path, fmi: str) -> None:
+    """Build ShipCollision.fmu and ShipManoeuvring.fmu.
+
+    With --fmi 3 they are called ShipCollision.fmi3.fmu and ShipManoeuvring.fmi3.fmu, so that both versions may lie in
+    one folder. FMI 3.0 needs `pip install 'shipcollision-fmu[fmi3]'`.
+    """
+    from ..cosim.fmu_files import require_pybullet
+    from ..fmi.package import build_fmus
+
+    require_pybullet()
+    for path in build_fmus(out, fmi=int(fmi)).values():
+        click.echo(path)
+
+
+@click.command()
+@click.argument("scenario")
+@click.option("--ssp", is_flag=True, help="One .ssp file: System Structure and Parameterization 1.0.")
+@click.option("--osp", is_flag=True, help="A folder for the Open Simulation Platform.")
+@click.option("--out", type=PATH, metavar="FILE|FOLDER", help="[default: NAME.ssp or NAME-osp]")
+@click.option("--initial-orders", is_flag=True, help="Hold the orders of time 0, leave out what a helm does later.")
+def package(scenario: str, ssp: bool, osp: bool, out: Path | None, initial_orders: bool) -> None:
+    """Make a system of FMUs of SCENARIO for other hosts.
+
+    SCENARIO is a name that `shipcollision scenarios` lists, or the path of a TOML file. The package holds an FMU for
+    each ship and one for the collision, with the scenario's values as their start values. What a host cannot be told
+    in that way, such as a route, is refused, or left out and said so.
+    """
+    from ..cosim.osp import write_osp
+    from ..cosim.scenario import load_scenario
+    from ..cosim.ssp import write_ssp
+
+    if ssp == osp:
+        raise click.UsageError("say which one to make: --ssp or --osp")
+    loaded = load_scenario(scenario)
+    if ssp:
+        place = out if out is not None else Path(f"{loaded.name}.ssp")
+        if place.suffix != ".ssp":
+            raise click.UsageError(f"--out {place}: hosts know the file by its suffix; call it {place.name}.ssp")
+        left_out = write_ssp(loaded, place, initial_orders=initial_orders)
+    else:
+        place = out if out is not None else Path(f"{loaded.name}-osp")
+        left_out = write_osp(loaded, place, initial_orders=initial_orders)
+    for line in left_out:
+        click.echo(f"note: {line}", err=True)
+    click.echo(place)
+
+
+@click.command()
+@click.argument("fmu", type=PATH)
+@click.option("--no-calls", is_flag=True, help="Look at the file only; do not run the FMU's code.")
+@click.option("--ignore", multiple=True, metavar="CHECK", help="Leave out a check; may be given again.")
+def validate(fmu: Path, no_calls: bool, ignore: tuple[str, ...]) -> None:
+    """Check that FMU complies with FMI; exit status 1 when it does not.
+
+    FMU is any FMI 2.0 or 3.0 FMU. FMPy's validator is followed by checks of what it leaves out, and by calls that an
+    FMU must refuse; these run its code, in a process beside this one. Notes are good practice and do not count.
+    """
+    from ..cosim.compliance import findings
+
+    found = findings(fmu, calls=not no_calls, ignore=ignore)
+    for one in found:
+        click.echo(f"{fmu}: {'' if one.binding else 'note: '}{one}")
+    count = sum(one.binding for one in found)
+    if count:
+        fail(f"{fmu} has {count} problem{'s' if count > 1 else ''}", 1)
+    click.echo(f"{fmu}: no problem found")

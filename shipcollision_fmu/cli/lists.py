@@ -1,0 +1,40 @@
+"""`ships` and `scenarios`: what there is to run."""
+
+from __future__ import annotations
+
+import click
+from rich.markup import escape
+
+from .console import console
+
+__all__ = ["scenarios", "ships"]
+
+
+@click.command()
+def ships() -> None:
+    """List the shipped ships."""
+    from ..cosim.report import table
+    from ..ship.library import load_ship, ship_names
+
+    listed = table("name", "kind", ">L_pp [m]", ">B [m]", ">T [m]", ">mass [t]", "under way")
+    for name in ship_names():
+        ship = load_ship(name)
+        under_way = "coasts" if ship.manoeuvring is None else "manoeuvres"
+        sizes = (f"{ship.L_pp:g}", f"{ship.B:g}", f"{ship.T:g}", f"{ship.mass / 1e3:.0f}")
+        listed.add_row(name, escape(ship.kind), *sizes, under_way)
+    console().print(listed)
+
+
+@click.command()
+def scenarios() -> None:
+    """List the shipped scenarios."""
+    from ..cosim.report import table
+    from ..cosim.scenario import load_scenario, scenario_names
+
+    listed = table("name", "ships", ">duration [s]", ">step [s]", "description")
+    for name in scenario_names():
+        loaded = load_scenario(name)
+        header = loaded.scenario
+        who = ", ".join(f"{role}: {ship.ship}" for role, ship in loaded.ships.items())
+        listed.add_row(name, who, f"{header.duration:g}", f"{header.step:.6g}", escape(header.description))
+    console().print(listed)

@@ -1,0 +1,56 @@
+"""A mistake is one line on stderr, without a traceback, and an exit status."""
+
+from __future__ import annotations
+
+import os
+import sys
+from typing import Any, NoReturn
+
+import click
+
+from ..errors import ShipCollisionError
+
+__all__ = ["Commands", "fail"]
+
+_OURS = __name__.partition(".")[0]
+
+
+def fail(message: str, status: int) -> NoReturn:
+    """End with this line and this exit status."""
+    click.echo(f"error: {' '.join(message.split())}", err=True)
+    sys.exit(status)
+
+
+class Commands(click.Group):
+    """A group of commands that ends on every mistake with one line, and knows near misses."""
+
+    def main(self, *args: Any, **extra: Any) -> Any:
+        """As click's, but with all errors told in one way."""
+        try:
+            status: Any = super().main(*args, **{**extra, "standalone_mode": False})
+        except click.UsageError as error:
+            path = error.ctx.command_path if error.ctx is not None else "shipcollision"
+            fail(f"{error.format_message()} (see `{path} --help`)", error.exit_code)
+        except ShipCollisionError as error:
+            fail(str(error), error.exit_status)
+        except ModuleNotFoundError as error:
+            if (error.name or "").startswith(_OURS):
+                raise  # a fault of ours, not of the installation
+            fail(f"the package {error.name!r} is not installed: run `python -m pip install {error.name}`", 1)
+        except (click.Abort, KeyboardInterrupt):
+            fail("interrupted; nothing is written", 1)
+        except BrokenPipeError:  # `shipcollision run | head`
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            sys.exit(1)
+        sys.exit(status if isinstance(status, int) else 0)
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """As click's, with a suggestion for a name that is nearly right."""
+        names = self.list_commands(ctx)
+        if args[0] not in names and not args[0].startswith("-"):
+            from ..ship.refusal import suggestion
+
+            ctx.fail(f"unknown command {args[0]!r}:{suggestion(args[0], names)} known: {', '.join(names)}")
+        return super().resolve_command(ctx, args)

@@ -1,0 +1,116 @@
+"""`run` and `show`: a scenario co-simulated, and the finished run made visible."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from ..errors import ShipCollisionError
+from .console import console, progress
+from .mistakes import fail
+from .options import FMI, PATH
+
+__all__ = ["run", "show"]
+
+
+@click.command()
+@click.argument("scenario", default="guan2014")
+@click.option("--out", type=PATH, help="Folder of the results.  [default: runs/NAME]")
+@click.option("--algorithm", type=click.Choice(["gauss-seidel", "jacobi"]), help="Instead of the scenario's.")
+@click.option("--step", type=float, metavar="S", help="Communication step in seconds, instead of the scenario's.")
+@click.option("--in-process", is_flag=True, help="Drive the models without FMI; gives the same bits.")
+@click.option("--fmi", type=FMI, default="2", show_default=True, help="Version of the FMUs; gives the same bits.")
+@click.option("--page/--no-page", default=True, help="Write replay.html, which shows the run.  [default: --page]")
+def run(
+    scenario: str,
+    out: Path | None,
+    algorithm: str | None,
+    step: float | None,
+    in_process: bool,
+    fmi: str,
+    page: bool,
+) -> None:
+    """Co-simulate SCENARIO and store what happened.
+
+    SCENARIO is a name that `shipcollision scenarios` lists, or the path of a TOML file. Without one it is guan2014, the
+    published collision. The FMUs are built first when they are missing or older than the sources.
+    """
+    from ..cosim.fmu_files import require_pybullet
+    from ..cosim.report import lines, tables
+    from ..cosim.scenario import load_scenario
+    from ..cosim.simulate import simulate
+
+    if in_process and fmi != "2":
+        raise click.UsageError("--in-process runs without FMI: leave out --fmi")
+    require_pybullet()
+    loaded = load_scenario(scenario)
+    folder = out if out is not None else Path("runs") / loaded.name
+    with progress(loaded.name) as told:
+        finished = simulate(
+            loaded, algorithm=algorithm, step=step, in_process=in_process, fmi=int(fmi), out=folder, progress=told
+        )
+    _remove_pictures(folder)
+    stdout = console()
+    for table in tables(finished):
+        stdout.print(table)
+    for line in lines(finished):
+        click.echo(line)
+    click.echo(f"stored in {folder}")
+    if page:
+        _write_page(folder)
+
+
+@click.command()
+@click.argument("folder", metavar="DIR", type=PATH)
+@click.option("--open", "in_browser", is_flag=True, help="Open the page in the browser.")
+@click.option("--osg", is_flag=True, help="scene.osgt and camera.path, for OpenSceneGraph's osgviewer.")
+@click.option("--glb", is_flag=True, help="scene.glb, glTF for Blender, Unity, Unreal and viewers.")
+@click.option("--plots", is_flag=True, help="Figures for a report, PNG and SVG. Needs Matplotlib.")
+@click.option("--gif", is_flag=True, help="impact.gif, a film of the first contact. Needs Pillow.")
+@click.option("--mp4", is_flag=True, help="impact.mp4, the same. Needs Pillow and imageio-ffmpeg.")
+@click.option("--still", type=float, metavar="S", help="still.png, the picture at S seconds. Needs Pillow.")
+def show(
+    folder: Path, in_browser: bool, osg: bool, glb: bool, plots: bool, gif: bool, mp4: bool, still: float | None
+) -> None:
+    """Show the finished run in the folder DIR.
+
+    Without an option its page, replay.html, is written anew and what there is to see is listed. With options, what they
+    name is written into the folder.
+    """
+    import webbrowser
+
+    from ..show import outputs
+
+    scene = outputs.load_scene(folder)
+    asked = {"osg": osg, "glb": glb, "plots": plots, "gif": gif, "mp4": mp4, "still": still is not None}
+    kinds = [kind for kind, wanted in asked.items() if wanted]
+    for kind in kinds or ["page"]:
+        with progress(kind) as told:
+            made = outputs.made(kind, scene, folder, still, told)
+        for line in made:
+            click.echo(line)
+    if in_browser:
+        page = folder / outputs.PAGE if not kinds else outputs.page(scene, folder)
+        if not webbrowser.open(page.resolve().as_uri()):
+            fail(f"found no browser to open {page}: open it yourself", 1)
+    elif not kinds:
+        for line in outputs.listed(scene, folder):
+            click.echo(line)
+
+
+def _remove_pictures(folder: Path) -> None:
+    """What shows an earlier run in the same folder is of another run now."""
+    from ..show.outputs import remove
+
+    remove(folder)
+
+
+def _write_page(folder: Path) -> None:
+    """Write the page of a run and say where it is. The run is stored by now: if there is no page, that is said."""
+    from ..show.page import write_page
+
+    try:
+        click.echo(f"open {write_page(folder)} in a browser to see it")
+    except ShipCollisionError as error:
+        click.echo(f"no page: {error}", err=True)

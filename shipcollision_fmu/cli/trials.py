@@ -1,0 +1,66 @@
+"""`trial`: a standard manoeuvre of one ship."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from .console import console
+from .options import PATH
+
+__all__ = ["trial"]
+
+
+@click.command()
+@click.argument("ship")
+@click.argument("manoeuvre", type=click.Choice(["turning-circle", "zigzag", "crash-stop"]))
+@click.option("--rudder-deg", type=float, metavar="DEG", help="Rudder angle.  [default: 35, in a zigzag 10]")
+@click.option("--heading-deg", type=float, metavar="DEG", help="Of a zigzag.  [default: 10]")
+@click.option("--starboard/--port", default=True, help="Side of the first rudder.  [default: --starboard]")
+@click.option("--speed", type=float, metavar="M/S", help="Approach speed.  [default: the service speed]")
+@click.option(
+    "--rev-per-s", type=float, metavar="REV/S", help="Propeller on the approach.  [default: as the speed asks]"
+)
+@click.option("--degrees-of-freedom", type=click.Choice(["3", "4", "6"]), default="3", show_default=True)
+@click.option("--out", type=PATH, metavar="FILE.csv", help="Store the track.")
+def trial(
+    ship: str,
+    manoeuvre: str,
+    rudder_deg: float | None,
+    heading_deg: float | None,
+    starboard: bool,
+    speed: float | None,
+    rev_per_s: float | None,
+    degrees_of_freedom: str,
+    out: Path | None,
+) -> None:
+    """Sail a standard trial with SHIP and print its figures beside IMO's limits.
+
+    SHIP is a name that `shipcollision ships` lists, or the path of a TOML file. Limits: IMO resolution MSC.137(76), for
+    ships of 100 m and more. Distances are of midship, in lengths L.
+    """
+    from ..cosim.approach import approach
+    from ..cosim.folder import check_writable, write_file
+    from ..cosim.trial_report import figures, track_csv
+    from ..cosim.trials import crash_stop, turning_circle, zigzag
+
+    if manoeuvre != "zigzag" and heading_deg is not None:
+        raise click.UsageError("--heading-deg goes with a zigzag only")
+    if manoeuvre == "crash-stop" and rudder_deg is not None:
+        raise click.UsageError("--rudder-deg goes with a turning-circle or a zigzag: a crash-stop keeps it amidships")
+    start = approach(ship, speed=speed, rev_per_s=rev_per_s, degrees_of_freedom=int(degrees_of_freedom))
+    if out is not None:
+        check_writable(out.parent)
+    if manoeuvre == "turning-circle":
+        sailed = turning_circle(start, 35.0 if rudder_deg is None else rudder_deg, port=not starboard)
+    elif manoeuvre == "zigzag":
+        by, to = (10.0 if angle is None else angle for angle in (rudder_deg, heading_deg))
+        sailed = zigzag(start, by, to, port=not starboard)
+    else:
+        sailed = crash_stop(start)
+    if out is not None:
+        write_file(out, track_csv(sailed))
+    console().print(figures(start, sailed))
+    if out is not None:
+        click.echo(f"stored in {out}")
