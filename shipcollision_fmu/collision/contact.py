@@ -2,7 +2,7 @@
 
 The normal points from ship a to ship b; `gap` is negative in overlap; P acts on b and -P on a. Geometry is that of the
 instant of contact. The impulse is booked at `at`, one point in n for both ships, midway between where their two
-material points are at the received poses: so the two moments balance about any fixed point.
+material points are at the poses of application: so the two moments balance about any fixed point.
 
 Guan et al. 2014, equation (9), the contacts and where they act on either body: here G_a and G_b.
 """
@@ -51,7 +51,7 @@ def make_contact(a: int, b: int, shadows: Sequence[Shadow], point: Array, normal
     """Contact at `point` (in n, predicted poses) of ships a and b."""
     one, other = shadows[a], shadows[b]
     r_a, r_b = one.body(point), other.body(point)
-    at = 0.5 * (one.point_received(r_a) + other.point_received(r_b))
+    at = 0.5 * (one.point_applied(r_a) + other.point_applied(r_b))
     return Contact(a, b, point, normal, gap, r_a, r_b, at, one.jacobian(at), other.jacobian(at))
 
 
@@ -60,7 +60,7 @@ def contact_velocity(contact: Contact, shadows: Sequence[Shadow]) -> Array:
 
     It is the mean expected over the step, which is what a response has to stop; the ships' own is actual_velocity.
     """
-    v: Array = contact.G_b @ shadows[contact.b].met - contact.G_a @ shadows[contact.a].met
+    v: Array = contact.G_b @ shadows[contact.b].expected - contact.G_a @ shadows[contact.a].expected
     return v
 
 

@@ -18,11 +18,11 @@ well, as wrenches (linear, and angular about n's origin):
     delivered   what the ship took, at the poses at which it applied it
     owed        = meant - delivered - (pending, at the pose received now)
 
-What is owed goes out with the next impulse, and after a ship was seen to be late impulses are expressed for the pose
-that she will have by then. Linear and angular momentum are kept to rounding under either master, once all is applied.
-Not so for a body that turns, or moves as a share of its size, by more than FAR in a step, as a log that was run over or
-a buoy: what such a one is owed is written off, since by the next step it would come from a wrong side, and could add
-energy.
+What is owed goes out with the next impulse, and after a ship was seen to be late impulses are solved and booked for the
+pose that she will have by then (shadow.py). Linear and angular momentum are kept to rounding under either master, once
+all is applied. Not so for a body that turns, or moves as a share of its size, by more than FAR in a step, as a log that
+was run over or a buoy: what such a one is owed is written off, since by the next step it would come from a wrong side,
+and could add energy.
 """
 
 from __future__ import annotations
@@ -50,7 +50,8 @@ FAR = 0.1
 class Reading(NamedTuple):
     """A ship's books at the start of a step of H [s]. nu: twist (6,) with what is pending in it; pending: impulse (6,)
     in b that the ship will still apply, or that its velocity does not show; owed (6,) in b: what is missing of what was
-    meant; late: whether the ship applies an impulse after it has moved on; restless: it goes too far in a step."""
+    meant; late: whether the ship applies an impulse after it has moved on, None where that is not known yet; restless:
+    it goes too far in a step."""
 
     x: Array
     R: Array
@@ -59,7 +60,7 @@ class Reading(NamedTuple):
     delivered: Array
     pending: Array
     owed: Array
-    late: bool
+    late: bool | None
     restless: bool
 
 
@@ -76,7 +77,7 @@ class Books:
         self._x, self._R = np.zeros(3), np.eye(3)
         self._meant, self._delivered = np.zeros(6), np.zeros(6)
         self._size = np.zeros(2)  # of all that was given: linear, angular
-        self._late = False
+        self.late: bool | None = None  # whether the ship was seen to apply impulses a step later
 
     def is_quiet(self, feedback: str, applied: list[float]) -> bool:
         """Whether there is nothing to be read; `applied` as received."""
@@ -93,13 +94,13 @@ class Books:
             return Reading(x, R, nu, applied, self._delivered, pending, _NOTHING, False, False)
         if self.is_quiet(feedback, applied.tolist()):
             restless = _goes_far(nu, reach, H)
-            return Reading(x, R, nu, applied, self._delivered, _NOTHING, _NOTHING, self._late, restless)
+            return Reading(x, R, nu, applied, self._delivered, _NOTHING, _NOTHING, self.late, restless)
         taken, pending = applied - self._applied, self.issued - applied
         waits = bool(pending.any())
         if waits:
             nu = nu + M_inverse @ pending
         restless = _goes_far(nu, reach, H)
-        delivered, late = self._delivered, self._late
+        delivered, late = self._delivered, self.late
         if taken.any():
             delivered = delivered + _wrench(self._x, self._R, taken)
         if self.last.any():
@@ -112,12 +113,11 @@ class Books:
             return Reading(x, R, nu, applied, delivered, pending, _NOTHING, late, restless)
         return Reading(x, R, nu, applied, delivered, pending, _in_body(x, R, owed), late, restless)
 
-    def close(self, reading: Reading, J: Array, nu: Array, ahead: Callable[[], tuple[Array, Array]]) -> None:
-        """End a step in which contact gave J (6,), solved at the received pose. nu: twist with which the step began;
-        ahead: gives the pose (x, R) at which a late ship will apply what is issued now."""
-        x, R = reading.x, reading.R
+    def close(self, reading: Reading, J: Array, nu: Array, x: Array, R: Array) -> None:
+        """End a step in which contact gave J (6,), at the pose x, R at which the ship will apply what is issued now.
+        nu: twist with which the step began."""
         if reading.restless:
-            self._meant = reading.delivered + _wrench(x, R, reading.pending)
+            self._meant = reading.delivered + _wrench(reading.x, reading.R, reading.pending)
         struck, out = bool(J.any()), _NOTHING
         if struck:
             w = _wrench(x, R, J)
@@ -125,15 +125,16 @@ class Books:
             linear = hypot(*w[:3].tolist())
             self._size = self._size + [linear, hypot(*J[3:].tolist()) + hypot(*x.tolist()) * linear]
         if struck or reading.owed is not _NOTHING:
-            out = J + reading.owed
-            if reading.late and not reading.restless:
-                out = _in_body(*ahead(), _wrench(x, R, out))
+            owed = reading.owed
+            if owed is not _NOTHING and x is not reading.x:
+                owed = _in_body(x, R, _wrench(reading.x, reading.R, owed))
+            out = J + owed
             self.issued = self.issued + out
             self._echo = self.issued.tolist()
         self.last, self._nu = out, nu
         self.settled = out is _NOTHING and (reading.pending is _NOTHING or not reading.pending.any())
-        self._x, self._R, self._applied = x, R, reading.applied
-        self._delivered, self._late = reading.delivered, reading.late
+        self._x, self._R, self._applied = reading.x, reading.R, reading.applied
+        self._delivered, self.late = reading.delivered, reading.late
 
     # How a ship that does not echo shows what it has taken.
 
@@ -152,13 +153,13 @@ class Books:
 
     def get_state(self) -> dict[str, Any]:
         """All of it as plain data."""
-        return {name: getattr(self, name).tolist() for name in _ARRAYS} | {"late": self._late, "settled": self.settled}
+        return {name: getattr(self, name).tolist() for name in _ARRAYS} | {"late": self.late, "settled": self.settled}
 
     def set_state(self, state: dict[str, Any]) -> None:
         """Back to a state of get_state, exact to the bit."""
         for name in _ARRAYS:
             setattr(self, name, np.array(state[name]))
-        self._late, self.settled, self._echo = state["late"], state["settled"], list(state["issued"])
+        self.late, self.settled, self._echo = state["late"], state["settled"], list(state["issued"])
 
 
 _ARRAYS = ("issued", "last", "_nu", "_applied", "_x", "_R", "_meant", "_delivered", "_size")

@@ -14,9 +14,10 @@ A communication step [t, t + H]:
 Bodies are the ships in the order of the build, then the obstacles (obstacles.py), which are bodies with zero inverse
 mass and a fixed pose: wherever a ship has an index, so has an obstacle, beyond the ships.
 
-Impulses are solved and booked with the ships at their *received* poses, which is where a sequential master applies
-them: linear and angular momentum then balance to rounding, and the kinetic energy lost is that of the real ships. The
-predicted poses decide only whether, where and with which normal the hulls touch.
+Impulses are solved and booked with the ships at the poses at which they will be applied: those received under a
+sequential master, those of a step later under a parallel one. Linear and angular momentum then balance to rounding, and
+the kinetic energy lost is that of the real ships. The predicted poses decide only whether, where and with which normal
+the hulls touch.
 
 State before a step that fails stays as it was. The model knows nothing of FMI.
 """
@@ -24,7 +25,6 @@ State before a step that fails stays as it was. The model knows nothing of FMI.
 from __future__ import annotations
 
 from collections.abc import Container, Sequence
-from functools import partial
 from math import ceil
 from pathlib import Path
 from typing import Any
@@ -43,7 +43,6 @@ from .energy import energy_lost
 from .episodes import Episodes
 from .fender_books import FenderBooks
 from .fenders import Fender, in_series
-from .late import apply_late
 from .ledger import Books, Reading
 from .neighbours import Neighbours, Pair, room
 from .passive import passive
@@ -105,6 +104,7 @@ class ShipCollision:
         self._unconverged = self._scaled = 0
         self._residual, self._sweeps = 0.0, 0
         self._readings: dict[int, Reading] = {}
+        self._late = False  # whether ships apply impulses late, as far as is known: one that was never hit may, too
         shadows = [self._received(i, 0.0, 0.0) for i in range(n)] + self._walls
         candidates = self._neighbours.candidates(shadows, self.inputs.ships, 0.0)
         self._publish(0.0, 0.0, shadows, [], candidates)
@@ -152,6 +152,7 @@ class ShipCollision:
     def _read(self, t: float, H: float) -> tuple[list[Shadow], list[Pair]]:
         """Shadows of the bodies, of a ship that is quiet and far from all others a mere placeholder; candidates."""
         ships, feedback = self.inputs.ships, self.parameters.feedback
+        self._late = any(books.late for books in self._books)
         known = [
             None
             if self._seen[i] is None and self._books[i].is_quiet(feedback, state.impulse_applied)
@@ -181,10 +182,9 @@ class ShipCollision:
                 shadow.drift, shadow.off_centre = found.mean, found.off_centre
                 if reading.pending.any():  # a parallel master: what is issued now is applied to a ship that has gone on
                     shadow.nu = shadow.nu + found.gain
-        if reading.late:
-            x, R = shadow.ahead(reading.nu, H)
-            M_inverse = body.inverse_at(attitude_from_rotation(R).tolist())
-            apply_late(shadow, x, R, M_inverse, carried_over=not reading.restless)
+        if self._late if reading.late is None else reading.late:
+            x_then, R_then = shadow.ahead(reading.nu, H)
+            shadow.apply_at(x_then, R_then, body.inverse_at(attitude_from_rotation(R_then).tolist()))
         shadow.nu_received = shadow.nu
         self._readings[i] = reading
         return shadow
@@ -323,7 +323,7 @@ class ShipCollision:
                 out.force[:] = _NO_FORCE
                 continue
             books, reading = self._books[i], self._readings[i]
-            books.close(reading, shadow.issued, shadow.nu_received, partial(shadow.ahead, reading.nu, H))
+            books.close(reading, shadow.issued, shadow.nu_received, shadow.x_applied, shadow.R_applied)
             out.impulse[:] = books.issued.tolist()
             out.force[:] = (shadow.issued / H).tolist() if shadow.issued.any() else _NO_FORCE
             self._seen[i] = _seen(t - H, H, state) if i in colliding else None

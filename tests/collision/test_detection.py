@@ -123,9 +123,9 @@ def test_a_kept_normal_turns_with_the_hull_that_carries_it(detector: Detector) -
         assert c.gap == pytest.approx(-3.0, abs=1e-3)
 
 
-def test_contact_is_booked_at_one_point_between_the_received_places(detector: Detector) -> None:
+def test_contact_is_booked_at_one_point_between_the_places_of_application(detector: Detector) -> None:
     shadows = place(detector, box=shadow(0, 0), plumb=shadow(0.0, 114.99, heading=-EAST))
     for one in shadows[:2]:
-        one.x_received = one.x - [0.0, 0.1, 0.0]  # both moved 0.1 m east since the start of the step
+        one.x_applied = one.x - [0.0, 0.1, 0.0]  # both moved 0.1 m east since the start of the step
     for c in detector.contacts(0, 1, shadows, {}):
         np.testing.assert_allclose(c.at, c.point - [0.0, 0.1, 0.0], atol=1e-9)

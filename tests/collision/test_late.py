@@ -1,4 +1,4 @@
-"""Impulses that a ship takes one step late: identities of work, and a ship that springs to and fro for ever."""
+"""Impulses that a ship is known to take one step late: Galilei, the law of contact by then, energy kept for ever."""
 
 from __future__ import annotations
 
@@ -9,39 +9,85 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from shipcollision_fmu.collision.late import apply_late
 from shipcollision_fmu.collision.shadow import Shadow
 from shipcollision_fmu.ship.frames import rotation
-from tests.collision.conftest import BOX, World
+from tests.collision.conftest import BOX, NO_ADDED_MASS, World
 
 Make = Callable[..., str]
 MakeWorld = Callable[..., World]
 
-NUMBER = st.floats(-1.0, 1.0)
+SIX = st.lists(st.floats(-1.0, 1.0), min_size=6, max_size=6).map(np.array)
 
 
-SIX = st.lists(NUMBER, min_size=6, max_size=6).map(np.array)
-
-
-@given(SIX, SIX, SIX, SIX, st.booleans())
-def test_the_work_is_that_which_the_ship_will_do(
-    pose: np.ndarray, way: np.ndarray, nu: np.ndarray, J: np.ndarray, carried_over: bool
+@given(SIX, SIX, SIX)
+def test_the_twist_is_that_of_the_pose_at_which_she_takes_impulses(
+    pose: np.ndarray, way: np.ndarray, nu: np.ndarray
 ) -> None:
-    """J.(nu + d(nu)/2) where it is solved, J'.(nu' + d(nu')/2) where it is applied, worked out there in n."""
-    r_bg, M_inverse = np.array([3.0, 0.0, 1.0]), np.diag([1.0, 2.0, 3.0, 0.1, 0.2, 0.3])
+    """Velocity of CG and angular velocity constant in n; no matter where the hull is seen from."""
+    r_bg = np.array([3.0, 0.0, 1.0])
     shadow = Shadow.at(100.0 * pose[:3], pose[3:], nu, np.eye(6), r_bg)
-    x_0, R_0 = shadow.x_received, shadow.R_received
+    x_0, R_0 = shadow.x_applied, shadow.R_applied
     x, R = x_0 + way[:3], rotation(way[3:]) @ R_0
-    apply_late(shadow, x, R, M_inverse, carried_over=carried_over)
-    work = J @ (shadow.centred + 0.5 * shadow.M_inverse @ J)
+    shadow.apply_at(x, R, 2.0 * np.eye(6))
+    omega, v_g = R_0 @ nu[3:], R_0 @ (nu[:3] + np.cross(nu[3:], r_bg))
+    np.testing.assert_allclose(shadow.nu[3:], R.T @ omega, atol=1e-12)
+    np.testing.assert_allclose(shadow.nu[:3], R.T @ (v_g - np.cross(omega, R @ r_bg)), atol=1e-12)
+    np.testing.assert_allclose(shadow.jacobian(x + R @ r_bg) @ shadow.nu, v_g, atol=1e-12)  # of CG, by then
+    assert shadow.x is x_0  # contact is looked for from where she is now
+    assert shadow.R is R_0
 
-    omega, v_g = R_0 @ nu[3:], R_0 @ (nu[:3] + np.cross(nu[3:], r_bg))  # constant in n
-    nu_then = np.concatenate([R.T @ (v_g - np.cross(omega, R @ r_bg)), R.T @ omega])
-    taken = J
-    if carried_over:  # the same force and moment in n, about the ship's place by then
-        force = R_0 @ J[:3]
-        taken = np.concatenate([R.T @ force, R.T @ (R_0 @ J[3:] + np.cross(x_0 - x, force))])
-    assert work == pytest.approx(taken @ (nu_then + 0.5 * M_inverse @ taken), rel=1e-10, abs=1e-10)
+
+def late_impulse(world: MakeWorld, ship: str, V: tuple[float, float], e: float, H: float) -> tuple[World, np.ndarray]:
+    """The first impulse on the second of two turning ships that are known to be late, in n, and the world then. Both
+    ships have the velocity V [m/s] in n beside their own."""
+    start = [
+        {"position": [x, y, 0.0], "attitude": (0.0, 0.0, psi),
+         "nu": [*(rotation([0.0, 0.0, psi]).T @ np.array([u + V[0], v + V[1], 0.0])), 0.0, 0.0, r]}
+        for x, y, psi, u, v, r in ((0.0, 0.0, 0.0, 0.0, 0.0, 0.01), (20.0, -125.0, 1.3, 0.5, 3.0, -0.012))
+    ]  # fmt: skip
+    w = world([ship, ship], start, algorithm="jacobi", degrees_of_freedom=3, friction=0.3, restitution=e, substep=0.05)
+    for books in w.model._books:
+        books.late = True
+    while not (w.work and w.work[-1]):
+        w.step(H)
+        assert w.t < 20.0
+    _, R, J = w.increments[-1][1]
+    return w, R @ J[:3]
+
+
+@pytest.mark.parametrize("V", [(8.0, 0.0), (0.0, 8.0)])
+@pytest.mark.parametrize("e", [0.0, 1.0])
+def test_ships_that_go_on_together_feel_the_same(
+    make_ship: Make, world: MakeWorld, V: tuple[float, float], e: float
+) -> None:
+    """Galilei: without added mass a common velocity changes nothing but the places; with added mass too, at first."""
+    for added_mass in (NO_ADDED_MASS, "m_x = 0.05\nm_y = 0.9"):
+        ship = make_ship("ship", added_mass=added_mass)
+        at_rest, P = late_impulse(world, ship, (0.0, 0.0), e, 0.5)
+        on_the_way, P_V = late_impulse(world, ship, V, e, 0.5)
+        np.testing.assert_allclose(P_V, P, rtol=1e-10, atol=1e-10 * float(np.linalg.norm(P)))
+        assert on_the_way.work[-1] == pytest.approx(at_rest.work[-1], rel=1e-9)
+        assert on_the_way.nu[1][5] == pytest.approx(at_rest.nu[1][5], rel=1e-9)
+
+
+def test_a_corner_that_meets_a_wall_late_has_stopped_there(make_ship: Make, world: MakeWorld) -> None:
+    """Plastic, no friction, while she runs ahead at 8 m/s and turns: her corner does not approach the wall any more."""
+    box = make_ship("box", BOX, added_mass="m_x = 0.05\nm_y = 0.9")
+    start = [{"position": [0.0, 0.0, 0.0], "attitude": (0.0, 0.0, 0.05), "nu": [8.0, 2.0, 0.0, 0.0, 0.0, 0.01]},
+             {"position": [9000.0, 0.0, 0.0], "nu": [0.0] * 6}]  # fmt: skip
+    quay = '[quay]\nkind = "quay"\nshape = "box"\nlength = 6000.0\nbreadth = 20.0\nposition = [0.0, 60.0]'
+    w = world([box, box], start, algorithm="jacobi", degrees_of_freedom=3, friction=0.0, restitution=0.0,
+              obstacles=quay, substep=0.05)  # fmt: skip
+    w.model._books[1].late = True  # of the other ship: so this one will be late, too
+    corner = np.array([100.0, 15.0, 0.0])
+    while not (w.work and w.work[-1]):
+        R, nu = w.R[0], w.nu[0]
+        w.step(0.1)
+        assert w.t < 20.0
+    struck = nu + w.upright[0] @ w.increments[-1][0][2]
+    before, after = ((R @ (twist[:3] + np.cross(twist[3:], corner)))[1] for twist in (nu, struck))
+    assert before > 3.0
+    assert abs(after) <= 1e-12 * before
 
 
 WALLS = """
