@@ -27,8 +27,8 @@ no ship, and energy reckoned with it would be gained: so where it is below a qua
 and Euler, it counts as nil.
 
 What it costs: two poses per ship in contact, and one step of lag. A force that grows in a step lets the ship in by
-1/2 H^2 of its growth; when it falls the ship comes out by almost as much: under one that swings between nothing and twice its
-mean, in 3 s, a ship at the quay is 6 mm in after a minute of H = 0.1 s (tests/collision/test_quay.py).
+1/2 H^2 of its growth; when it falls the ship comes out by almost as much: under one that swings between nothing and
+twice its mean, in 3 s, a ship at the quay is 6 mm in after a minute of H = 0.1 s (tests/collision/test_quay.py).
 """
 
 from __future__ import annotations
