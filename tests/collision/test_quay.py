@@ -140,6 +140,17 @@ def test_however_a_ship_model_integrates_she_stays(
     assert b.model.outputs.energy[0] > 0.0
 
 
+@pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
+@pytest.mark.parametrize("inner_steps", [3, -5, 20])
+def test_nor_does_she_creep_if_her_model_takes_inner_steps(
+    berthed: MakeBerthed, algorithm: str, inner_steps: int
+) -> None:
+    """Semi-implicit Euler in n steps of H/n, explicit where n is negative: she moves by 1/2 + 1/(2 n) of the gain."""
+    b = berthed(algorithm, moves_by=0.5 + 0.5 / inner_steps)
+    places = b.run(60.0, 0.2)
+    assert abs(places[-1] - places[len(places) // 2]) < 1e-5
+
+
 def test_along_the_quay_friction_slows_her_down(berthed: MakeBerthed) -> None:
     """mu N per time: the deceleration is Coulomb's, she does not creep in, and it stays one collision."""
     b = berthed("gauss-seidel", speed=1.0)
