@@ -162,8 +162,6 @@ def floats(low: float, high: float) -> st.SearchStrategy[float]:
 
 
 SHARE = floats(0.0, 1.0)
-RESTITUTION = SHARE.map(lambda e: e if e >= 1e-7 else 0.0)
-"""Energetic restitution gives back e^2 of the work: below 1e-7 that is rounding, and comes out as e or as nothing."""
 SLOPE = floats(-0.7, 0.7)
 
 
@@ -198,7 +196,7 @@ def ships(draw: st.DrawFn, degrees_of_freedom: int) -> Ship:
 def impacts(
     draw: st.DrawFn,
     mu: st.SearchStrategy[float] = SHARE,
-    e: st.SearchStrategy[float] = RESTITUTION,
+    e: st.SearchStrategy[float] = SHARE,
     degrees_of_freedom: tuple[int, ...] = tuple(FREE),
     slope: st.SearchStrategy[float] = SLOPE,
 ) -> Impact:
