@@ -179,9 +179,9 @@ def friction_in_disc(W: Block, v_1: float, v_2: float, radius: float) -> tuple[f
     if held and hypot(P_1, P_2) <= radius:
         return P_1, P_2
     # |P(g)| falls with g; 1/|P(g)| is concave, so Newton's method from the left never overshoots.
-    if size > 1e18 * max(W.a_1, W.a_2) * radius:  # next to g, W_tt is nothing
-        return -v_1 / size * radius, -v_2 / size * radius
     g = max(0.0, size / radius - max(W.a_1, W.a_2), abs(v_1) / radius - W.a_1, abs(v_2) / radius - W.a_2)
+    if g > 1e18 * max(W.a_1, W.a_2):  # next to it W_tt is nothing
+        return -v_1 / size * radius, -v_2 / size * radius
     for _ in range(60):
         b_1, b_2 = W.a_1 + g, W.a_2 + g
         P_1, P_2 = -v_1 / b_1 if v_1 else 0.0, -v_2 / b_2 if v_2 else 0.0

@@ -2,7 +2,7 @@
 
 A communication step [t, t + H]:
 
-    read          check what came in; the books say what is pending (ledger.py); shadows at the received poses
+    read          check what came in; the books say what is pending (ledger.py); shadows of the ships
     find near     pairs whose hulls could touch within the step (neighbours.py); far pairs are never looked at
     for each substep of fixed length h:
         press     fenders that are compressed (fender_books.py), booked one by one
@@ -168,7 +168,8 @@ class ShipCollision:
         return shadows + self._walls, candidates
 
     def _received(self, i: int, t: float, H: float) -> Shadow:
-        """Shadow of a ship at the received pose, with what is pending, and expected of other forces, in its twist."""
+        """Shadow of a ship as received, with what is pending, and expected of other forces, in its twist; booked where
+        she will take impulses."""
         state, body, feedback = self.inputs.ships[i], self._bodies[i], self.parameters.feedback
         nu, x = np.array(state.velocity + state.rate), np.array(state.position)
         M_inverse = body.inverse_at(state.attitude)

@@ -52,7 +52,8 @@ RANK = 1e-9
 """Share of W_nn below which an impulse does not move the hulls along the normal: neither ship can give way."""
 
 FLAT = 1e-12
-"""Eigenvalues of W_tt below this share of W_nn are directions in which neither ship can move; friction does nothing."""
+"""Eigenvalues of W_tt below this share of W_nn are directions in which neither ship can move; friction does nothing.
+With a normal that slopes by less than 1e-6 where heave is held, up to mu 1e-6 of the approach is left by that."""
 
 MAX_STRETCHES = 10_000
 """Bound on the stretches of a turning slip. It is met only where two settled directions all but coincide; the slip then

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from math import pi
 
+from shipcollision_fmu.collision.checks import MAXIMUM_FRICTION
 from shipcollision_fmu.collision.ledger import FEEDBACKS
 from shipcollision_fmu.collision.model import ShipCollision
 from shipcollision_fmu.collision.ports import contact_slots
@@ -41,7 +42,10 @@ def table(ships: tuple[str, ...] = SHIPS) -> Table:
     return (
         *(line for i, name in enumerate(ships) for line in _ship(i, name)),
         *_contacts(contact_slots(len(ships))),
-        *_events(),
+        *_impact(),
+        *_energy(),
+        *_solver(),
+        *_clearance(),
         *_parameters(),
     )
 
@@ -167,8 +171,8 @@ def _contact(name: str, path: str, slots: int) -> Table:
     )  # fmt: skip
 
 
-def _events() -> Table:
-    """Collisions, energy and clearance."""
+def _impact() -> Table:
+    """The latest collision, and the scratch being drawn."""
     return (
         integer("output", "impact.count", "outputs.impact_count", "Collisions so far", minimum=0, depends_on=()),
         real("output", "impact.time", "s", "outputs.impact", 0, "Start of the latest collision", depends_on=()),
@@ -198,6 +202,12 @@ def _events() -> Table:
             "output", "scratch.id", "outputs.scratch_id",
             "Scratch being drawn, 0 when nothing touches", minimum=0, depends_on=(),
         ),
+    )  # fmt: skip
+
+
+def _energy() -> Table:
+    """What contact and fenders cost."""
+    return (
         real(
             "output", "energy.dissipated", "J", "outputs.energy", 0,
             "Kinetic energy lost to contact since the start", depends_on=(),
@@ -215,6 +225,12 @@ def _events() -> Table:
             "output", "fender.dissipated", "J", "outputs.fender", 1,
             "Kinetic energy lost in fenders since the start; not part of energy.*", depends_on=(),
         ),
+    )  # fmt: skip
+
+
+def _solver() -> Table:
+    """How well contact was solved."""
+    return (
         real(
             "output", "solver.residual", "1", "outputs.solver", 0,
             "By how much the law of contact was missed in this step, as a share of the approach speed", depends_on=(),
@@ -231,6 +247,12 @@ def _events() -> Table:
             "output", "solver.scaled", "outputs.solver_scaled",
             "Answers so far that were scaled back so as not to add energy", minimum=0, depends_on=(),
         ),
+    )  # fmt: skip
+
+
+def _clearance() -> Table:
+    """Who is nearest to whom."""
+    return (
         real(
             "output", "clearance", "m", "outputs.clearance", 0,
             "Least distance between hulls, and between hulls and obstacles, at most clearance_range",
@@ -252,7 +274,7 @@ def _parameters() -> Table:
     return (
         real(
             "parameter", "friction", "1", numbers, 0,
-            "Coulomb friction coefficient of the hulls", minimum=0.0, maximum=10.0,
+            "Coulomb friction coefficient of the hulls", minimum=0.0, maximum=MAXIMUM_FRICTION,
         ),
         real(
             "parameter", "restitution", "1", numbers, 1,

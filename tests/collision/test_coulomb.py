@@ -75,7 +75,12 @@ def test_it_is_the_impulse_along_the_path_where_the_slip_keeps_its_direction(slo
     np.testing.assert_allclose(solve_pgs(W, v, mu).P[0], path.P, rtol=0.0, atol=1e-9 * np.linalg.norm(path.P))
 
 
-@given(impacts(e=st.just(0.0), mu=st.just(0.0)), st.sampled_from([5e-324, 1e-310, 1e-200, 1e-30]))
-def test_friction_next_to_nothing_is_none(impact: Impact, mu: float) -> None:
-    without, P = (solve_pgs(impact.W, impact.v, friction).P for friction in (0.0, mu))
-    assert np.abs(P - without).max() <= 1e-12 * np.abs(without).max()
+@pytest.mark.parametrize("mu", [5e-324, 1e-320, 1e-310, 1e-30])
+def test_friction_next_to_nothing_is_none(mu: float) -> None:
+    """Any inertia: some of these are solved by the bracketed search, which divides by what friction may give."""
+    rng = np.random.default_rng(1)
+    for _ in range(100):
+        root, v = rng.normal(size=(3, 3)), rng.normal(size=3)
+        W, v[0] = root @ root.T / 1e8, -abs(v[0])
+        without, P = (solve_pgs(W, v, friction).P for friction in (0.0, mu))
+        assert np.abs(P - without).max() <= 1e-12 * np.abs(without).max()
