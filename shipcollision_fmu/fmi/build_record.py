@@ -33,8 +33,8 @@ RECORD = "build.json"
 START = "start.json"
 """Name of the start values, in an FMU that has its own."""
 
-_LEFT_OUT = {"__pycache__", "cli", "cosim", "fmu_src", "models", "show"}
-"""Top-level parts of the package that no FMU needs; models are packed apart."""
+_CARRIED = ("__init__.py", "collision", "errors.py", "fmi", "manoeuvring", "ship")
+"""Rooms and files of the package that travel in an FMU. Whatever is not named here stays at home."""
 _DATA = ("hulls", "ships")
 """Folders under models/ that ships are made from."""
 
@@ -81,7 +81,7 @@ def contents(package: Path) -> dict[str, Path]:
     models = package / "models" if (package / "models").is_dir() else package.parent / "models"
     found: dict[str, Path] = {}
     for root, top, folders in (
-        (package, package.name, [path for path in package.iterdir() if path.name not in _LEFT_OUT]),
+        (package, package.name, [package / name for name in _CARRIED]),
         (models, "models", [models / name for name in _DATA]),
     ):
         for folder in folders:

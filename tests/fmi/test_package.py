@@ -129,7 +129,9 @@ def test_what_is_in_an_fmu(built: dict[str, Path]) -> None:
             "resources/models/ships/kvlcc2.toml",
         ):
             assert wanted in names
-        assert not [n for n in names if re.search(r"__pycache__|\.pyc$|/cosim/|/cli/|/scenarios/|/fmu_src/", n)]
+        assert not [n for n in names if re.search(r"__pycache__|\.pyc$|/scenarios/|/fmu_src/", n)]
+        carried = {n.split("/")[2] for n in names if n.startswith("resources/shipcollision_fmu/")}
+        assert carried == {"__init__.py", "collision", "errors.py", "fmi", "manoeuvring", "ship"}
 
 
 def test_requirements_are_those_of_the_project() -> None:
@@ -221,14 +223,16 @@ def test_the_digest_sees_every_file_and_its_name(tmp_path: Path) -> None:
             (tmp_path / name / path).write_text(text)
         return build_record.contents_digest(package_directory)
 
-    plain = {"shipcollision_fmu/a.py": "1", "models/ships/x.toml": "2"}
+    plain = {"shipcollision_fmu/ship/a.py": "1", "models/ships/x.toml": "2"}
     digest = tree("plain", plain)
-    assert tree("other text", {**plain, "shipcollision_fmu/a.py": "3"}) != digest
+    assert tree("other text", {**plain, "shipcollision_fmu/ship/a.py": "3"}) != digest
     assert tree("other ship", {**plain, "models/ships/x.toml": "3"}) != digest
-    assert tree("other name", {"shipcollision_fmu/b.py": "1", "models/ships/x.toml": "2"}) != digest
+    assert tree("other name", {"shipcollision_fmu/ship/b.py": "1", "models/ships/x.toml": "2"}) != digest
     # As installed: ship data inside the package. And what no FMU carries does not count.
-    assert tree("installed", {"shipcollision_fmu/a.py": "1", "shipcollision_fmu/models/ships/x.toml": "2"}) == digest
-    unseen = ("shipcollision_fmu/cli/m.py", "shipcollision_fmu/cosim/m.py", "shipcollision_fmu/__pycache__/a.pyc",
+    assert (
+        tree("installed", {"shipcollision_fmu/ship/a.py": "1", "shipcollision_fmu/models/ships/x.toml": "2"}) == digest
+    )
+    unseen = ("shipcollision_fmu/m.py", "shipcollision_fmu/new_room/m.py", "shipcollision_fmu/ship/__pycache__/a.pyc",
               "models/scenarios/s.toml", "shipcollision_fmu/fmu_src/S.py")  # fmt: skip
     assert tree("more", {**plain, **dict.fromkeys(unseen, "4")}) == digest
 
