@@ -40,8 +40,8 @@ def encounter(kind: str, out: Path | None, case: int | None, degrees_of_freedom:
     with --case: one of the 22 cases of Imazu's problem, with one to three targets.
     """
     from ..cosim.encounters import encounter as made
-    from ..cosim.folder import check_writable, write_file
     from ..cosim.imazu import imazu_with
+    from ..files import check_writable, write_file
 
     directory = Path(".") if out is None else out.parent
     options["degrees_of_freedom"] = None if degrees_of_freedom is None else int(degrees_of_freedom)
@@ -75,8 +75,8 @@ def import_(
     FILE is one of DNV's trafficgen or maritime-schema, version 0.1 or 0.2. Ships of which it gives the size only get a
     ship file beside the scenario.
     """
-    from ..cosim.folder import check_writable, write_files
     from ..cosim.traffic import traffic_scenario
+    from ..files import check_writable, write_files
 
     made = traffic_scenario(
         file, out=out, ship=ship, own=own, duration=duration, step=step, hydrodynamics=hydrodynamics

@@ -41,9 +41,9 @@ def trial(
     ships of 100 m and more. Distances are of midship, in lengths L.
     """
     from ..cosim.approach import approach
-    from ..cosim.folder import check_writable, write_file
     from ..cosim.trial_report import figures, track_csv
     from ..cosim.trials import crash_stop, turning_circle, zigzag
+    from ..files import check_writable, write_file
 
     if manoeuvre != "zigzag" and heading_deg is not None:
         raise click.UsageError("--heading-deg goes with a zigzag only")

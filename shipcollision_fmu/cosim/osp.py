@@ -16,7 +16,7 @@ from pathlib import Path
 from xml.etree.ElementTree import Comment, Element, SubElement
 
 from ..errors import HostError
-from .folder import check_writable, write_files
+from ..files import check_writable, write_files
 from .osp_groups import NAMESPACE, group_pairs, model_description
 from .scenario import Scenario
 from .system_structure import COLLISION, Instance, SystemStructure, system_structure

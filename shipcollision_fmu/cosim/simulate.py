@@ -22,6 +22,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import ScenarioError
+from ..files import check_writable, write_files
 from ..fmi.interface import SHIPS, Interface
 from ..fmi.package import VERSIONS
 from ..fmi.ship_collision import INTERFACE as COLLISION
@@ -32,7 +33,6 @@ from .events import events
 from .fmi3_component import Fmi3Component
 from .fmu_component import FmuComponent, UnpackedFmu
 from .fmu_files import ready_fmus, require_pybullet
-from .folder import check_writable, write_files
 from .interrupt import held_back
 from .master import ALGORITHMS
 from .recorder import Record, Recorder

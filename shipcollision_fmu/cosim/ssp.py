@@ -18,8 +18,8 @@ from pathlib import Path
 from xml.etree.ElementTree import Element, SubElement
 
 from .. import __version__
+from ..files import check_writable, write_file
 from ..fmi.units import UNITS
-from .folder import check_writable, write_file
 from .scenario import Scenario
 from .system_structure import Instance, SystemStructure, system_structure
 from .uncarried import notes, refuse_orders

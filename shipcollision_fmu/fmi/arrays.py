@@ -12,7 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from math import prod
 
-from shipcollision_fmu.fmi.variables import Table, Variable
+from .variables import Table, Variable
 
 __all__ = ["TIME", "ArrayVariable", "Layout", "arrays"]
 

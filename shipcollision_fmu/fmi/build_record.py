@@ -21,7 +21,8 @@ from pathlib import Path
 from typing import Any
 
 import shipcollision_fmu
-from shipcollision_fmu.errors import HostError
+
+from ..errors import HostError
 
 __all__ = [
     "RECORD", "START", "BuildRecord", "confirmed", "contents", "contents_digest", "digest", "package_directory",
@@ -33,7 +34,7 @@ RECORD = "build.json"
 START = "start.json"
 """Name of the start values, in an FMU that has its own."""
 
-_CARRIED = ("__init__.py", "collision", "errors.py", "fmi", "manoeuvring", "ship")
+_CARRIED = ("__init__.py", "collision", "errors.py", "files.py", "fmi", "manoeuvring", "ship")
 """Rooms and files of the package that travel in an FMU. Whatever is not named here stays at home."""
 _DATA = ("hulls", "ships")
 """Folders under models/ that ships are made from."""

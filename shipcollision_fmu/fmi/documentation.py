@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from html import escape
 
-from shipcollision_fmu import __version__
-from shipcollision_fmu.fmi.arrays import ArrayVariable, arrays
-from shipcollision_fmu.fmi.interface import Interface
-from shipcollision_fmu.fmi.model_description_fmi3 import TYPES
-from shipcollision_fmu.fmi.variables import Variable
+from .. import __version__
+from .arrays import ArrayVariable, arrays
+from .interface import Interface
+from .model_description_fmi3 import TYPES
+from .variables import Variable
 
 __all__ = ["page"]
 

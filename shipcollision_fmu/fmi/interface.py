@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from shipcollision_fmu.fmi.ports import Model, Ports
-from shipcollision_fmu.fmi.variables import Table
+from .ports import Model, Ports
+from .variables import Table
 
 __all__ = ["SHIPS", "Interface"]
 

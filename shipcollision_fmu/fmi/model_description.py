@@ -13,11 +13,11 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
-from shipcollision_fmu import __version__
-from shipcollision_fmu.fmi.interface import Interface
-from shipcollision_fmu.fmi.ports import Ports
-from shipcollision_fmu.fmi.units import UNITS
-from shipcollision_fmu.fmi.variables import Table, Variable
+from .. import __version__
+from .interface import Interface
+from .ports import Ports
+from .units import UNITS
+from .variables import Table, Variable
 
 __all__ = [
     "LOG_CATEGORIES", "add_categories", "add_types", "add_units", "known", "limits", "model_description", "number",

@@ -14,12 +14,12 @@ from collections.abc import Mapping
 from typing import Any
 from xml.etree.ElementTree import Element, SubElement
 
-from shipcollision_fmu import __version__
-from shipcollision_fmu.fmi.arrays import TIME, ArrayVariable, arrays
-from shipcollision_fmu.fmi.interface import Interface
-from shipcollision_fmu.fmi.model_description import add_categories, add_types, add_units, known, limits, number, start
-from shipcollision_fmu.fmi.ports import Ports
-from shipcollision_fmu.fmi.variables import Kind, Table, Variable
+from .. import __version__
+from .arrays import TIME, ArrayVariable, arrays
+from .interface import Interface
+from .model_description import add_categories, add_types, add_units, known, limits, number, start
+from .ports import Ports
+from .variables import Kind, Table, Variable
 
 __all__ = ["TYPES", "model_description"]
 

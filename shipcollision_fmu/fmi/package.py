@@ -19,7 +19,6 @@ from __future__ import annotations
 
 import io
 import json
-import os
 import zipfile
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -31,14 +30,15 @@ from typing import Any
 from uuid import UUID
 from xml.etree.ElementTree import Element
 
-from shipcollision_fmu import __version__
-from shipcollision_fmu.errors import HostError, InputError
-from shipcollision_fmu.fmi import build_record
-from shipcollision_fmu.fmi.build_record import RECORD, START, BuildRecord, package_directory
-from shipcollision_fmu.fmi.documentation import page
-from shipcollision_fmu.fmi.interface import SHIPS, Interface
-from shipcollision_fmu.fmi.model_description import model_description, to_bytes
-from shipcollision_fmu.fmi.model_description_fmi3 import model_description as model_description_fmi3
+from .. import __version__
+from ..errors import HostError, InputError
+from ..files import write_files
+from . import build_record
+from .build_record import RECORD, START, BuildRecord, package_directory
+from .documentation import page
+from .interface import SHIPS, Interface
+from .model_description import model_description, to_bytes
+from .model_description_fmi3 import model_description as model_description_fmi3
 
 __all__ = [
     "FMUS", "REQUIREMENTS", "VERSIONS", "build_fmus", "fmu_bytes", "fmu_file", "fmus_current", "instance_fmu",
@@ -90,7 +90,8 @@ def build_fmus(out: str | Path, *, ships: tuple[str, ...] = SHIPS, fmi: int = 2)
     if fmi not in VERSIONS:
         raise InputError(f"fmi = {fmi!r} is not a version that FMUs can be built for: give one of 2, 3")
     built = {name: fmu_bytes(_interface(name), _slave(name, fmi).read_bytes(), ships, fmi) for name in FMUS}
-    return _write(Path(out), {fmu_file(name, fmi): data for name, data in built.items()})
+    write_files(Path(out), {fmu_file(name, fmi): data for name, data in built.items()})
+    return {name: Path(out) / fmu_file(name, fmi) for name in built}
 
 
 def fmus_current(directory: str | Path, *, ships: tuple[str, ...] = SHIPS, fmi: int = 2) -> bool:
@@ -247,25 +248,3 @@ def _zipped(files: Mapping[str, bytes]) -> bytes:
             entry.external_attr = (0o100755 if name.endswith(_BINARIES) else 0o100644) << 16
             archive.writestr(entry, data, compresslevel=9)
     return target.getvalue()
-
-
-def _write(out: Path, built: Mapping[str, bytes]) -> dict[str, Path]:
-    """All files, or none: each beside its place first, then moved there."""
-    waiting: dict[Path, Path] = {}
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-        for name, data in built.items():
-            path = out / name
-            aside = out / f".{name}.{os.getpid()}.tmp"
-            waiting[aside] = path
-            aside.write_bytes(data)
-        for aside, path in waiting.items():
-            aside.replace(path)
-    except OSError as error:
-        reason = error.strerror or error
-        raise HostError(f"the FMUs cannot be written to {out}: {reason}; give another folder with --out") from None
-    finally:
-        for aside in waiting:
-            if aside.exists():
-                aside.unlink()
-    return {path.name.split(".")[0]: path for path in waiting.values()}

@@ -18,8 +18,8 @@ from collections.abc import Callable, Mapping, Sequence
 from hashlib import sha256
 from typing import Any, Protocol
 
-from shipcollision_fmu.errors import InputError, ShipCollisionError, StepError
-from shipcollision_fmu.fmi.variables import Kind, Table, Variable
+from ..errors import InputError, ShipCollisionError, StepError
+from .variables import Kind, Table, Variable
 
 __all__ = ["Model", "Ports"]
 

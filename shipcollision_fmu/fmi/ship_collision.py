@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from math import pi
 
-from shipcollision_fmu.collision.checks import MAXIMUM_FRICTION
-from shipcollision_fmu.collision.ledger import FEEDBACKS
-from shipcollision_fmu.collision.model import ShipCollision
-from shipcollision_fmu.collision.ports import contact_slots
-from shipcollision_fmu.collision.responses import RESPONSES
-from shipcollision_fmu.fmi.interface import SHIPS, Interface
-from shipcollision_fmu.fmi.variables import (
+from ..collision.checks import MAXIMUM_FRICTION
+from ..collision.ledger import FEEDBACKS
+from ..collision.model import ShipCollision
+from ..collision.ports import contact_slots
+from ..collision.responses import RESPONSES
+from .interface import SHIPS, Interface
+from .variables import (
     ANGLES,
     FORCE,
     IMPULSE,

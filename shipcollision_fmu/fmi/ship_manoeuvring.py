@@ -6,8 +6,9 @@ names are those of the project's contract with other programs; renaming one is a
 
 from __future__ import annotations
 
-from shipcollision_fmu.fmi.interface import Interface
-from shipcollision_fmu.fmi.variables import (
+from ..manoeuvring.model import ShipManoeuvring
+from .interface import Interface
+from .variables import (
     ANGLES,
     FORCE,
     IMPULSE,
@@ -21,7 +22,6 @@ from shipcollision_fmu.fmi.variables import (
     vector,
     wrench,
 )
-from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
 
 __all__ = ["INTERFACE", "table"]
 

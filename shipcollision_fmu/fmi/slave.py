@@ -19,8 +19,8 @@ import pythonfmu
 from pythonfmu.enums import Fmi2Status
 from pythonfmu.fmi2slave import Fmi2Slave
 
-from shipcollision_fmu.fmi.model_description import LOG_CATEGORIES, model_description
-from shipcollision_fmu.fmi.slave_base import SlaveBase, keep
+from .model_description import LOG_CATEGORIES, model_description
+from .slave_base import SlaveBase, keep
 
 __all__ = ["ModelSlave"]
 

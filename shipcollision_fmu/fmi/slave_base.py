@@ -28,11 +28,11 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
-from shipcollision_fmu.errors import InputError, ShipCollisionError, StepError
-from shipcollision_fmu.fmi.build_record import confirmed, start_values
-from shipcollision_fmu.fmi.interface import SHIPS, Interface
-from shipcollision_fmu.fmi.ports import Ports
-from shipcollision_fmu.fmi.wrapper_library import let_go
+from ..errors import InputError, ShipCollisionError, StepError
+from .build_record import confirmed, start_values
+from .interface import SHIPS, Interface
+from .ports import Ports
+from .wrapper_library import let_go
 
 __all__ = ["STDERR", "SlaveBase", "keep", "state_from_bytes", "state_to_bytes"]
 

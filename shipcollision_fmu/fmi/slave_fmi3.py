@@ -22,12 +22,12 @@ import pythonfmu3
 from pythonfmu3.enums import Fmi3Status
 from pythonfmu3.fmi3slave import Fmi3Slave, Fmi3StepResult
 
-from shipcollision_fmu.errors import InputError
-from shipcollision_fmu.fmi.arrays import TIME, ArrayVariable, arrays
-from shipcollision_fmu.fmi.model_description import LOG_CATEGORIES
-from shipcollision_fmu.fmi.model_description_fmi3 import TYPES, model_description
-from shipcollision_fmu.fmi.slave_base import SlaveBase
-from shipcollision_fmu.fmi.variables import Kind
+from ..errors import InputError
+from .arrays import TIME, ArrayVariable, arrays
+from .model_description import LOG_CATEGORIES
+from .model_description_fmi3 import TYPES, model_description
+from .slave_base import SlaveBase
+from .variables import Kind
 
 __all__ = ["ModelSlave3"]
 

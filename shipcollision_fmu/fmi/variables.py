@@ -28,7 +28,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from shipcollision_fmu.fmi.units import UNITS
+from .units import UNITS
 
 __all__ = [
     "ANGLES", "FORCE", "IMPULSE", "LINEAR", "NED", "Array", "Causality", "Kind", "Table", "Variable", "boolean",

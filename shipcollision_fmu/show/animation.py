@@ -18,8 +18,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import InputError
+from ..files import IN_PLACE, write_file
 from .extras import require
-from .files import write
 from .film import Film
 from .palette import display, topsides
 from .scene import Scene
@@ -47,14 +47,14 @@ PALETTE_FRAMES = 12
 def write_gif(scene: Scene, folder: Path, progress: Progress | None = None) -> Path:
     """Write impact.gif into a folder; returns its path. Raises HostError, also without Pillow."""
     require("PIL", "a GIF")
-    return write(folder / "impact.gif", gif(scene, progress=progress))
+    return write_file(folder / "impact.gif", gif(scene, progress=progress), IN_PLACE)
 
 
 def write_mp4(scene: Scene, folder: Path, progress: Progress | None = None) -> Path:
     """Write impact.mp4 into a folder; returns its path. Raises HostError, also without Pillow or imageio-ffmpeg."""
     require("PIL", "an MP4")
     require("imageio_ffmpeg", "an MP4")
-    return write(folder / "impact.mp4", mp4(scene, progress=progress))
+    return write_file(folder / "impact.mp4", mp4(scene, progress=progress), IN_PLACE)
 
 
 def write_still(scene: Scene, folder: Path, time: float) -> Path:
@@ -63,7 +63,7 @@ def write_still(scene: Scene, folder: Path, time: float) -> Path:
     Raises InputError when the run does not have that time, HostError, also without Pillow.
     """
     require("PIL", "a still")
-    return write(folder / "still.png", still(scene, time))
+    return write_file(folder / "still.png", still(scene, time), IN_PLACE)
 
 
 def frame_times(scene: Scene) -> npt.NDArray[np.float64]:

@@ -20,10 +20,10 @@ from shlex import quote
 
 import numpy as np
 
+from ..files import IN_PLACE, write_file
 from ..ship.frames import SWAP, Array, quaternion, rotation
 from . import zup
 from .camera import camera_of
-from .files import write
 from .osg_effects import effect_items, sprite_files
 from .osgt import Item, Raw, document, number, numbers, quoted, vectors
 from .palette import Paint, display, paint_of
@@ -66,7 +66,7 @@ class OsgFiles:
 def write_osg(scene: Scene, folder: Path) -> list[Path]:
     """Write scene.osgt, camera.path and the sprite into a folder; returns the paths, scene.osgt last."""
     files = osg_files(scene).files
-    return [write(folder / name, content) for name, content in files.items()]
+    return [write_file(folder / name, content, IN_PLACE) for name, content in files.items()]
 
 
 def viewer_line(folder: Path) -> str:

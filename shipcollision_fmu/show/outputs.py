@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+from ..files import IN_PLACE, write_file
 from . import animation, osg
-from .files import write
 from .gltf import glb
 from .page import PAGE, replay_html
 from .plots import FOLDER, write_plots
@@ -27,7 +27,7 @@ _LISTED = {
 
 def page(scene: Scene, folder: Path) -> Path:
     """Write the page; returns its path."""
-    return write(folder / PAGE, replay_html(scene))
+    return write_file(folder / PAGE, replay_html(scene), IN_PLACE)
 
 
 def made(kind: str, scene: Scene, folder: Path, still: float | None, progress: Callable[[int, int], None]) -> list[str]:
@@ -38,7 +38,7 @@ def made(kind: str, scene: Scene, folder: Path, still: float | None, progress: C
     if kind == "page":
         return [str(page(scene, folder))]
     if kind == "glb":
-        return [str(write(folder / "scene.glb", glb(scene)))]
+        return [str(write_file(folder / "scene.glb", glb(scene), IN_PLACE))]
     if kind == "osg":
         paths = osg.write_osg(scene, folder)
         return [str(paths[-1]), "to see it (Debian: apt install openscenegraph):", f"  {osg.viewer_line(folder)}"]

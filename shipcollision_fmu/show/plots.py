@@ -20,9 +20,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..collision.clipping import convex_polygon
+from ..files import IN_PLACE, write_file
 from ..ship.frames import Array, rotation_from_quaternion
 from .extras import require
-from .files import write
 from .palette import topsides
 from .scene import Obstacle, Scene, Ship
 from .signals import Signal
@@ -57,7 +57,9 @@ def write_plots(scene: Scene, folder: Path) -> list[Path]:
     require("matplotlib", "a figure")
     paths = []
     for name, figure in drawn(scene).items():
-        paths += [write(folder / FOLDER / f"{name}.{kind}", saved(figure, kind)) for kind in ("png", "svg")]
+        paths += [
+            write_file(folder / FOLDER / f"{name}.{kind}", saved(figure, kind), IN_PLACE) for kind in ("png", "svg")
+        ]
     return paths
 
 

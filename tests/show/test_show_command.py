@@ -133,7 +133,7 @@ def test_what_cannot_be_written_is_said_and_leaves_nothing(run: Path) -> None:
     before = names(run)
     result = shown(run, "--glb")
     assert result.exit_code == 1
-    assert result.stderr.startswith(f"error: cannot write {run / 'scene.glb'}: ")
+    assert result.stderr.startswith(f"error: cannot write to {run / 'scene.glb'}: ")
     assert result.stderr.count("\n") == 1
     assert names(run) == before
 

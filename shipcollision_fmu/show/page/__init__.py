@@ -19,7 +19,7 @@ import numpy as np
 
 from ... import __version__
 from ...errors import HostError
-from ..files import write
+from ...files import IN_PLACE, write_file
 from ..gltf import extras, glb
 from ..palette import topsides
 from ..scene import Scene, Ship, load_scene
@@ -54,7 +54,7 @@ _TEMPLATE = """<!doctype html>
 
 def write_page(folder: Path) -> Path:
     """Write the page of the run in a folder into it; the page's path. Raises InputError, HostError."""
-    return write(folder / PAGE, replay_html(load_scene(folder)))
+    return write_file(folder / PAGE, replay_html(load_scene(folder)), IN_PLACE)
 
 
 def replay_html(scene: Scene) -> str:

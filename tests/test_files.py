@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from shipcollision_fmu.cosim.folder import check_writable, write_files
 from shipcollision_fmu.errors import HostError
+from shipcollision_fmu.files import check_writable, write_files
 
 FILES = {"one.csv": "1\n", "two.json": "{}\n"}
 

@@ -1,0 +1,73 @@
+"""Files written whole or not at all.
+
+They are written into a temporary folder on the same file system and then renamed into place, so that nobody ever reads
+half a file.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+
+from .errors import HostError
+
+__all__ = ["IN_PLACE", "check_writable", "write_file", "write_files"]
+
+ANOTHER_FOLDER = "give another folder with --out"
+"""Remedy where the caller chose the folder."""
+IN_PLACE = "make its folder writable, or room on the disk"
+"""Remedy where the folder is given."""
+
+
+def check_writable(out: Path) -> None:
+    """Raise HostError when `out` could not be written. Tries it, and leaves nothing behind."""
+    place = out
+    while not (place.exists() or place.is_symlink()):
+        place = place.parent
+    if not place.is_dir():
+        raise HostError(f"cannot write to {out}: {place} is not a folder; give another folder with --out")
+    try:
+        Path(tempfile.mkdtemp(prefix=".shipcollision-", dir=place)).rmdir()
+    except OSError as error:
+        raise _refused(out, error) from None
+
+
+def write_files(out: Path, files: Mapping[str, str | bytes], remedy: str = ANOTHER_FOLDER) -> None:
+    """Write files, text or bytes, by name into the folder `out`, making it if need be.
+
+    Files of the same names are replaced; others in the folder are left alone. Raises HostError, whose message ends with
+    `remedy`, when it cannot be done.
+    """
+    _write(out, files, out, remedy)
+
+
+def write_file(path: Path, content: str | bytes, remedy: str = ANOTHER_FOLDER) -> Path:
+    """Write one file as write_files does, and return its path. Raises HostError."""
+    if path.is_dir():
+        raise HostError(f"cannot write to {path}: it is a folder; give the name of a file with --out")
+    _write(path.parent, {path.name: content}, path, remedy)
+    return path
+
+
+def _write(out: Path, files: Mapping[str, str | bytes], named: Path, remedy: str) -> None:
+    made = [place for place in (out, *out.parents) if not place.exists()]
+    home = out if out.is_dir() else out.parent
+    try:
+        home.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryDirectory(prefix=".shipcollision-", dir=home) as aside:
+            for name, content in files.items():
+                data = content if isinstance(content, bytes) else content.encode()
+                Path(aside, name).write_bytes(data)
+            out.mkdir(exist_ok=True)
+            for name in files:
+                Path(aside, name).replace(out / name)
+    except OSError as error:
+        for place in made:
+            if place.is_dir() and not any(place.iterdir()):
+                place.rmdir()
+        raise _refused(named, error, remedy) from None
+
+
+def _refused(out: Path, error: OSError, remedy: str = ANOTHER_FOLDER) -> HostError:
+    return HostError(f"cannot write to {out}: {error.strerror or error}; {remedy}")
