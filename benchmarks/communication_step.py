@@ -23,11 +23,11 @@ from shipcollision_fmu import load_scenario
 from shipcollision_fmu.cosim.component import Buffer, Component, Group, Value
 from shipcollision_fmu.cosim.fmu_files import ready_fmus
 from shipcollision_fmu.cosim.report import table
-from shipcollision_fmu.cosim.scenario import Scenario
 from shipcollision_fmu.cosim.simulate import stepped, through_fmus
 from shipcollision_fmu.fmi.package import FMUS, fmu_bytes
 from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
+from shipcollision_fmu.scenario.scenario import Scenario
 
 ROUNDS = 3
 

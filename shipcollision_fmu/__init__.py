@@ -23,7 +23,7 @@ _HOME = {
     "build_fmus": "shipcollision_fmu.fmi.package",
     "encounter": "shipcollision_fmu.cosim.encounters",
     "imazu": "shipcollision_fmu.cosim.imazu",
-    "load_scenario": "shipcollision_fmu.cosim.scenario",
+    "load_scenario": "shipcollision_fmu.scenario.scenario",
     "load_ship": "shipcollision_fmu.ship.library",
     "simulate": "shipcollision_fmu.cosim.simulate",
     "traffic_scenario": "shipcollision_fmu.cosim.traffic",

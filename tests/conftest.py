@@ -1,8 +1,14 @@
-"""Settings of the whole suite."""
+"""Settings of the whole suite, and two barges that meet: the scenario that most tests run, in a folder of its own."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
 from hypothesis import settings
+
+from shipcollision_fmu.cosim import fmu_files
 
 # Examples vary in cost by orders of magnitude, and machines in speed: time is not what these tests are about.
 # The same examples every time, so that red means a change; `--hypothesis-profile=search` looks for new ones.
@@ -11,3 +17,77 @@ settings.register_profile("shipcollision", deadline=None, max_examples=25, deran
 settings.register_profile("thorough", deadline=None, max_examples=250, derandomize=True)
 settings.register_profile("search", deadline=None, max_examples=400)
 settings.load_profile("shipcollision")
+
+BARGE = """
+[ship]
+name = "Barge"
+kind = "barge"
+source = "made up for the tests"
+[particulars]
+L_pp = 100.0
+B = 20.0
+T = 5.0
+mass = 8.2e6
+r_bg = [2.0, 0.0, -1.0]
+[added_mass]
+m_x = 0.05
+m_y = 0.85
+m_z = 1.0
+j_x = 0.2
+j_y = 1.0
+j_z = 0.21
+[hull]
+shape = "box"
+depth = 8.0
+"""
+
+ENCOUNTER = """
+[scenario]
+name = "encounter"
+description = "own runs into target's side"
+duration = 3.0
+step = 0.05
+
+[ships.own]
+ship = "./barge.toml"
+position = [5.0, -64.0]
+heading_deg = 90.0
+speed = 4.0
+
+[ships.target]
+ship = "./barge.toml"
+position = [0.0, 0.0]
+heading_deg = 0.0
+speed = 1.0
+
+[collision]
+friction = 0.3
+"""
+
+Write = Callable[..., Path]
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _fmus_of_the_tests(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """The FMUs of these tests are built into a folder of their own, once."""
+    home = tmp_path_factory.mktemp("fmus")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(fmu_files, "fmu_directory", lambda ships=(): home / "-".join(ships))
+        yield
+
+
+@pytest.fixture
+def scenario_file(tmp_path: Path) -> Write:
+    """Writes the encounter with some of its text replaced and some added, and returns its path."""
+
+    def write(*replaced: tuple[str, str], added: str = "", barge: tuple[str, str] = ("", "")) -> Path:
+        text = ENCOUNTER
+        for old, new in replaced:
+            assert old in text, f"{old!r} is not in the encounter"
+            text = text.replace(old, new)
+        (tmp_path / "barge.toml").write_text(BARGE.replace(*barge) if barge[0] else BARGE, encoding="utf-8")
+        path = tmp_path / "encounter.toml"
+        path.write_text(text + added, encoding="utf-8")
+        return path
+
+    return write

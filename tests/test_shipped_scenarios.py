@@ -11,9 +11,9 @@ import pytest
 
 from shipcollision_fmu import load_scenario, simulate
 from shipcollision_fmu.collision.model import ShipCollision
-from shipcollision_fmu.cosim.scenario import Scenario, scenario_names
 from shipcollision_fmu.cosim.simulate import Run
 from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
+from shipcollision_fmu.scenario.scenario import Scenario, scenario_names
 from shipcollision_fmu.ship.frames import rotation
 from shipcollision_fmu.ship.free_motions import FREE
 from shipcollision_fmu.ship.library import load_ship

@@ -43,8 +43,8 @@ def package(scenario: str, ssp: bool, osp: bool, out: Path | None, initial_order
     in that way, such as a route, is refused, or left out and said so.
     """
     from ..cosim.osp import write_osp
-    from ..cosim.scenario import load_scenario
     from ..cosim.ssp import write_ssp
+    from ..scenario.scenario import load_scenario
 
     if ssp == osp:
         raise click.UsageError("say which one to make: --ssp or --osp")

@@ -29,7 +29,7 @@ def ships() -> None:
 def scenarios() -> None:
     """List the shipped scenarios."""
     from ..cosim.report import table
-    from ..cosim.scenario import load_scenario, scenario_names
+    from ..scenario.scenario import load_scenario, scenario_names
 
     listed = table("name", "ships", ">duration [s]", ">step [s]", "description")
     for name in scenario_names():

@@ -38,8 +38,8 @@ def run(
     """
     from ..cosim.fmu_files import require_pybullet
     from ..cosim.report import lines, tables
-    from ..cosim.scenario import load_scenario
     from ..cosim.simulate import simulate
+    from ..scenario.scenario import load_scenario
 
     if in_process and fmi != "2":
         raise click.UsageError("--in-process runs without FMI: leave out --fmi")

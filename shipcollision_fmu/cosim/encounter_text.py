@@ -7,9 +7,9 @@ from math import degrees
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from ..scenario.toml_writer import scenario_text
 from ..ship.frames import Array
 from ..ship.ship import Ship
-from .scenario_text import scenario_text
 from .touching import Place, Touch
 from .tracks import Mover, Pose
 from .wanted import Kind, Wanted, either, whole_steps

@@ -22,11 +22,11 @@ from typing import Any
 import numpy as np
 
 from ..errors import ScenarioError
+from ..scenario.scenario import Scenario, scenario_of
 from ..ship.hull import build_hull
 from ..ship.library import load_ship
 from .aim import BEST, Range, aimed, check_nothing_before
 from .encounter_text import Coming, Impact, encounter_text
-from .scenario import Scenario, scenario_of
 from .touching import common_deck, place, section, touches
 from .tracks import Mover, as_run, nearer, relative_velocity, steered, track, under_way
 from .wanted import Kind, Wanted, asked_for, checked, either, whole_steps

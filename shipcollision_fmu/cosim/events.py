@@ -29,11 +29,11 @@ import numpy.typing as npt
 
 from ..collision.damage import BOW, indicative_damage
 from ..collision.episodes import heading_angle
+from ..scenario.tables import DamageTable
 from ..ship.frames import Array, rotation, rotation_vector
 from ..ship.free_motions import free_inverse, tilted_inverse
 from ..ship.ship import Ship
 from .recorder import Impact, Record
-from .tables import DamageTable
 from .wiring import STATE, named
 
 __all__ = ["events"]

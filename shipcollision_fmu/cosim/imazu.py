@@ -20,11 +20,11 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ScenarioError
+from ..scenario.scenario import Scenario, scenario_of
+from ..scenario.toml_writer import scenario_text
 from ..ship.library import load_ship
 from .approach import self_propulsion
 from .encounter_text import ship_reference
-from .scenario import Scenario, scenario_of
-from .scenario_text import scenario_text
 from .wanted import FASTEST, whole_steps
 
 __all__ = ["COURSES", "KNOT", "SLOW", "Imazu", "imazu", "imazu_with"]

@@ -17,8 +17,8 @@ from xml.etree.ElementTree import Comment, Element, SubElement
 
 from ..errors import HostError
 from ..files import check_writable, write_files
+from ..scenario.scenario import Scenario
 from .osp_groups import NAMESPACE, group_pairs, model_description
-from .scenario import Scenario
 from .system_structure import COLLISION, Instance, SystemStructure, system_structure
 from .uncarried import notes, refuse_orders
 from .xml_file import xml_bytes, xml_value

@@ -10,8 +10,8 @@ from __future__ import annotations
 from pathlib import Path, PurePosixPath
 
 from ..errors import ShipError
+from ..scenario.toml_writer import scenario_text
 from ..ship.library import ship_content, ship_names
-from .scenario_text import scenario_text
 
 __all__ = ["FOLDER", "packed_ship"]
 

@@ -27,6 +27,7 @@ from ..fmi.interface import SHIPS, Interface
 from ..fmi.package import VERSIONS
 from ..fmi.ship_collision import INTERFACE as COLLISION
 from ..fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
+from ..scenario.scenario import Scenario, load_scenario
 from .bodies import bodies
 from .component import Component, InProcessComponent
 from .events import events
@@ -36,7 +37,6 @@ from .fmu_files import ready_fmus, require_pybullet
 from .interrupt import held_back
 from .master import ALGORITHMS
 from .recorder import Record, Recorder
-from .scenario import Scenario, load_scenario
 from .summary import summary
 from .wiring import MakeCollision, MakeShip, connected
 

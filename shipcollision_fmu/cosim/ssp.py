@@ -20,7 +20,7 @@ from xml.etree.ElementTree import Element, SubElement
 from .. import __version__
 from ..files import check_writable, write_file
 from ..fmi.units import UNITS
-from .scenario import Scenario
+from ..scenario.scenario import Scenario
 from .system_structure import Instance, SystemStructure, system_structure
 from .uncarried import notes, refuse_orders
 from .xml_file import xml_bytes, xml_value

@@ -29,12 +29,12 @@ import numpy as np
 
 from .. import __version__
 from ..collision.ports import CollisionParameters
+from ..scenario.scenario import Scenario
 from ..ship.frames import Array, rotation
 from ..ship.free_motions import level_axes
 from ..ship.ship import Ship
 from .recorder import Record
 from .reference import compared
-from .scenario import Scenario
 from .wiring import STATE
 
 __all__ = ["summary"]

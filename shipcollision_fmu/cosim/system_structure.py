@@ -24,10 +24,10 @@ from ..fmi.package import instance_fmu
 from ..fmi.ship_collision import INTERFACE as COLLISION_INTERFACE
 from ..fmi.ship_manoeuvring import INTERFACE as SHIP_INTERFACE
 from ..fmi.variables import Table, Variable
+from ..scenario.scenario import Scenario, order_table
+from ..scenario.tables import ShipStart
 from .component import Value
 from .packed_ship import packed_ship
-from .scenario import Scenario, order_table
-from .tables import ShipStart
 from .wiring import (
     ANSWERS,
     APPLIED,

@@ -15,10 +15,10 @@ import numpy as np
 
 from ..errors import ScenarioError
 from ..manoeuvring.model import ShipManoeuvring
+from ..scenario.scenario import Scenario, order_table
 from ..ship.frames import Array
 from ..ship.library import load_ship
 from .approach import self_propulsion
-from .scenario import Scenario, order_table
 
 __all__ = [
     "BEYOND", "Mover", "Order", "Pose", "as_run", "nearer", "relative_velocity", "steered", "track", "under_way",

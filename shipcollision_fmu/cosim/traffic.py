@@ -20,11 +20,11 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..errors import ScenarioError
+from ..scenario.scenario import load_scenario
+from ..scenario.toml_writer import scenario_text
 from ..ship.library import load_ship
 from .approach import self_propulsion
 from .encounter_text import ship_reference
-from .scenario import load_scenario
-from .scenario_text import scenario_text
 from .traffic_schema import Environment, Situation, TrafficShip, situation
 from .traffic_ships import State, ship_file_text, states_of
 from .wanted import whole_steps

@@ -14,10 +14,10 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ..errors import ScenarioError
+from ..scenario.tables import SHORTEST_LEG
+from ..scenario.toml_writer import scenario_text
 from ..ship.particulars import RHO_SEA
 from .imazu import KNOT
-from .scenario_text import scenario_text
-from .tables import SHORTEST_LEG
 from .tangent_plane import TangentPlane
 from .traffic_schema import Dimensions, Initial, Position, Static, TrafficShip
 

@@ -13,12 +13,12 @@ from dataclasses import dataclass, field
 from math import hypot, radians
 
 from ..collision.obstacles import obstacles_toml
+from ..scenario.scenario import Scenario, heading_table, order_table
+from ..scenario.tables import AutopilotTable, ShipStart
 from ..ship.library import load_ship
 from .component import Buffer, Component, Group, Value
 from .helm import Autopilot, Evasion, HelmState, Route, Seen, Steering, helmed
 from .master import System, Wire
-from .scenario import Scenario, heading_table, order_table
-from .tables import AutopilotTable, ShipStart
 
 __all__ = [
     "ANSWERS", "APPLIED", "IMPULSE", "ORDERS", "STATE", "SURROUNDINGS", "Helm", "MakeCollision", "MakeShip",

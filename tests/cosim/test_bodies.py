@@ -9,8 +9,7 @@ import numpy as np
 
 from shipcollision_fmu import load_scenario, simulate
 from shipcollision_fmu.ship.hull import build_hull
-
-from .conftest import Write
+from tests.conftest import Write
 
 QUAY = """
 [obstacles.quay]

@@ -18,10 +18,9 @@ import pytest
 from shipcollision_fmu.cosim.component import Component
 from shipcollision_fmu.cosim.fmu_component import FmuComponent, UnpackedFmu
 from shipcollision_fmu.cosim.fmu_files import ready_fmus
-from shipcollision_fmu.cosim.scenario import load_scenario
 from shipcollision_fmu.cosim.simulate import simulate
-
-from .conftest import BARGE, Write
+from shipcollision_fmu.scenario.scenario import load_scenario
+from tests.conftest import BARGE, Write
 
 H = 0.05
 VISIT = 45

@@ -11,11 +11,10 @@ import pytest
 
 import shipcollision_fmu.cosim
 from shipcollision_fmu.collision.damage import bow_crush, minorsky_volume
-from shipcollision_fmu.cosim.scenario import load_scenario
 from shipcollision_fmu.cosim.simulate import simulate
 from shipcollision_fmu.errors import ScenarioError
-
-from .conftest import Write
+from shipcollision_fmu.scenario.scenario import load_scenario
+from tests.conftest import Write
 
 SCHEMA = json.loads((Path(shipcollision_fmu.cosim.__file__).parent / "events.schema.json").read_text(encoding="utf-8"))
 ASKED = ("friction = 0.3", "friction = 0.3\ndamage = {t_eq = 0.1, half_angle_deg = 30.0, shells = [[4.0, 0.01]]}")

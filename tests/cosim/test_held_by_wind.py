@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from shipcollision_fmu.cosim.scenario import load_scenario
 from shipcollision_fmu.cosim.simulate import simulate
+from shipcollision_fmu.scenario.scenario import load_scenario
 
 SCENARIO = """
 [scenario]

@@ -24,8 +24,7 @@ from shipcollision_fmu.cosim.helm import (
 )
 from shipcollision_fmu.cosim.simulate import Run
 from shipcollision_fmu.errors import ScenarioError
-
-from .conftest import BARGE, Write
+from tests.conftest import BARGE, Write
 
 PILOT = Autopilot(gain=1.5, rate_gain=60.0, integral_gain=0.01, rudder_limit=radians(20))
 ROUTE = Route((0.0, 0.0), ((1000.0, 0.0), (1000.0, 1000.0)), lookahead=200.0, acceptance=100.0)

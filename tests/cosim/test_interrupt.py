@@ -10,8 +10,7 @@ import pytest
 from shipcollision_fmu import load_scenario, simulate
 from shipcollision_fmu.collision.model import ShipCollision
 from shipcollision_fmu.cosim.interrupt import held_back
-
-from .conftest import Write
+from tests.conftest import Write
 
 
 @pytest.mark.parametrize("in_process", [True, False])

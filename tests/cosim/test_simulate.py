@@ -19,8 +19,7 @@ from shipcollision_fmu.cosim.simulate import Run
 from shipcollision_fmu.errors import HostError, ScenarioError, StepError
 from shipcollision_fmu.ship.frames import rotation
 from shipcollision_fmu.ship.free_motions import free_inverse
-
-from .conftest import Write
+from tests.conftest import Write
 
 BOTH = pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
 LINEAR, ANGLES = ("surge", "sway", "heave"), ("roll", "pitch", "yaw")

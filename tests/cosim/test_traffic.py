@@ -13,10 +13,10 @@ import pytest
 
 from shipcollision_fmu import load_scenario, simulate
 from shipcollision_fmu.cosim.imazu import KNOT
-from shipcollision_fmu.cosim.scenario import Scenario
 from shipcollision_fmu.cosim.tangent_plane import TangentPlane
 from shipcollision_fmu.cosim.traffic import Imported, traffic_scenario
 from shipcollision_fmu.errors import ScenarioError
+from shipcollision_fmu.scenario.scenario import Scenario
 
 HERE = Path(__file__).parent / "situations"
 OLD, NEW = HERE / "version_0_1.json", HERE / "version_0_2.json"

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from shipcollision_fmu.cosim.scenario import load_scenario
 from shipcollision_fmu.cosim.simulate import simulate
+from shipcollision_fmu.scenario.scenario import load_scenario
 
 SCENARIO = """
 [scenario]

@@ -7,7 +7,6 @@ import math
 import pytest
 
 from shipcollision_fmu.cosim.component import InProcessComponent
-from shipcollision_fmu.cosim.scenario import load_scenario
 from shipcollision_fmu.cosim.simulate import stepped
 from shipcollision_fmu.errors import InputError
 from shipcollision_fmu.fmi.interface import Interface
@@ -15,6 +14,7 @@ from shipcollision_fmu.fmi.ports import Ports
 from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
 from shipcollision_fmu.fmi.variables import Variable
+from shipcollision_fmu.scenario.scenario import load_scenario
 
 LIMITED = [
     (made_from, line, limit, outward)

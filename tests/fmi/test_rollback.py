@@ -19,10 +19,10 @@ from shipcollision_fmu.cosim.component import Component
 from shipcollision_fmu.cosim.fmi3_component import Fmi3Component
 from shipcollision_fmu.cosim.fmu_component import FmuComponent, UnpackedFmu
 from shipcollision_fmu.cosim.master import System, gauss_seidel, jacobi
-from shipcollision_fmu.cosim.scenario import load_scenario
 from shipcollision_fmu.cosim.wiring import connected
 from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
+from shipcollision_fmu.scenario.scenario import load_scenario
 
 H = 0.05
 STEPS = 40

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from shipcollision_fmu.cosim.encounters import encounter
-from shipcollision_fmu.cosim.scenario import load_scenario, scenario_of
+from shipcollision_fmu.scenario.scenario import load_scenario, scenario_of
 
 from .encounter import Encounter, Rows
 

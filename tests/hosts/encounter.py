@@ -15,11 +15,11 @@ import numpy.typing as npt
 
 from shipcollision_fmu.cosim.master import jacobi
 from shipcollision_fmu.cosim.osp import write_osp
-from shipcollision_fmu.cosim.scenario import Scenario
 from shipcollision_fmu.cosim.simulate import as_models
 from shipcollision_fmu.cosim.ssp import write_ssp
 from shipcollision_fmu.cosim.system_structure import system_structure
 from shipcollision_fmu.cosim.wiring import APPLIED, IMPULSE, STATE, connected, named
+from shipcollision_fmu.scenario.scenario import Scenario
 
 MASTERS = Path(__file__).with_name("masters.py")
 Rows = npt.NDArray[np.float64]

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from shipcollision_fmu.cosim.scenario import Scenario, load_scenario, scenario_of
+from shipcollision_fmu.scenario.scenario import Scenario, load_scenario, scenario_of
 from shipcollision_fmu.ship.library import models_directory
 
 from .encounter import Encounter, Rows, run_master

@@ -9,8 +9,8 @@ import pytest
 
 from shipcollision_fmu import load_scenario, simulate
 from shipcollision_fmu.cosim.reference import state_at, world_state
-from shipcollision_fmu.cosim.scenario import Scenario
 from shipcollision_fmu.cosim.simulate import Run
+from shipcollision_fmu.scenario.scenario import Scenario
 from shipcollision_fmu.ship.frames import swapped
 
 BEFORE = {  # as printed, but for row r, shifted by one column in print, and own y, 5 m too large in print

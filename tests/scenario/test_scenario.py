@@ -8,12 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from shipcollision_fmu.cosim.scenario import load_scenario, order_table, scenario_names
-from shipcollision_fmu.cosim.tables import Header, Order, ShipStart
 from shipcollision_fmu.errors import ScenarioError
+from shipcollision_fmu.scenario.scenario import load_scenario, order_table, scenario_names
+from shipcollision_fmu.scenario.tables import Header, Order, ShipStart
 from shipcollision_fmu.ship.frames import rotation
-
-from .conftest import Write
+from tests.conftest import Write
 
 OWN = 'ship = "./barge.toml"\nposition = [5.0, -64.0]'
 MANOEUVRES = (OWN, 'ship = "kvlcc2"\nhydrodynamics = true\nposition = [5.0, -640.0]')

@@ -18,7 +18,7 @@ from ..ship.library import load_ship, models_directory
 from ..ship.refusal import one_line, suggestion
 from ..ship.ship import Ship
 from ..ship.toml import parsed, read_toml
-from .apart import refuse_overlap
+from .initial_overlap import refuse_overlap
 from .tables import Algorithm, Collision, Environment, Header, Reference, ShipStart, Table
 
 __all__ = [
