@@ -21,12 +21,12 @@ __version__ = "0.1.0"
 _HOME = {
     "ShipCollisionError": "shipcollision_fmu.errors",
     "build_fmus": "shipcollision_fmu.fmi.package",
-    "encounter": "shipcollision_fmu.cosim.encounters",
-    "imazu": "shipcollision_fmu.cosim.imazu",
+    "encounter": "shipcollision_fmu.encounters.encounter",
+    "imazu": "shipcollision_fmu.encounters.imazu",
     "load_scenario": "shipcollision_fmu.scenario.scenario",
     "load_ship": "shipcollision_fmu.ship.library",
     "simulate": "shipcollision_fmu.cosim.simulate",
-    "traffic_scenario": "shipcollision_fmu.cosim.traffic",
+    "traffic_scenario": "shipcollision_fmu.encounters.traffic.situation",
 }
 
 __all__ = [

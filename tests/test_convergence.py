@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from shipcollision_fmu import load_scenario, load_ship, simulate
-from shipcollision_fmu.cosim.wiring import STATE
+from shipcollision_fmu.fmi.names import STATE
 from shipcollision_fmu.scenario.scenario import scenario_names
 
 pytestmark = pytest.mark.slow

@@ -17,7 +17,7 @@ from fmpy import extract
 import shipcollision_fmu
 from shipcollision_fmu.cosim.osp import write_osp
 from shipcollision_fmu.cosim.simulate import simulate
-from shipcollision_fmu.cosim.wiring import STATE, named
+from shipcollision_fmu.fmi.names import STATE, named
 from shipcollision_fmu.scenario.scenario import load_scenario
 
 EXAMPLES = Path(shipcollision_fmu.__file__).resolve().parent.parent / "examples"

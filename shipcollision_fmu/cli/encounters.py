@@ -39,8 +39,8 @@ def encounter(kind: str, out: Path | None, case: int | None, degrees_of_freedom:
     TYPE is head-on, crossing, overtaking, glancing, t-bone, drifting-target, late-evasive, loss-of-steering, or imazu
     with --case: one of the 22 cases of Imazu's problem, with one to three targets.
     """
-    from ..cosim.encounters import encounter as made
-    from ..cosim.imazu import imazu_with
+    from ..encounters.encounter import encounter as made
+    from ..encounters.imazu import imazu_with
     from ..files import check_writable, write_file
 
     directory = Path(".") if out is None else out.parent
@@ -75,7 +75,7 @@ def import_(
     FILE is one of DNV's trafficgen or maritime-schema, version 0.1 or 0.2. Ships of which it gives the size only get a
     ship file beside the scenario.
     """
-    from ..cosim.traffic import traffic_scenario
+    from ..encounters.traffic.situation import traffic_scenario
     from ..files import check_writable, write_files
 
     made = traffic_scenario(

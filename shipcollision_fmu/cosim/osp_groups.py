@@ -17,10 +17,10 @@ from typing import Literal
 from xml.etree.ElementTree import Element, SubElement
 
 from ..collision.ports import contact_slots
+from ..fmi.names import IMPULSE, ORDERS, SURROUNDINGS, named
 from ..fmi.ship_collision import INTERFACE as COLLISION_INTERFACE
 from ..fmi.ship_manoeuvring import INTERFACE as SHIP_INTERFACE
 from ..fmi.variables import ANGLES, LINEAR, NED, Table
-from .wiring import IMPULSE, ORDERS, SURROUNDINGS, named
 
 __all__ = ["KINDS", "Group", "collision_groups", "group_pairs", "model_description", "ship_groups"]
 

@@ -10,7 +10,7 @@ from rich.box import SIMPLE_HEAD
 from rich.table import Table
 from rich.text import Text
 
-from .wiring import named
+from ..fmi.names import named
 
 if TYPE_CHECKING:
     from .simulate import Run

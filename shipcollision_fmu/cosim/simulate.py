@@ -27,17 +27,18 @@ from ..fmi.interface import SHIPS, Interface
 from ..fmi.package import VERSIONS
 from ..fmi.ship_collision import INTERFACE as COLLISION
 from ..fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
+from ..results.bodies import bodies
+from ..results.events import events
+from ..results.record import Record
+from ..results.summary import summary
 from ..scenario.scenario import Scenario, load_scenario
-from .bodies import bodies
 from .component import Component, InProcessComponent
-from .events import events
 from .fmi3_component import Fmi3Component
 from .fmu_component import FmuComponent, UnpackedFmu
 from .fmu_files import ready_fmus, require_pybullet
 from .interrupt import held_back
 from .master import ALGORITHMS
-from .recorder import Record, Recorder
-from .summary import summary
+from .recorder import Recorder
 from .wiring import MakeCollision, MakeShip, connected
 
 __all__ = ["Factories", "Progress", "Run", "as_models", "simulate", "stepped", "through_fmus"]

@@ -20,6 +20,7 @@ from math import isclose
 
 from ..errors import ScenarioError
 from ..fmi.interface import Interface
+from ..fmi.names import ANSWERS, APPLIED, ORDERS, STATE, SURROUNDINGS, named
 from ..fmi.package import instance_fmu
 from ..fmi.ship_collision import INTERFACE as COLLISION_INTERFACE
 from ..fmi.ship_manoeuvring import INTERFACE as SHIP_INTERFACE
@@ -28,17 +29,7 @@ from ..scenario.scenario import Scenario, order_table
 from ..scenario.tables import ShipStart
 from .component import Value
 from .packed_ship import packed_ship
-from .wiring import (
-    ANSWERS,
-    APPLIED,
-    ORDERS,
-    STATE,
-    SURROUNDINGS,
-    collision_parameters,
-    named,
-    ship_parameters,
-    surroundings,
-)
+from .wiring import collision_parameters, ship_parameters, surroundings
 
 __all__ = ["COLLISION", "Connection", "Instance", "SystemStructure", "TimedOrder", "number", "system_structure"]
 

@@ -8,11 +8,12 @@ ship      force, moment                                    <-  S.force, S.moment
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from math import hypot, radians
 
 from ..collision.obstacles import obstacles_toml
+from ..fmi.names import ANSWERS, APPLIED, ORDERS, STATE, SURROUNDINGS, named
 from ..scenario.scenario import Scenario, heading_table, order_table
 from ..scenario.tables import AutopilotTable, ShipStart
 from ..ship.library import load_ship
@@ -21,38 +22,18 @@ from .helm import Autopilot, Evasion, HelmState, Route, Seen, Steering, helmed
 from .master import System, Wire
 
 __all__ = [
-    "ANSWERS", "APPLIED", "IMPULSE", "ORDERS", "STATE", "SURROUNDINGS", "Helm", "MakeCollision", "MakeShip",
-    "collision_parameters", "connected", "named", "ship_parameters", "surroundings",
+    "Helm", "MakeCollision", "MakeShip", "collision_parameters", "connected", "ship_parameters", "surroundings",
 ]  # fmt: skip
 
 MakeShip = Callable[[str], Component]
 MakeCollision = Callable[[], Component]
 
-_NED, _LINEAR, _ANGLES = ("north", "east", "down"), ("surge", "sway", "heave"), ("roll", "pitch", "yaw")
-
-
-def named(group: str, components: Sequence[str]) -> tuple[str, ...]:
-    """('position', ('north', ...)) -> ('position.north', ...)."""
-    return tuple(f"{group}.{component}" for component in components)
-
-
-STATE = (
-    *named("position", _NED), *named("attitude", _ANGLES), *named("velocity", _LINEAR), *named("rate", _ANGLES),
-)  # fmt: skip
-"""The 12 states of a ship, in the order of states.csv."""
-IMPULSE = named("impulse", (*_LINEAR, *_ANGLES))
-"""Cumulative impulse in b about CO [N s, N m s]."""
-APPLIED = named("impulse_applied", (*_LINEAR, *_ANGLES))
-_FORCE = (*named("force", _LINEAR), *named("moment", _ANGLES))
-ANSWERS: dict[str, tuple[str, ...]] = {"ledger": IMPULSE, "force": _FORCE, "none": ()}
-ORDERS = ("rudder_order", "propeller_order")
 RATE_GAIN = 2.0
 """K_d / K_p of an autopilot whose file gives none, in lengths sailed: about what a tanker takes to answer her helm."""
 LOOKAHEAD, ACCEPTANCE = 2.5, 2.0
 """Of a route whose file gives none, in lengths: shorter, and a tanker snakes about her track."""
 SLOWEST_STEERAGE = 0.1
 """[m^(1/2)/s] Speed / sqrt(L_pp) below which the default rate gain no longer grows: some 2 m/s for a tanker."""
-SURROUNDINGS = ("current.north", "current.east", "wind.speed", "wind.direction")
 
 
 @dataclass

@@ -26,16 +26,12 @@ import numpy.typing as npt
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from ..errors import InputError
+from ..fmi.names import STATE
 from ..ship.frames import Array
 
-__all__ = ["FILES", "STATE", "Bodies", "Events", "RunFolder", "read_run_folder"]
+__all__ = ["FILES", "Bodies", "Events", "RunFolder", "read_run_folder"]
 
 FILES = ("states.csv", "contacts.csv", "signals.csv", "events.json", "bodies.json", "summary.json")
-STATE = (
-    "position.north", "position.east", "position.down", "attitude.roll", "attitude.pitch", "attitude.yaw",
-    "velocity.surge", "velocity.sway", "velocity.heave", "rate.roll", "rate.pitch", "rate.yaw",
-)  # fmt: skip
-"""Columns of states.csv per ship, after "NAME."."""
 SIGNALS = ("clearance", "energy.dissipated")
 CONTACT_NUMBERS = ("time", "scratch", "impulse_normal", "impulse_tangential", "energy")
 REMEDY = "give a folder that `shipcollision run` has stored a run in, or run the scenario again"

@@ -23,11 +23,12 @@ from typing import Literal
 
 import numpy as np
 
+from ..fmi.names import STATE
 from ..ship.frames import Array
 from .effects import Effect, effects_of
 from .fittings import Fitting, fittings_of
 from .resample import kept
-from .run_folder import STATE, CollisionEvent, RunFolder, ShipBody, read_run_folder
+from .run_folder import CollisionEvent, RunFolder, ShipBody, read_run_folder
 from .scratches import Scratch, scratches_of
 from .signals import Signals, signals_of
 from .surface import Surface, solid_triangles

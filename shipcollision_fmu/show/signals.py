@@ -15,9 +15,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..fmi.names import STATE
 from ..ship.frames import Array
 from .resample import kept
-from .run_folder import STATE, RunFolder
+from .run_folder import RunFolder
 
 __all__ = ["CURVE_ERROR", "Signal", "Signals", "signals_of"]
 

@@ -46,7 +46,7 @@ def test_a_ship_runs_into_a_quay_through_the_fmus_and_in_process(scenario_file: 
     assert (collision["ship_a"], collision["ship_b"]) == ("own", "quay")
     assert collision["delta_v"]["quay"] == [0.0, 0.0, 0.0]
     assert collision["closing_speed"] == pytest.approx(4.0)
-    schema = Path(__file__).parents[2] / "shipcollision_fmu/cosim/events.schema.json"
+    schema = Path(__file__).parents[2] / "shipcollision_fmu/results/events.schema.json"
     jsonschema.validate(events, json.loads(schema.read_text()))
     # 1.05 m v: all of it went into the quay, and momentum of the ships is not claimed to be kept.
     assert summary["obstacles"]["quay"]["kind"] == "quay"

@@ -95,7 +95,7 @@ def test_there_is_a_row_per_communication_point(scenario_file: Write) -> None:
 def test_events_fit_their_schema_and_the_run(scenario_file: Write, tmp_path: Path) -> None:
     run = ran(scenario_file(), out=tmp_path / "run")
     stored = json.loads((tmp_path / "run" / "events.json").read_text())
-    validate(stored, json.loads(files("shipcollision_fmu.cosim").joinpath("events.schema.json").read_text()))
+    validate(stored, json.loads(files("shipcollision_fmu.results").joinpath("events.schema.json").read_text()))
     (collision,) = stored["collisions"]
     assert (collision["ship_a"], collision["ship_b"]) == ("own", "target")
     assert collision["start"] == pytest.approx(1.0, abs=0.05)  # 4 m of water at 4 m/s

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from shipcollision_fmu.cosim.encounters import encounter
+from shipcollision_fmu.encounters.encounter import encounter
 from shipcollision_fmu.scenario.scenario import load_scenario, scenario_of
 
 from .encounter import Encounter, Rows

@@ -18,7 +18,8 @@ from shipcollision_fmu.cosim.osp import write_osp
 from shipcollision_fmu.cosim.simulate import as_models
 from shipcollision_fmu.cosim.ssp import write_ssp
 from shipcollision_fmu.cosim.system_structure import system_structure
-from shipcollision_fmu.cosim.wiring import APPLIED, IMPULSE, STATE, connected, named
+from shipcollision_fmu.cosim.wiring import connected
+from shipcollision_fmu.fmi.names import APPLIED, IMPULSE, STATE, named
 from shipcollision_fmu.scenario.scenario import Scenario
 
 MASTERS = Path(__file__).with_name("masters.py")

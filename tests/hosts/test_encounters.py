@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from shipcollision_fmu.cosim.wiring import APPLIED, IMPULSE, STATE, named
+from shipcollision_fmu.fmi.names import APPLIED, IMPULSE, STATE, named
 from shipcollision_fmu.ship.frames import rotation
 
 from .conftest import NAMES

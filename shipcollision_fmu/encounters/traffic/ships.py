@@ -13,13 +13,13 @@ from math import atan2, cos, hypot, radians, sin
 from pathlib import Path
 from typing import NamedTuple
 
-from ..errors import ScenarioError
-from ..scenario.tables import SHORTEST_LEG
-from ..scenario.toml_writer import scenario_text
-from ..ship.particulars import RHO_SEA
-from .imazu import KNOT
+from ...errors import ScenarioError
+from ...scenario.tables import SHORTEST_LEG
+from ...scenario.toml_writer import scenario_text
+from ...ship.particulars import RHO_SEA
+from ..imazu import KNOT
+from .schema import Dimensions, Initial, Position, Static, TrafficShip
 from .tangent_plane import TangentPlane
-from .traffic_schema import Dimensions, Initial, Position, Static, TrafficShip
 
 __all__ = ["State", "ship_file_text", "states_of"]
 

@@ -13,12 +13,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..cosim.approach import self_propulsion
 from ..errors import ScenarioError
 from ..manoeuvring.model import ShipManoeuvring
 from ..scenario.scenario import Scenario, order_table
 from ..ship.frames import Array
 from ..ship.library import load_ship
-from .approach import self_propulsion
 
 __all__ = [
     "BEYOND", "Mover", "Order", "Pose", "as_run", "nearer", "relative_velocity", "steered", "track", "under_way",

@@ -16,8 +16,8 @@ import numpy as np
 import pytest
 
 from shipcollision_fmu import load_scenario, simulate
-from shipcollision_fmu.cosim.encounters import Encounter, encounter
-from shipcollision_fmu.cosim.wanted import KINDS, Wanted
+from shipcollision_fmu.encounters.encounter import Encounter, encounter
+from shipcollision_fmu.encounters.request import KINDS, Wanted
 from shipcollision_fmu.errors import ScenarioError, ShipError
 
 TOLERANCE = 0.5

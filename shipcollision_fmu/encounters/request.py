@@ -14,7 +14,7 @@ from typing import Any
 
 from ..errors import ScenarioError
 from ..ship.refusal import suggestion
-from .touching import Side
+from .plan_contact import Side
 
 __all__ = ["FASTEST", "KINDS", "Kind", "Wanted", "asked_for", "checked", "either", "whole_steps"]
 

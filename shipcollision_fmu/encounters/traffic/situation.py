@@ -1,6 +1,6 @@
 """Traffic situations of DNV's trafficgen and maritime-schema (JSON), made into a scenario file.
 
-    ships                 to position, heading and velocity (traffic_ships.py)
+    ships                 to position, heading and velocity (ships.py)
     length, width         to a ship file of that size when no ship is named
     waypoints             the route of a ship that sails with hydrodynamics
     sog of the legs       orders of revolutions to her engine, at the times at which the legs begin as planned
@@ -19,15 +19,15 @@ from math import cos, degrees, inf, isclose, sin
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..errors import ScenarioError
-from ..scenario.scenario import load_scenario
-from ..scenario.toml_writer import scenario_text
-from ..ship.library import load_ship
-from .approach import self_propulsion
-from .encounter_text import ship_reference
-from .traffic_schema import Environment, Situation, TrafficShip, situation
-from .traffic_ships import State, ship_file_text, states_of
-from .wanted import whole_steps
+from ...cosim.approach import self_propulsion
+from ...errors import ScenarioError
+from ...scenario.scenario import load_scenario
+from ...scenario.toml_writer import scenario_text
+from ...ship.library import load_ship
+from ..encounter_file import ship_reference
+from ..request import whole_steps
+from .schema import Environment, Situation, TrafficShip, situation
+from .ships import State, ship_file_text, states_of
 
 __all__ = ["Imported", "traffic_scenario"]
 

@@ -13,7 +13,7 @@ from math import atan2, cos, radians, sin, sqrt
 
 import numpy as np
 
-from ..ship.frames import Array
+from ...ship.frames import Array
 
 __all__ = ["TangentPlane"]
 

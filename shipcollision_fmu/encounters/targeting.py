@@ -4,7 +4,7 @@ The place of an impact is the middle of what touches first (impact.north ... of 
 that is the corner. Where two sides meet nearly parallel, within some centimetres of each other over metres, it is the
 middle of the line, and a ship aimed with a corner of that line at the place would be found to strike beside it. A ship
 that heels meets with her deck edge elsewhere than an upright one. So the aim starts from the sections in plan
-(touching.py), and is corrected by what the collision model finds when the last steps before the impact are given to it.
+(plan_contact.py), and is corrected by what the collision model finds when it is given the last steps before the impact.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ import numpy as np
 from ..collision.model import ShipCollision
 from ..errors import ScenarioError
 from ..ship.frames import Array, rotation, rotation_vector
-from .touching import gap, moved
-from .tracks import BEYOND, Mover, Pose, nearer
-from .wanted import FASTEST
+from .approach_track import BEYOND, Mover, Pose, nearer
+from .plan_contact import gap, moved
+from .request import FASTEST
 
 __all__ = ["HALF_A_SUBSTEP", "OVERLAP", "Found", "Range", "aimed", "check_nothing_before"]
 

@@ -14,8 +14,8 @@ from typing import Annotated
 
 from pydantic import AliasChoices, BaseModel, ConfigDict, Field, ValidationError
 
-from ..errors import ScenarioError
-from ..ship.refusal import one_line
+from ...errors import ScenarioError
+from ...ship.refusal import one_line
 
 __all__ = [
     "Dimensions", "Environment", "Initial", "Leg", "Position", "Situation", "Static", "TrafficShip", "Waypoint",

@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 
 from shipcollision_fmu import load_scenario, simulate
-from shipcollision_fmu.cosim.imazu import KNOT
-from shipcollision_fmu.cosim.tangent_plane import TangentPlane
-from shipcollision_fmu.cosim.traffic import Imported, traffic_scenario
+from shipcollision_fmu.encounters.imazu import KNOT
+from shipcollision_fmu.encounters.traffic.situation import Imported, traffic_scenario
+from shipcollision_fmu.encounters.traffic.tangent_plane import TangentPlane
 from shipcollision_fmu.errors import ScenarioError
 from shipcollision_fmu.scenario.scenario import Scenario
 

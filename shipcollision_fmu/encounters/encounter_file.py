@@ -10,9 +10,9 @@ from typing import Any, NamedTuple
 from ..scenario.toml_writer import scenario_text
 from ..ship.frames import Array
 from ..ship.ship import Ship
-from .touching import Place, Touch
-from .tracks import Mover, Pose
-from .wanted import Kind, Wanted, either, whole_steps
+from .approach_track import Mover, Pose
+from .plan_contact import Place, Touch
+from .request import Kind, Wanted, either, whole_steps
 
 __all__ = ["Coming", "Impact", "encounter_text", "ship_reference"]
 

@@ -19,13 +19,13 @@ from math import cos, isfinite, radians, sin
 from pathlib import Path
 from typing import Any
 
+from ..cosim.approach import self_propulsion
 from ..errors import ScenarioError
 from ..scenario.scenario import Scenario, scenario_of
 from ..scenario.toml_writer import scenario_text
 from ..ship.library import load_ship
-from .approach import self_propulsion
-from .encounter_text import ship_reference
-from .wanted import FASTEST, whole_steps
+from .encounter_file import ship_reference
+from .request import FASTEST, whole_steps
 
 __all__ = ["COURSES", "KNOT", "SLOW", "Imazu", "imazu", "imazu_with"]
 

@@ -1,11 +1,11 @@
 """Encounters that do collide, made backwards from the impact that is wanted.
 
-    wanted.py     what can be asked for: type, angle, place, speeds, what comes before
-    touching.py   at the impact: the struck ship "target" with a heading, on her section the place; "own" with her bow
-                  to it, her heading turned by the angle
-    tracks.py     before it: coasting ships come in a straight line, ships under way are sailed with the model itself
-    aim.py        the collision model is given the last steps; what it finds beside the place is corrected
-    check         the hulls close there, and touch nowhere before
+    request             what can be asked for: type, angle, place, speeds, what comes before
+    plan_contact        at the impact: the struck ship "target" with a heading, on her section the place; "own" with
+                        her bow to it, her heading turned by the angle
+    approach_track      before it: coasting ships come in a straight line, ships under way are sailed with the model
+    targeting           the collision model is given the last steps; what it finds beside the place is corrected
+    check               the hulls close there, and touch nowhere before
 
 The result is a scenario file like any other. What cannot meet is refused.
 """
@@ -25,11 +25,11 @@ from ..errors import ScenarioError
 from ..scenario.scenario import Scenario, scenario_of
 from ..ship.hull import build_hull
 from ..ship.library import load_ship
-from .aim import BEST, Range, aimed, check_nothing_before
-from .encounter_text import Coming, Impact, encounter_text
-from .touching import common_deck, place, section, touches
-from .tracks import Mover, as_run, nearer, relative_velocity, steered, track, under_way
-from .wanted import Kind, Wanted, asked_for, checked, either, whole_steps
+from .approach_track import Mover, as_run, nearer, relative_velocity, steered, track, under_way
+from .encounter_file import Coming, Impact, encounter_text
+from .plan_contact import common_deck, place, section, touches
+from .request import Kind, Wanted, asked_for, checked, either, whole_steps
+from .targeting import BEST, Range, aimed, check_nothing_before
 
 __all__ = ["Encounter", "encounter"]
 

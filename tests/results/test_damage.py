@@ -6,7 +6,8 @@ from math import pi, radians
 
 import pytest
 
-from shipcollision_fmu.collision.damage import (
+from shipcollision_fmu.errors import InputError
+from shipcollision_fmu.results.damage import (
     bow_crush,
     bow_force,
     crush_duration,
@@ -15,7 +16,6 @@ from shipcollision_fmu.collision.damage import (
     wedge_penetration,
     woisin_volume,
 )
-from shipcollision_fmu.errors import InputError
 
 
 def test_minorskys_constants_are_his_own_in_si() -> None:

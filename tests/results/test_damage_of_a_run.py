@@ -10,13 +10,17 @@ import jsonschema
 import pytest
 
 import shipcollision_fmu.cosim
-from shipcollision_fmu.collision.damage import bow_crush, minorsky_volume
 from shipcollision_fmu.cosim.simulate import simulate
 from shipcollision_fmu.errors import ScenarioError
+from shipcollision_fmu.results.damage import bow_crush, minorsky_volume
 from shipcollision_fmu.scenario.scenario import load_scenario
 from tests.conftest import Write
 
-SCHEMA = json.loads((Path(shipcollision_fmu.cosim.__file__).parent / "events.schema.json").read_text(encoding="utf-8"))
+SCHEMA = json.loads(
+    (Path(shipcollision_fmu.results.__file__).parent / "events.schema.json").read_text(encoding="utf-8")
+)
+    (Path(shipcollision_fmu.results.__file__).parent / "events.schema.json").read_text(encoding="utf-8")
+)
 ASKED = ("friction = 0.3", "friction = 0.3\ndamage = {t_eq = 0.1, half_angle_deg = 30.0, shells = [[4.0, 0.01]]}")
 
 

@@ -27,14 +27,14 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..collision.damage import BOW, indicative_damage
 from ..collision.episodes import heading_angle
+from ..fmi.names import STATE, named
+from ..results.record import Impact, Record
 from ..scenario.tables import DamageTable
 from ..ship.frames import Array, rotation, rotation_vector
 from ..ship.free_motions import free_inverse, tilted_inverse
 from ..ship.ship import Ship
-from .recorder import Impact, Record
-from .wiring import STATE, named
+from .damage import BOW, indicative_damage
 
 __all__ = ["events"]
 
@@ -48,7 +48,7 @@ def events(
     damage: DamageTable | None = None,
     obstacles: Mapping[str, float] | None = None,
 ) -> dict[str, Any]:
-    """{"collisions": [...], "scratches": [...]} as JSON-able data; the schema is cosim/events.schema.json.
+    """{"collisions": [...], "scratches": [...]} as JSON-able data; the schema is results/events.schema.json.
 
     `free` are the ships' degrees of freedom, `obstacles` the headings [rad] of what is fixed; with `damage` every
     collision has an object of that name.

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from shipcollision_fmu import load_scenario, simulate
-from shipcollision_fmu.cosim.events import events
-from shipcollision_fmu.cosim.recorder import CONTACT_COLUMNS, SIGNALS, Impact, Record
-from shipcollision_fmu.cosim.wiring import STATE
+from shipcollision_fmu.fmi.names import STATE
+from shipcollision_fmu.results.events import events
+from shipcollision_fmu.results.record import CONTACT_COLUMNS, SIGNALS, Impact, Record
 from shipcollision_fmu.ship.library import load_ship
 
 STEP = 0.5

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from shipcollision_fmu import simulate
-from shipcollision_fmu.cosim.imazu import COURSES, imazu
+from shipcollision_fmu.encounters.imazu import COURSES, imazu
 from shipcollision_fmu.errors import ScenarioError
 
 NM = 1852.0

@@ -20,10 +20,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ..fmi.names import STATE
 from ..scenario.tables import Quantity, Reference
 from ..ship.frames import Array, quaternion_w, rotation, swapped
 from ..ship.ship import Ship
-from .wiring import STATE
 
 __all__ = ["compared", "state_at", "world_state"]
 

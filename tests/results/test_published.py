@@ -7,7 +7,7 @@ from math import asin, degrees, sqrt
 import numpy as np
 import pytest
 
-from shipcollision_fmu.cosim.reference import compared, state_at, world_state
+from shipcollision_fmu.results.published import compared, state_at, world_state
 from shipcollision_fmu.scenario.tables import Reference, ShipStart
 from shipcollision_fmu.ship.frames import rotation
 from shipcollision_fmu.ship.library import load_ship

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from shipcollision_fmu import load_ship
-from shipcollision_fmu.cosim.touching import common_deck, gap, moved, place, section, touch
+from shipcollision_fmu.encounters.plan_contact import common_deck, gap, moved, place, section, touch
 from shipcollision_fmu.ship.frames import Array
 from shipcollision_fmu.ship.hull import HullMesh, build_hull
 

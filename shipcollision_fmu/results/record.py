@@ -1,0 +1,65 @@
+"""A run as recorded: tables of states, signals and contact points, and the starts of its collisions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy.typing as npt
+
+from ..fmi.names import named
+from ..fmi.variables import NED
+from ..ship.frames import Array
+
+__all__ = ["CONTACT_COLUMNS", "SIGNALS", "Impact", "Record"]
+
+_XYZ = ("x", "y", "z")
+CONTACT_COLUMNS = (
+    *NED, *named("normal", NED), "gap", "impulse_normal", "impulse_tangential", *named("impulse", NED), "energy",
+    *named("a", _XYZ), *named("b", _XYZ),
+)  # fmt: skip
+"""Real columns of contacts.csv: the point and the normal (from ship_a to ship_b) in n, the impulse on ship_b in n."""
+SIGNALS = ("clearance", "energy.dissipated", "energy.normal", "energy.tangential")
+"""Columns of signals.csv after the time: variables of the collision FMU [m, J]."""
+
+
+@dataclass(frozen=True)
+class Impact:
+    """The start of a collision, as the collision FMU gave it: time [s], closing speed [m/s], angle [rad], and the
+    middle of what touched first, in n [m]."""
+
+    time: float
+    closing_speed: float
+    angle: float
+    point: tuple[float, float, float]
+
+
+@dataclass
+class Record:
+    """A run as recorded.
+
+    states     structured array, a row per communication point: time and 12 states per ship
+    signals    structured array, a row per communication point: time and SIGNALS
+    contacts   structured array, a row per contact point and step; time is the step's end
+    issued     per communication point k that ends a step with contact: cumulative impulses (ships, 6) after it
+    impacts    by number of the collision; one is missing when another began in the same communication step
+    energy     dissipated, normal, tangential [J] at the end
+    applied    what the ships say they applied at the end (ships, 6); the final `issued` is `issued_finally`
+    clearance  least distance between hulls at any communication point [m], capped
+    nearest    between which, at the first of them: two names, none if they were never within the cap
+    solver     answers that did not meet the law of contact to 1e-9, and answers scaled back so as not to add energy
+    fender     stored in fenders, dissipated in them [J] at the end
+    """
+
+    states: npt.NDArray[Any]
+    signals: npt.NDArray[Any]
+    contacts: npt.NDArray[Any]
+    issued: dict[int, Array]
+    impacts: dict[int, Impact]
+    energy: tuple[float, float, float]
+    issued_finally: Array
+    applied: Array
+    clearance: float
+    nearest: tuple[str, ...] = ()
+    fender: tuple[float, float] = (0.0, 0.0)
+    solver: tuple[int, int] = (0, 0)
