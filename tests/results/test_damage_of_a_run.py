@@ -19,8 +19,6 @@ from tests.conftest import Write
 SCHEMA = json.loads(
     (Path(shipcollision_fmu.results.__file__).parent / "events.schema.json").read_text(encoding="utf-8")
 )
-    (Path(shipcollision_fmu.results.__file__).parent / "events.schema.json").read_text(encoding="utf-8")
-)
 ASKED = ("friction = 0.3", "friction = 0.3\ndamage = {t_eq = 0.1, half_angle_deg = 30.0, shells = [[4.0, 0.01]]}")
 
 
