@@ -15,9 +15,9 @@ import pytest
 from fmpy import extract
 
 import shipcollision_fmu
-from shipcollision_fmu.cosim.osp import write_osp
 from shipcollision_fmu.cosim.simulate import simulate
 from shipcollision_fmu.fmi.names import STATE, named
+from shipcollision_fmu.packaging.osp import write_osp
 from shipcollision_fmu.scenario.scenario import load_scenario
 
 EXAMPLES = Path(shipcollision_fmu.__file__).resolve().parent.parent / "examples"

@@ -42,8 +42,8 @@ def package(scenario: str, ssp: bool, osp: bool, out: Path | None, initial_order
     each ship and one for the collision, with the scenario's values as their start values. What a host cannot be told
     in that way, such as a route, is refused, or left out and said so.
     """
-    from ..cosim.osp import write_osp
-    from ..cosim.ssp import write_ssp
+    from ..packaging.osp import write_osp
+    from ..packaging.ssp import write_ssp
     from ..scenario.scenario import load_scenario
 
     if ssp == osp:

@@ -29,12 +29,12 @@ import numpy.typing as npt
 
 from ..collision.episodes import heading_angle
 from ..fmi.names import STATE, named
-from ..results.record import Impact, Record
 from ..scenario.tables import DamageTable
 from ..ship.frames import Array, rotation, rotation_vector
 from ..ship.free_motions import free_inverse, tilted_inverse
 from ..ship.ship import Ship
 from .damage import BOW, indicative_damage
+from .record import Impact, Record
 
 __all__ = ["events"]
 

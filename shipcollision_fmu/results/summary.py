@@ -30,12 +30,12 @@ import numpy as np
 from .. import __version__
 from ..collision.ports import CollisionParameters
 from ..fmi.names import STATE
-from ..results.record import Record
 from ..scenario.scenario import Scenario
 from ..ship.frames import Array, rotation
 from ..ship.free_motions import level_axes
 from ..ship.ship import Ship
 from .published import compared
+from .record import Record
 
 __all__ = ["summary"]
 

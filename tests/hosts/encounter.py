@@ -14,12 +14,12 @@ import numpy as np
 import numpy.typing as npt
 
 from shipcollision_fmu.cosim.master import jacobi
-from shipcollision_fmu.cosim.osp import write_osp
 from shipcollision_fmu.cosim.simulate import as_models
-from shipcollision_fmu.cosim.ssp import write_ssp
-from shipcollision_fmu.cosim.system_structure import system_structure
 from shipcollision_fmu.cosim.wiring import connected
 from shipcollision_fmu.fmi.names import APPLIED, IMPULSE, STATE, named
+from shipcollision_fmu.packaging.osp import write_osp
+from shipcollision_fmu.packaging.ssp import write_ssp
+from shipcollision_fmu.packaging.system_structure import system_structure
 from shipcollision_fmu.scenario.scenario import Scenario
 
 MASTERS = Path(__file__).with_name("masters.py")

@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping, Sequence
 from xml.etree.ElementTree import Element, indent, tostring
 
-from .component import Value
+from ..cosim.component import Value
 
 __all__ = ["xml_bytes", "xml_value"]
 

@@ -18,6 +18,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import isclose
 
+from ..cosim.component import Value
+from ..cosim.wiring import collision_parameters, ship_parameters, surroundings
 from ..errors import ScenarioError
 from ..fmi.interface import Interface
 from ..fmi.names import ANSWERS, APPLIED, ORDERS, STATE, SURROUNDINGS, named
@@ -27,9 +29,7 @@ from ..fmi.ship_manoeuvring import INTERFACE as SHIP_INTERFACE
 from ..fmi.variables import Table, Variable
 from ..scenario.scenario import Scenario, order_table
 from ..scenario.tables import ShipStart
-from .component import Value
 from .packed_ship import packed_ship
-from .wiring import collision_parameters, ship_parameters, surroundings
 
 __all__ = ["COLLISION", "Connection", "Instance", "SystemStructure", "TimedOrder", "number", "system_structure"]
 

@@ -17,16 +17,16 @@ from fmpy import extract, read_model_description
 from fmpy.ssp.ssd import read_ssd, read_ssv
 from fmpy.validation import validate_fmu
 
-from shipcollision_fmu.cosim import system_structure as structure_module
-from shipcollision_fmu.cosim.osp import osp_files, write_osp
-from shipcollision_fmu.cosim.osp_groups import KINDS, collision_groups, ship_groups
-from shipcollision_fmu.cosim.packed_ship import packed_ship
-from shipcollision_fmu.cosim.ssp import ssp_bytes, write_ssp
-from shipcollision_fmu.cosim.system_structure import TimedOrder, system_structure
 from shipcollision_fmu.errors import HostError, InputError, ScenarioError, ShipError
 from shipcollision_fmu.fmi.interface import Interface
 from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
+from shipcollision_fmu.packaging import system_structure as structure_module
+from shipcollision_fmu.packaging.osp import osp_files, write_osp
+from shipcollision_fmu.packaging.osp_groups import KINDS, collision_groups, ship_groups
+from shipcollision_fmu.packaging.packed_ship import packed_ship
+from shipcollision_fmu.packaging.ssp import ssp_bytes, write_ssp
+from shipcollision_fmu.packaging.system_structure import TimedOrder, system_structure
 from shipcollision_fmu.scenario.scenario import load_scenario, scenario_names
 from shipcollision_fmu.ship.hull import build_hull
 from shipcollision_fmu.ship.library import load_ship, models_directory

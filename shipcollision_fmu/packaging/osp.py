@@ -18,9 +18,9 @@ from xml.etree.ElementTree import Comment, Element, SubElement
 from ..errors import HostError
 from ..files import check_writable, write_files
 from ..scenario.scenario import Scenario
+from .left_out import notes, refuse_orders
 from .osp_groups import NAMESPACE, group_pairs, model_description
 from .system_structure import COLLISION, Instance, SystemStructure, system_structure
-from .uncarried import notes, refuse_orders
 from .xml_file import xml_bytes, xml_value
 
 __all__ = ["osp_files", "write_osp"]

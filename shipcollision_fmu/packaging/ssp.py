@@ -21,8 +21,8 @@ from .. import __version__
 from ..files import check_writable, write_file
 from ..fmi.units import UNITS
 from ..scenario.scenario import Scenario
+from .left_out import notes, refuse_orders
 from .system_structure import Instance, SystemStructure, system_structure
-from .uncarried import notes, refuse_orders
 from .xml_file import xml_bytes, xml_value
 
 __all__ = ["ssp_bytes", "write_ssp"]
