@@ -72,7 +72,7 @@ def validate(fmu: Path, no_calls: bool, ignore: tuple[str, ...]) -> None:
     FMU is any FMI 2.0 or 3.0 FMU. FMPy's validator is followed by checks of what it leaves out, and by calls that an
     FMU must refuse; these run its code, in a process beside this one. Notes are good practice and do not count.
     """
-    from ..cosim.compliance import findings
+    from ..compliance.report import findings
 
     found = findings(fmu, calls=not no_calls, ignore=ignore)
     for one in found:

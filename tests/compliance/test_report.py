@@ -12,10 +12,10 @@ import pytest
 from click.testing import CliRunner
 
 from shipcollision_fmu.cli import main
-from shipcollision_fmu.cosim.compliance import NAMES, findings, problems
-from shipcollision_fmu.cosim.compliance_calls import PROBES
-from shipcollision_fmu.cosim.compliance_calls import findings as found_by_calls
-from shipcollision_fmu.cosim.compliance_rules import RULES, Subject
+from shipcollision_fmu.compliance.calls import PROBES
+from shipcollision_fmu.compliance.calls import findings as found_by_calls
+from shipcollision_fmu.compliance.report import NAMES, findings, problems
+from shipcollision_fmu.compliance.rules import RULES, Subject
 from shipcollision_fmu.cosim.fmu_files import ready_fmus
 from shipcollision_fmu.errors import InputError
 

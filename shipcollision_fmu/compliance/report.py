@@ -1,5 +1,5 @@
 """FMI compliance of an FMU file: FMPy's checks (schema, names, structure, start values, units), and what they leave
-out (compliance_rules.py: the description and the file; compliance_calls.py: what calls show)."""
+out (rules.py: the description and the file; calls.py: what calls show)."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from zipfile import is_zipfile
 from fmpy.validation import validate_fmu
 
 from ..errors import InputError
-from .compliance_calls import PROBES
-from .compliance_calls import findings as found_by_calls
-from .compliance_rules import RULES, Subject
+from .calls import PROBES
+from .calls import findings as found_by_calls
+from .rules import RULES, Subject
 
 __all__ = ["NAMES", "Finding", "findings", "problems"]
 

@@ -6,7 +6,7 @@ Each probe makes an instance of its own, in a process beside this one: an FMU th
 only, and that is then what is found; the other probes are made in the next. FMI wants an error status for a call in
 the wrong order; some wrappers can give it only from doStep, so a refusal may also come with the next step.
 
-    python -m shipcollision_fmu.cosim.compliance_calls FOLDER PROBE ...      probes on an unpacked FMU; prints findings
+    python -m shipcollision_fmu.compliance.calls FOLDER PROBE ...      probes on an unpacked FMU; prints findings
 """
 
 from __future__ import annotations

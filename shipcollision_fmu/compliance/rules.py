@@ -1,7 +1,7 @@
 """What FMPy's validator leaves out of modelDescription.xml and of the file, one function a rule.
 
 A rule takes a Subject and gives lines, one for each thing that is wrong; it says nothing when there is nothing to say.
-RULES is the table. What only calls can show is in compliance_calls.py.
+RULES is the table. What only calls can show is in calls.py.
 """
 
 from __future__ import annotations
