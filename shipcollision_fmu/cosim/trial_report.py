@@ -6,9 +6,9 @@ from dataclasses import fields
 
 from rich.table import Table
 
-from .approach import Approach
+from ..manoeuvring.trials.steady_course import Approach
+from ..manoeuvring.trials.trial import Figure, Moment, Trial
 from .report import table
-from .trial_track import Figure, Moment, Trial
 
 __all__ = ["figures", "track_csv"]
 

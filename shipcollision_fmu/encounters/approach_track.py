@@ -13,9 +13,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..cosim.approach import self_propulsion
 from ..errors import ScenarioError
 from ..manoeuvring.model import ShipManoeuvring
+from ..manoeuvring.trials.steady_course import self_propulsion
 from ..scenario.scenario import Scenario, order_table
 from ..ship.frames import Array
 from ..ship.library import load_ship

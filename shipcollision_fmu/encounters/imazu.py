@@ -19,8 +19,8 @@ from math import cos, isfinite, radians, sin
 from pathlib import Path
 from typing import Any
 
-from ..cosim.approach import self_propulsion
 from ..errors import ScenarioError
+from ..manoeuvring.trials.steady_course import self_propulsion
 from ..scenario.scenario import Scenario, scenario_of
 from ..scenario.toml_writer import scenario_text
 from ..ship.library import load_ship

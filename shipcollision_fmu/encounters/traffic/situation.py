@@ -19,8 +19,8 @@ from math import cos, degrees, inf, isclose, sin
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ...cosim.approach import self_propulsion
 from ...errors import ScenarioError
+from ...manoeuvring.trials.steady_course import self_propulsion
 from ...scenario.scenario import load_scenario
 from ...scenario.toml_writer import scenario_text
 from ...ship.library import load_ship

@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from math import hypot
 
-from ..errors import StepError
-from ..manoeuvring.model import ShipManoeuvring
-from .approach import STEP, Approach, under_way_model
+from ...errors import StepError
+from ..model import ShipManoeuvring
+from .steady_course import STEP, Approach, under_way_model
 
 __all__ = ["Figure", "Moment", "Trial", "sail", "when_turned"]
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import isfinite
 
-from ..errors import ScenarioError
-from ..manoeuvring.model import ShipManoeuvring
-from ..ship.library import load_ship
-from ..ship.ship import Ship
+from ...errors import ScenarioError
+from ...ship.library import load_ship
+from ...ship.ship import Ship
+from ..model import ShipManoeuvring
 
 __all__ = ["STEP", "Approach", "approach", "self_propulsion", "under_way_model"]
 

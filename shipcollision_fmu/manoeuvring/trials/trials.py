@@ -27,9 +27,9 @@ from __future__ import annotations
 
 from math import atan2, degrees, hypot, isfinite, pi, radians
 
-from ..errors import ScenarioError
-from .approach import Approach
-from .trial_track import Figure, Moment, Trial, sail, when_turned
+from ...errors import ScenarioError
+from .steady_course import Approach
+from .trial import Figure, Moment, Trial, sail, when_turned
 
 __all__ = ["crash_stop", "turning_circle", "zigzag"]
 

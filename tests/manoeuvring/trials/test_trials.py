@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from shipcollision_fmu.cosim.approach import approach, self_propulsion
 from shipcollision_fmu.cosim.trial_report import track_csv
-from shipcollision_fmu.cosim.trial_track import Figure, Trial
-from shipcollision_fmu.cosim.trials import crash_stop, turning_circle, zigzag
 from shipcollision_fmu.errors import ScenarioError, ShipError, StepError
+from shipcollision_fmu.manoeuvring.trials.steady_course import approach, self_propulsion
+from shipcollision_fmu.manoeuvring.trials.trial import Figure, Trial
+from shipcollision_fmu.manoeuvring.trials.trials import crash_stop, turning_circle, zigzag
 
 
 @cache
@@ -162,6 +162,6 @@ def test_what_cannot_be_sailed_is_refused_in_one_line() -> None:
 
 
 def test_a_trial_that_does_not_end_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("shipcollision_fmu.cosim.trial_track.PATIENCE", 2.0)
+    monkeypatch.setattr("shipcollision_fmu.manoeuvring.trials.trial.PATIENCE", 2.0)
     with pytest.raises(StepError, match=r"ship 'kvlcc2': the crash stop has not ended after 2 lengths at 7.974 m/s"):
         crash_stop(approach("kvlcc2"))
