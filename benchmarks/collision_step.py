@@ -22,10 +22,10 @@ from time import perf_counter
 import numpy as np
 from rich.console import Console
 
+from shipcollision_fmu.cli.run_table import table
 from shipcollision_fmu.collision.engine import bullet_module
 from shipcollision_fmu.collision.model import ShipCollision
 from shipcollision_fmu.cosim.fmu_component import FmuComponent, UnpackedFmu
-from shipcollision_fmu.cosim.report import table
 from shipcollision_fmu.fmi.names import IMPULSE, STATE, named
 from shipcollision_fmu.fmi.package import fmu_bytes, slave_directory
 from shipcollision_fmu.fmi.ship_collision import INTERFACE

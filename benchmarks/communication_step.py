@@ -20,9 +20,9 @@ from time import perf_counter
 from rich.console import Console
 
 from shipcollision_fmu import load_scenario
+from shipcollision_fmu.cli.run_table import table
 from shipcollision_fmu.cosim.component import Buffer, Component, Group, Value
 from shipcollision_fmu.cosim.fmu_files import ready_fmus
-from shipcollision_fmu.cosim.report import table
 from shipcollision_fmu.cosim.simulate import stepped, through_fmus
 from shipcollision_fmu.fmi.package import FMUS, fmu_bytes
 from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION

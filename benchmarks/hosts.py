@@ -36,8 +36,8 @@ from rich.console import Console
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
 
+from shipcollision_fmu.cli.run_table import table
 from shipcollision_fmu.cosim.master import jacobi
-from shipcollision_fmu.cosim.report import table
 from shipcollision_fmu.cosim.simulate import Factories, as_models, through_fmus
 from shipcollision_fmu.cosim.wiring import connected
 from shipcollision_fmu.encounters.encounter import encounter

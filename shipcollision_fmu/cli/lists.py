@@ -13,8 +13,8 @@ __all__ = ["scenarios", "ships"]
 @click.command()
 def ships() -> None:
     """List the shipped ships."""
-    from ..cosim.report import table
     from ..ship.library import load_ship, ship_names
+    from .run_table import table
 
     listed = table("name", "kind", ">L_pp [m]", ">B [m]", ">T [m]", ">mass [t]", "under way")
     for name in ship_names():
@@ -28,8 +28,8 @@ def ships() -> None:
 @click.command()
 def scenarios() -> None:
     """List the shipped scenarios."""
-    from ..cosim.report import table
     from ..scenario.scenario import load_scenario, scenario_names
+    from .run_table import table
 
     listed = table("name", "ships", ">duration [s]", ">step [s]", "description")
     for name in scenario_names():

@@ -37,9 +37,9 @@ def run(
     published collision. The FMUs are built first when they are missing or older than the sources.
     """
     from ..cosim.fmu_files import require_pybullet
-    from ..cosim.report import lines, tables
     from ..cosim.simulate import simulate
     from ..scenario.scenario import load_scenario
+    from .run_table import lines, tables
 
     if in_process and fmi != "2":
         raise click.UsageError("--in-process runs without FMI: leave out --fmi")

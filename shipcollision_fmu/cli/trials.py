@@ -40,10 +40,10 @@ def trial(
     SHIP is a name that `shipcollision ships` lists, or the path of a TOML file. Limits: IMO resolution MSC.137(76), for
     ships of 100 m and more. Distances are of midship, in lengths L.
     """
-    from ..cosim.trial_report import figures, track_csv
     from ..files import check_writable, write_file
     from ..manoeuvring.trials.steady_course import approach
     from ..manoeuvring.trials.trials import crash_stop, turning_circle, zigzag
+    from .trial_table import figures, track_csv
 
     if manoeuvre != "zigzag" and heading_deg is not None:
         raise click.UsageError("--heading-deg goes with a zigzag only")

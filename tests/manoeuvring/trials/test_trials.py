@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from shipcollision_fmu.cosim.trial_report import track_csv
+from shipcollision_fmu.cli.trial_table import track_csv
 from shipcollision_fmu.errors import ScenarioError, ShipError, StepError
 from shipcollision_fmu.manoeuvring.trials.steady_course import approach, self_propulsion
 from shipcollision_fmu.manoeuvring.trials.trial import Figure, Trial

@@ -8,7 +8,7 @@ from rich.table import Table
 
 from ..manoeuvring.trials.steady_course import Approach
 from ..manoeuvring.trials.trial import Figure, Moment, Trial
-from .report import table
+from .run_table import table
 
 __all__ = ["figures", "track_csv"]
 
