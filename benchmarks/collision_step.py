@@ -25,7 +25,7 @@ from rich.console import Console
 from shipcollision_fmu.cli.run_table import table
 from shipcollision_fmu.collision.engine import bullet_module
 from shipcollision_fmu.collision.model import ShipCollision
-from shipcollision_fmu.cosim.fmu_component import FmuComponent, UnpackedFmu
+from shipcollision_fmu.cosim.fmi2_component import FmuComponent, UnpackedFmu
 from shipcollision_fmu.fmi.names import IMPULSE, STATE, named
 from shipcollision_fmu.fmi.package import fmu_bytes, slave_directory
 from shipcollision_fmu.fmi.ship_collision import INTERFACE

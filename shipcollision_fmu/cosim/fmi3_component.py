@@ -19,7 +19,7 @@ from ..errors import HostError, StepError
 from ..fmi.arrays import Layout
 from ..fmi.variables import Kind, Table
 from .component import Buffer, Group, Value, item_number
-from .fmu_component import REMEDY, UnpackedFmu, told
+from .fmi2_component import REMEDY, UnpackedFmu, told
 
 __all__ = ["Fmi3Component"]
 

@@ -33,8 +33,8 @@ from ..results.record import Record
 from ..results.summary import summary
 from ..scenario.scenario import Scenario, load_scenario
 from .component import Component, InProcessComponent
+from .fmi2_component import FmuComponent, UnpackedFmu
 from .fmi3_component import Fmi3Component
-from .fmu_component import FmuComponent, UnpackedFmu
 from .fmu_files import ready_fmus, require_pybullet
 from .interrupt import held_back
 from .master import ALGORITHMS

@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from shipcollision_fmu.cosim.component import Component, InProcessComponent
+from shipcollision_fmu.cosim.fmi2_component import FmuComponent, UnpackedFmu
 from shipcollision_fmu.cosim.fmi3_component import Fmi3Component
-from shipcollision_fmu.cosim.fmu_component import FmuComponent, UnpackedFmu
 from shipcollision_fmu.errors import HostError, StepError
 from shipcollision_fmu.fmi.package import build_fmus
 from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION

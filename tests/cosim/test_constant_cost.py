@@ -16,7 +16,7 @@ from time import process_time
 import pytest
 
 from shipcollision_fmu.cosim.component import Component
-from shipcollision_fmu.cosim.fmu_component import FmuComponent, UnpackedFmu
+from shipcollision_fmu.cosim.fmi2_component import FmuComponent, UnpackedFmu
 from shipcollision_fmu.cosim.fmu_files import ready_fmus
 from shipcollision_fmu.cosim.simulate import simulate
 from shipcollision_fmu.scenario.scenario import load_scenario

@@ -16,8 +16,8 @@ from typing import Any
 import pytest
 
 from shipcollision_fmu.cosim.component import Component
+from shipcollision_fmu.cosim.fmi2_component import FmuComponent, UnpackedFmu
 from shipcollision_fmu.cosim.fmi3_component import Fmi3Component
-from shipcollision_fmu.cosim.fmu_component import FmuComponent, UnpackedFmu
 from shipcollision_fmu.cosim.master import System, gauss_seidel, jacobi
 from shipcollision_fmu.cosim.wiring import connected
 from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
