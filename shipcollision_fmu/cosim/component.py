@@ -21,7 +21,7 @@ from ctypes import Array, c_double, c_int
 from typing import Any, Protocol, TypeAlias
 
 from ..errors import HostError, InputError, ShipCollisionError, StepError
-from ..fmi.ports import Ports
+from ..fmi.variable_access import Ports
 
 __all__ = ["Buffer", "Component", "Group", "InProcessComponent", "Value", "item_number"]
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from .ports import Model, Ports
+from .variable_access import Model, Ports
 from .variables import Table
 
 __all__ = ["SHIPS", "Interface"]

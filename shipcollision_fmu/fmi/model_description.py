@@ -15,8 +15,8 @@ from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from .. import __version__
 from .interface import Interface
-from .ports import Ports
 from .units import UNITS
+from .variable_access import Ports
 from .variables import Table, Variable
 
 __all__ = [

@@ -18,7 +18,7 @@ from .. import __version__
 from .arrays import TIME, ArrayVariable, arrays
 from .interface import Interface
 from .model_description import add_categories, add_types, add_units, known, limits, number, start
-from .ports import Ports
+from .variable_access import Ports
 from .variables import Kind, Table, Variable
 
 __all__ = ["TYPES", "model_description"]

@@ -31,7 +31,7 @@ from typing import Any, ClassVar, TypeVar
 from ..errors import InputError, ShipCollisionError, StepError
 from .build_record import confirmed, start_values
 from .interface import SHIPS, Interface
-from .ports import Ports
+from .variable_access import Ports
 from .wrapper_library import let_go
 
 __all__ = ["STDERR", "SlaveBase", "keep", "state_from_bytes", "state_to_bytes"]

@@ -6,10 +6,10 @@ from typing import Any
 
 from shipcollision_fmu.cosim.component import InProcessComponent
 from shipcollision_fmu.cosim.simulate import stepped
-from shipcollision_fmu.fmi.ports import Ports
 from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
 from shipcollision_fmu.fmi.slave_base import state_to_bytes
+from shipcollision_fmu.fmi.variable_access import Ports
 from shipcollision_fmu.scenario.scenario import load_scenario
 
 __all__ = ["saved_states"]

@@ -10,9 +10,9 @@ from shipcollision_fmu.cosim.component import InProcessComponent
 from shipcollision_fmu.cosim.simulate import stepped
 from shipcollision_fmu.errors import InputError
 from shipcollision_fmu.fmi.interface import Interface
-from shipcollision_fmu.fmi.ports import Ports
 from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
+from shipcollision_fmu.fmi.variable_access import Ports
 from shipcollision_fmu.fmi.variables import Variable
 from shipcollision_fmu.scenario.scenario import load_scenario
 

@@ -15,8 +15,8 @@ from fmpy import extract, read_model_description
 
 from shipcollision_fmu.errors import ShipCollisionError
 from shipcollision_fmu.fmi.package import fmu_bytes, slave_directory
-from shipcollision_fmu.fmi.ports import Ports
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE
+from shipcollision_fmu.fmi.variable_access import Ports
 
 OK, DISCARD, FATAL = 0, 2, 4
 Make = Callable[..., Any]

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from shipcollision_fmu.errors import InputError, StepError
-from shipcollision_fmu.fmi.ports import Ports
+from shipcollision_fmu.fmi.variable_access import Ports
 from shipcollision_fmu.fmi.variables import boolean, enumeration, integer, real
 
 
