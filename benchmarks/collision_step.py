@@ -23,7 +23,7 @@ import numpy as np
 from rich.console import Console
 
 from shipcollision_fmu.cli.run_table import table
-from shipcollision_fmu.collision.engine import bullet_module
+from shipcollision_fmu.collision.geometry.bullet import bullet_module
 from shipcollision_fmu.collision.model import ShipCollision
 from shipcollision_fmu.cosim.fmi2_component import FmuComponent, UnpackedFmu
 from shipcollision_fmu.fmi.names import IMPULSE, STATE, named

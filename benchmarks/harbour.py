@@ -18,7 +18,7 @@ from time import perf_counter
 from rich.console import Console
 
 from shipcollision_fmu.cli.run_table import table
-from shipcollision_fmu.collision.broad_phase import near_pairs
+from shipcollision_fmu.collision.geometry.broad_phase import near_pairs
 from shipcollision_fmu.collision.model import ShipCollision
 
 COUNTS = (2, 5, 10, 20, 50, 100, 200, 500)

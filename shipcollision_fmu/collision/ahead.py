@@ -4,7 +4,7 @@
 
     position + R_nb (h v_g + r_bg - E r_bg)         R_nb E          velocity E' v_g - omega x r_bg
 
-The same as shadow.py's advance, of which it is the short way.
+The same as body_state.py's advance, of which it is the short way.
 """
 
 from __future__ import annotations

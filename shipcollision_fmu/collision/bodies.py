@@ -14,12 +14,12 @@ from ..ship.frames import Array, skew
 from ..ship.free_motions import free_inverse, tilted_inverse
 from ..ship.hull import HullMesh, build_hull
 from ..ship.library import Ship, load_ship
-from .broad_phase import Rectangle
-from .engine import BulletBody
-from .fenders import Fender, fender_of
+from .dynamics.body_state import Shadow
+from .fender import Fender, fender_of
+from .geometry.broad_phase import Rectangle
+from .geometry.bullet import BulletBody
+from .interface import CollisionParameters, ShipParameters
 from .obstacles import Obstacle, obstacles_from
-from .ports import CollisionParameters, ShipParameters
-from .shadow import Shadow
 
 __all__ = ["Body", "apart", "prepared"]
 

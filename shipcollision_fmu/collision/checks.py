@@ -7,8 +7,8 @@ from math import hypot, isfinite
 
 from ..errors import InputError, StepError
 from .bodies import Body
-from .ledger import FEEDBACKS
-from .ports import CollisionParameters, ShipState
+from .dynamics.impulse_ledger import FEEDBACKS
+from .interface import CollisionParameters, ShipState
 from .responses import RESPONSES
 
 __all__ = ["MAXIMUM_FRICTION", "check_parameters", "check_states", "check_step"]

@@ -20,7 +20,7 @@ Limits, known and tested:
 - "Slide in the direction of the first slip" may end in slip the other way.
 - The split E_n, E_t holds for a constant P_t/P_n; at stick E_t may be slightly negative. Only the sum is invariant.
 
-slip_path.py has none of these and answers contact; this file is the reference that the literature uses.
+impact_process.py has none of these and answers contact; this file is the reference that the literature uses.
 
 Sources: Guan et al. (2014); Pedersen and Zhang (1998), Marine Structures 11:429-449; Brach (1991), Mechanical Impact
 Dynamics.

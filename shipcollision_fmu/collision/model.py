@@ -2,10 +2,10 @@
 
 A communication step [t, t + H]:
 
-    read          check what came in; the books say what is pending (ledger.py); shadows of the ships
-    find near     pairs whose hulls could touch within the step (neighbours.py); far pairs are never looked at
+    read          check what came in; the books say what is pending (impulse_ledger.py); shadows of the ships
+    find near     pairs whose hulls could touch within the step (proximity.py); far pairs are never looked at
     for each substep of fixed length h:
-        press     fenders that are compressed (fender_books.py), booked one by one
+        press     fenders that are compressed (fender_ledger.py), booked one by one
         advance   the predicted poses of the shadows that are near another
         respond   contacts there, answered by one of the rival responses
         book      impulses into twists and ledger, energy lost, contact points, episodes
@@ -36,21 +36,28 @@ from ..ship.frames import attitude_from_rotation, attitude_unwrapped
 from .ahead import state_ahead
 from .bodies import Body, prepared
 from .checks import check_parameters, check_states, check_step
-from .contact import Impulse, actual_velocity, book
-from .detection import Detector, KeptNormals
-from .drift import Seen, drift
-from .energy import energy_lost
-from .episodes import Episodes
-from .fender_books import FenderBooks
-from .fenders import Fender, in_series
-from .ledger import Books, Reading
-from .neighbours import Neighbours, Pair, room
-from .passive import passive
-from .ports import CollisionInputs, CollisionOutputs, CollisionParameters, ShipParameters, ShipPost, ShipState
+from .collisions import Episodes
+from .contact_points import Slot, fitted, merged
+from .dynamics.body_state import Shadow
+from .dynamics.contact import Impulse, actual_velocity, book
+from .dynamics.energy import energy_lost
+from .dynamics.impulse_ledger import Books, Reading
+from .dynamics.other_forces import Seen, drift
+from .dynamics.passivity import passive
+from .fender import Fender, in_series
+from .fender_ledger import FenderBooks
+from .geometry.detection import Detector, KeptNormals
+from .interface import (
+    CollisionInputs,
+    CollisionOutputs,
+    CollisionParameters,
+    ShipParameters,
+    ShipPost,
+    ShipState,
+)
+from .proximity import Neighbours, Pair, room
 from .responses import RESPONSES, Encounter
-from .shadow import Shadow
-from .slots import Slot, fitted, merged
-from .warm_start import WarmStarts
+from .solvers.warm_start import WarmStarts
 
 __all__ = ["ShipCollision"]
 

@@ -14,7 +14,7 @@ is several of them, one per wall.
     top                         height of the top above the waterline [m], default 5
     bottom                      depth of the foot below the waterline [m], default 30; negative for what hangs over
                                 the water, as a bridge's deck does; or height = top + bottom
-    fender = {...}              fenders.py
+    fender = {...}              fender.py
 
 Body frame b of an obstacle: forward along its heading, starboard, down from the waterline at its position.
 """
@@ -35,8 +35,8 @@ from ..ship.frames import Array
 from ..ship.hull import HullMesh
 from ..ship.refusal import one_line
 from ..ship.toml import parsed, read_toml
-from .clipping import convex_polygon
-from .fenders import Fender
+from .fender import Fender
+from .geometry.clipping import convex_polygon
 
 __all__ = ["CYLINDER_SIDES", "FenderTable", "Obstacle", "ObstacleTable", "obstacle", "obstacles_from", "obstacles_toml"]
 

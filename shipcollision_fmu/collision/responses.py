@@ -3,7 +3,7 @@
     respond(encounter) -> answer          what ship b takes at each contact point in this substep, in n
 
 pgs          Projected Gauss-Seidel on the 6x6 masses: cleaned contacts, friction cone, iterated to a residual
-closed_form  one resultant contact per pair, its impact followed along the slip: Keller, Stronge (slip_path.py)
+closed_form  one resultant contact per pair, its impact followed along the slip: Keller, Stronge (impact_process.py)
 bullet       Bullet's own dynamics with a scalar mass and Bullet's own contacts: what Guan et al. 2014 ran
 """
 
@@ -15,16 +15,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..ship.frames import Array
-from .axes import contact_axes
-from .contact import Contact, Impulse, contact_velocity, make_contact
-from .delassus import contact_jacobian, delassus
-from .detection import Detector, KeptNormals
-from .engine import BulletBody
-from .restitution import solve_impact
-from .resultant import resultant_contact
-from .shadow import Shadow
-from .slip_path import solve_slip_path
-from .warm_start import WarmStarts, expected, remember
+from .dynamics.body_state import Shadow
+from .dynamics.contact import Contact, Impulse, contact_velocity, make_contact
+from .dynamics.contact_frame import contact_axes
+from .dynamics.delassus import contact_jacobian, delassus
+from .geometry.bullet import BulletBody
+from .geometry.detection import Detector, KeptNormals
+from .solvers.impact_process import solve_slip_path
+from .solvers.poisson_restitution import solve_impact
+from .solvers.resultant_contact import resultant_contact
+from .solvers.warm_start import WarmStarts, expected, remember
 
 __all__ = ["RESPONSES", "Answer", "Encounter", "respond_bullet", "respond_closed_form", "respond_pgs"]
 
@@ -64,7 +64,7 @@ class Answer:
 
 
 def respond_pgs(encounter: Encounter) -> Answer:
-    """All contacts of all pairs solved together by block Projected Gauss-Seidel (pgs.py)."""
+    """All contacts of all pairs solved together by block Projected Gauss-Seidel (gauss_seidel.py)."""
     shadows = encounter.shadows
     contacts = [c for a, b in encounter.pairs for c in encounter.detector.contacts(a, b, shadows, encounter.kept)]
     if not contacts:
@@ -86,7 +86,7 @@ def respond_pgs(encounter: Encounter) -> Answer:
 
 
 def respond_closed_form(encounter: Encounter) -> Answer:
-    """One pair after the other, each as one impact at its resultant contact (resultant.py, slip_path.py).
+    """One pair after the other, each as one impact at its resultant contact (resultant_contact.py, impact_process.py).
 
     A pair sees what the pairs before it did to its ships. What is not answered exactly in a substep, contacts that the
     resultant's friction or another pair closes, is met again in the next.

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..collision.ports import contact_slots
+from ..collision.interface import contact_slots
 from ..fmi.names import IMPULSE, STATE, named
 from ..fmi.variables import NED
 from ..results.record import CONTACT_COLUMNS, SIGNALS, Impact, Record

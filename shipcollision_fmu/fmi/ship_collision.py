@@ -9,9 +9,9 @@ from __future__ import annotations
 from math import pi
 
 from ..collision.checks import MAXIMUM_FRICTION
-from ..collision.ledger import FEEDBACKS
+from ..collision.dynamics.impulse_ledger import FEEDBACKS
+from ..collision.interface import contact_slots
 from ..collision.model import ShipCollision
-from ..collision.ports import contact_slots
 from ..collision.responses import RESPONSES
 from .interface import SHIPS, Interface
 from .variables import (

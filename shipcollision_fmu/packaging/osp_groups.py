@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from typing import Literal
 from xml.etree.ElementTree import Element, SubElement
 
-from ..collision.ports import contact_slots
+from ..collision.interface import contact_slots
 from ..fmi.names import IMPULSE, ORDERS, SURROUNDINGS, named
 from ..fmi.ship_collision import INTERFACE as COLLISION_INTERFACE
 from ..fmi.ship_manoeuvring import INTERFACE as SHIP_INTERFACE

@@ -27,7 +27,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..collision.episodes import heading_angle
+from ..collision.collisions import heading_angle
 from ..fmi.names import STATE, named
 from ..scenario.tables import DamageTable
 from ..ship.frames import Array, rotation, rotation_vector

@@ -28,7 +28,7 @@ from typing import Any
 import numpy as np
 
 from .. import __version__
-from ..collision.ports import CollisionParameters
+from ..collision.interface import CollisionParameters
 from ..fmi.names import STATE
 from ..scenario.scenario import Scenario
 from ..ship.frames import Array, rotation

@@ -11,10 +11,10 @@ from math import hypot
 
 import numpy as np
 
-from ..collision.detection import SHALLOW, Detector
-from ..collision.level import least_overlap
+from ..collision.dynamics.body_state import Shadow
+from ..collision.geometry.detection import SHALLOW, Detector
+from ..collision.geometry.plan_overlap import least_overlap
 from ..collision.obstacles import ObstacleTable, obstacle
-from ..collision.shadow import Shadow
 from ..errors import ScenarioError
 from ..ship.hull import HullMesh, build_hull
 from ..ship.ship import Ship

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..collision.clipping import convex_polygon
+from ..collision.geometry.clipping import convex_polygon
 from ..files import IN_PLACE, write_file
 from ..ship.frames import Array, rotation_from_quaternion
 from .extras import require

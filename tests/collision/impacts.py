@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 from hypothesis import strategies as st
 
-from shipcollision_fmu.collision.axes import contact_axes
-from shipcollision_fmu.collision.contact import make_contact
-from shipcollision_fmu.collision.shadow import Shadow, point_jacobian
+from shipcollision_fmu.collision.dynamics.body_state import Shadow, point_jacobian
+from shipcollision_fmu.collision.dynamics.contact import make_contact
+from shipcollision_fmu.collision.dynamics.contact_frame import contact_axes
 from shipcollision_fmu.ship.frames import attitude_from_rotation, rotation
 from shipcollision_fmu.ship.free_motions import FREE, free_inverse, level_axes, tilted_inverse
 from shipcollision_fmu.ship.inertia import added_mass_matrix, rigid_body_inertia

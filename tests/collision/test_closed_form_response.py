@@ -7,9 +7,9 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from shipcollision_fmu.collision.contact import contact_velocity, make_contact
-from shipcollision_fmu.collision.resultant import resultant_contact
-from shipcollision_fmu.collision.shadow import Shadow
+from shipcollision_fmu.collision.dynamics.body_state import Shadow
+from shipcollision_fmu.collision.dynamics.contact import contact_velocity, make_contact
+from shipcollision_fmu.collision.solvers.resultant_contact import resultant_contact
 from shipcollision_fmu.ship.free_motions import free_inverse
 from shipcollision_fmu.ship.library import load_ship
 from tests.collision.conftest import BOX, World

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from shipcollision_fmu.collision.fenders import Fender, friction_impulse, in_series, squeezed
+from shipcollision_fmu.collision.fender import Fender, friction_impulse, in_series, squeezed
 from shipcollision_fmu.collision.model import ShipCollision
 from shipcollision_fmu.errors import InputError
 from tests.collision.conftest import BOX, World

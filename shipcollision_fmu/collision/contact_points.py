@@ -1,0 +1,91 @@
+"""The contact points of a communication step: those of its substeps, joined where they are the same place."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..ship.frames import Array
+from .dynamics.contact import Contact
+from .interface import ContactSlot
+
+__all__ = ["SAME_PLACE", "Slot", "fitted", "merged"]
+
+SAME_PLACE = 2.0
+"""Contact points of a pair closer than this [m] on ship a, from different substeps, are one point that moves."""
+
+
+@dataclass(frozen=True)
+class Slot:
+    """A contact point over a step: its latest geometry, the impulse P (3,) on ship b summed in n and, of that, what was
+    along the normal P_n and across it P_t (3,), as the normal was each time; the energy lost [J]. Numbers of collision
+    and scratch are 0 where a fender acts and the hulls do not touch."""
+
+    contact: Contact | None
+    P: Array
+    P_n: float
+    P_t: Array
+    energy: float
+    impact: int
+    scratch: int
+
+    @classmethod
+    def of(cls, contact: Contact, P: Array, energy: float, impact: int, scratch: int) -> Slot:
+        """One impulse at a contact."""
+        P_n = float(P @ contact.normal)
+        return cls(contact, P, P_n, P - P_n * contact.normal, energy, impact, scratch)
+
+    @classmethod
+    def unused(cls) -> Slot:
+        """A slot in which nothing touched."""
+        return cls(None, np.zeros(3), 0.0, np.zeros(3), 0.0, 0, 0)
+
+    def joined(self, other: Slot) -> Slot:
+        """Both as one, with the other's geometry and numbers."""
+        return replace(
+            other, P=self.P + other.P, P_n=self.P_n + other.P_n, P_t=self.P_t + other.P_t,
+            energy=self.energy + other.energy,
+        )  # fmt: skip
+
+    def fill(self, place: ContactSlot) -> None:
+        """Write it where the outputs are."""
+        c = self.contact
+        if c is None:
+            for values in (place.point, place.normal, place.r_a, place.r_b, place.impulse, place.values):
+                values[:] = [0.0] * len(values)
+            place.ship_a = place.ship_b = place.impact = place.scratch = 0
+            return
+        place.point[:], place.normal[:] = c.point.tolist(), c.normal.tolist()
+        place.r_a[:], place.r_b[:], place.impulse[:] = c.r_a.tolist(), c.r_b.tolist(), self.P.tolist()
+        place.values[:] = [c.gap, self.P_n, float(np.linalg.norm(self.P_t)), self.energy]
+        place.ship_a, place.ship_b, place.impact, place.scratch = c.a + 1, c.b + 1, self.impact, self.scratch
+
+
+def merged(slots: list[Slot], new: Slot) -> list[Slot]:
+    """The slots with one more contact: added to the slot at the same place, else as a slot of its own."""
+    c = new.contact
+    assert c is not None
+    for k, old in enumerate(slots):
+        o = old.contact
+        alike = o is not None and (o.a, o.b) == (c.a, c.b) and (old.impact > 0) == (new.impact > 0)
+        if o is not None and alike and np.linalg.norm(o.r_a - c.r_a) < SAME_PLACE:
+            return [*slots[:k], old.joined(new), *slots[k + 1 :]]
+    return [*slots, new]
+
+
+def fitted(slots: list[Slot], most: int) -> list[Slot]:
+    """At most so many slots: if there are more, the points of a pair become one, at the place of the largest impulse,
+    so that impulse and energy of every pair are kept; of more pairs than slots those of the largest impulses."""
+    if len(slots) <= most:
+        return slots
+    pairs: dict[tuple[int, int, bool], Slot] = {}
+    for slot in sorted(slots, key=_size):
+        assert slot.contact is not None
+        pair = (slot.contact.a, slot.contact.b, slot.impact > 0)
+        pairs[pair] = pairs[pair].joined(slot) if pair in pairs else slot
+    return sorted(pairs.values(), key=_size, reverse=True)[:most]
+
+
+def _size(slot: Slot) -> float:
+    return float(np.linalg.norm(slot.P))

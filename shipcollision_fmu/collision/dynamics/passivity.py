@@ -1,0 +1,70 @@
+"""No answer adds kinetic energy: one that would is scaled back to an elastic one.
+
+    T(s P) - T(0) = s P.v + 1/2 s^2 P' W P        v relative velocities before, W from delassus.py          [J]
+
+is zero at s = -2 P.v / P' W P. The solvers do not add energy by themselves but in known corners: Newton's restitution
+with friction, and contact solved with the velocity expected over a step (other_forces.py), when the force that was expected
+is gone. Ships that touch directly or through others are scaled together, so each stays in balance and in its friction
+cone; obstacles, which do not move, connect nobody.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ...ship.frames import Array
+from .body_state import Shadow
+from .contact import Impulse, actual_velocity
+
+__all__ = ["passive"]
+
+ROUNDING = 1e-9
+"""Gain, as a share of the work of the impulses, that is rounding."""
+
+
+def passive(impulses: Sequence[Impulse], shadows: Sequence[Shadow]) -> tuple[list[Impulse], bool]:
+    """The impulses, scaled where they would add energy; and whether any were."""
+    answer: list[Impulse] = []
+    scaled = False
+    for group in _groups(impulses, shadows) if impulses else ():
+        s = _scale(group, shadows)
+        scaled |= s != 1.0
+        answer += group if s == 1.0 else [Impulse(i.contact, s * i.P) for i in group]
+    return answer, scaled
+
+
+def _scale(group: Sequence[Impulse], shadows: Sequence[Shadow]) -> float:
+    work, J = 0.0, dict[int, Array]()
+    for impulse in group:
+        c, P = impulse.contact, impulse.P
+        if not P.any():
+            continue
+        work += float(P @ actual_velocity(c, shadows))
+        for ship, taken in ((c.a, -(P @ c.G_a)), (c.b, P @ c.G_b)):
+            J[ship] = J[ship] + taken if ship in J else taken
+    quadratic = sum(float(taken @ shadows[ship].M_inverse @ taken) for ship, taken in J.items())
+    if quadratic <= 0.0 or work + 0.5 * quadratic <= ROUNDING * (abs(work) + quadratic):
+        return 1.0
+    return max(0.0, -2.0 * work / quadratic)
+
+
+def _groups(impulses: Sequence[Impulse], shadows: Sequence[Shadow]) -> list[list[Impulse]]:
+    """Impulses by the ships that they connect."""
+    pairs = {(i.contact.a, i.contact.b) for i in impulses}
+    if len(pairs) == 1:
+        return [list(impulses)]
+    root = {ship: ship for pair in pairs for ship in pair}
+
+    def find(ship: int) -> int:
+        while root[ship] != ship:
+            ship = root[ship]
+        return ship
+
+    for a, b in sorted(pairs):
+        if not (shadows[a].fixed or shadows[b].fixed):
+            root[find(b)] = find(a)
+    groups: dict[int, list[Impulse]] = {}
+    for impulse in impulses:
+        c = impulse.contact
+        groups.setdefault(find(c.b if shadows[c.a].fixed else c.a), []).append(impulse)
+    return list(groups.values())

@@ -1,0 +1,242 @@
+"""The one module that knows pybullet: hulls as Bullet bodies, closest points, and one step of Bullet's own dynamics.
+
+Everything that goes in and comes out is in n and b; the world with z up exists only in here. Bullet is used without
+memory: what a call returns depends on its arguments alone, never on earlier calls, so that a saved and restored FMU
+repeats every bit. For closest points that is so by itself; Bullet's own step keeps contact manifolds and warm-start
+impulses, hence its bodies are made anew for every step.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from ctypes import CDLL
+from dataclasses import dataclass
+from functools import lru_cache
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+
+from ...errors import HostError
+from ...ship.frames import SWAP, Array, quaternion_w, swapped
+from ...ship.hull import HullMesh
+
+__all__ = ["MARGIN", "BulletBody", "Closest", "Engine", "bullet_module"]
+
+
+Place = tuple[float, float, float]
+Quaternion = tuple[float, float, float, float]
+
+MARGIN = 0.001
+"""PyBullet's collision margin [m], which it adds to every hull and which is taken off again here. It cannot be zero:
+without it Bullet returns wrong normals for faces that lie flat on each other."""
+
+
+def bullet_module() -> ModuleType:
+    """pybullet, imported when first needed. Raises HostError when it is missing."""
+    try:
+        with _without_banner():
+            import pybullet
+    except ImportError as error:
+        raise HostError(
+            f"pybullet cannot be imported ({error}): install it with `pip install pybullet`; its wheels exist for "
+            "Linux and CPython 3.10 and 3.11, on others pip needs a C++ compiler"
+        ) from error
+    return pybullet  # type: ignore[no-any-return]
+
+
+@contextmanager
+def _without_banner() -> Iterator[None]:
+    """PyBullet writes its build time to the process's standard error when it is imported; nobody needs that line."""
+    try:
+        kept, nowhere = os.dup(2), os.open(os.devnull, os.O_WRONLY)
+    except OSError:  # a process without a standard error
+        yield
+        return
+    os.dup2(nowhere, 2)
+    try:
+        yield
+    finally:
+        os.dup2(kept, 2)
+        os.close(kept)
+        os.close(nowhere)
+
+
+@dataclass(frozen=True)
+class Closest:
+    """Closest points of two convex parts: on_a, on_b (3,) in n [m], normal (3,) from a to b, gap [m] (< 0: overlap)."""
+
+    on_a: Array
+    on_b: Array
+    normal: Array
+    gap: float
+    part_a: int
+    part_b: int
+
+
+@dataclass(frozen=True)
+class BulletBody:
+    """A ship as Bullet's own dynamics knows it: scalar mass [kg], diagonal inertia (3,) [kg m2] in b about CG."""
+
+    mass: float
+    inertia: Array
+    r_bg: Array
+
+
+class Engine:
+    """A private Bullet world (DIRECT, no rendering) with the hulls' convex parts. Close it when done."""
+
+    def __init__(self, hulls: Sequence[HullMesh]) -> None:
+        """hulls: one per ship; their vertices are in b about CO [m]. Raises HostError without pybullet."""
+        self._p = p = bullet_module()
+        self._client: int = p.connect(p.DIRECT)
+        self._hulls = tuple(hulls)
+        # One body per convex part; mass 0 keeps them out of any dynamics.
+        self._parts = [[self._body(0.0, part) for part in hull.parts] for hull in hulls]
+        self._dynamic_shapes: dict[tuple[int, bytes], Any] = {}
+        self._placed: list[tuple[Array, Array] | None] = [None] * len(hulls)
+        self._overlaps: dict[tuple[int, int], float] = {}  # gaps of pairs found touching where they are now
+
+    def close(self) -> None:
+        """Leave the Bullet world; safe to call twice."""
+        if self._client >= 0 and self._p.isConnected(self._client):
+            self._p.disconnect(self._client)
+            _give_back_memory()
+        self._client = -1
+
+    def place(self, ship: int, x: Array, R_nb: Array) -> None:
+        """Put a ship's parts at CO = x (3,) in n [m] with the attitude R_nb."""
+        before = self._placed[ship]
+        if before is not None and before[0] is x and before[1] is R_nb:
+            return
+        self._placed[ship] = x, R_nb
+        self._overlaps = {pair: gap for pair, gap in self._overlaps.items() if ship not in pair}
+        position, orientation = swapped(x), quaternion_w(R_nb)
+        for body in self._parts[ship]:
+            self._p.resetBasePositionAndOrientation(body, position, orientation, physicsClientId=self._client)
+
+    def closest(self, a: int, b: int, distance: float) -> list[Closest]:
+        """Closest points of every pair of parts of ships a and b not farther apart than `distance` [m]."""
+        found = []
+        for i, part_a in enumerate(self._parts[a]):
+            for j, part_b in enumerate(self._parts[b]):
+                for row in self._p.getClosestPoints(
+                    part_a, part_b, distance - 2 * MARGIN, physicsClientId=self._client
+                ):
+                    normal = -np.array(swapped(row[7]))  # Bullet's normal points from B to A
+                    on_a, on_b = np.array(swapped(row[5])), np.array(swapped(row[6]))
+                    found.append(
+                        Closest(on_a - MARGIN * normal, on_b + MARGIN * normal, normal, row[8] + 2 * MARGIN, i, j)
+                    )
+        if found and (gap := min(c.gap for c in found)) <= 0.0:
+            self._overlaps[a, b] = gap
+        return found
+
+    def gap(self, a: int, b: int, cap: float) -> float:
+        """Least distance [m] between ships a and b, negative in overlap, at most `cap`."""
+        if (a, b) in self._overlaps:
+            return min(cap, self._overlaps[a, b])
+        least = cap
+        for part_a in self._parts[a]:
+            for part_b in self._parts[b]:
+                rows = self._p.getClosestPoints(part_a, part_b, least - 2 * MARGIN, physicsClientId=self._client)
+                least = min((row[8] + 2 * MARGIN for row in rows), default=least)
+        return least
+
+    def dynamic_step(
+        self,
+        ships: tuple[int, int],
+        bodies: tuple[BulletBody, BulletBody],
+        poses: tuple[tuple[Array, Array], tuple[Array, Array]],
+        twists: tuple[Array, Array],
+        h: float,
+        friction: float,
+        restitution: float,
+    ) -> list[tuple[Array, Array, Array, float, Array]]:
+        """One step of h [s] of Bullet's rigid-body dynamics for a pair of ships.
+
+        poses: (CO in n [m], R_nb); twists: (6,) in b about CO; friction, restitution: of the pair (Bullet multiplies
+        the bodies' values, so each gets the square root). Returns (on_a, on_b, normal a to b, gap, P on b) of each
+        contact point, in n. Position correction is off: an overlap must not add velocity.
+        """
+        p, client = self._p, self._client
+        p.setPhysicsEngineParameter(
+            fixedTimeStep=h, numSolverIterations=50, erp=0.0, contactERP=0.0, frictionERP=0.0, physicsClientId=client
+        )
+        made = [
+            self._dynamic_body(ship, body, friction, restitution, swapped(x + R_nb @ body.r_bg), quaternion_w(R_nb))
+            for ship, body, (x, R_nb) in zip(ships, bodies, poses, strict=True)
+        ]
+        # A step at rest, blind to each other: until a body has made one, Bullet solves with the inertia of its shape at
+        # the attitude of its making, whatever it was told since.
+        p.setCollisionFilterPair(made[0], made[1], -1, -1, 0, physicsClientId=client)
+        p.stepSimulation(physicsClientId=client)
+        p.setCollisionFilterPair(made[0], made[1], -1, -1, 1, physicsClientId=client)
+        for handle, body, (_, R_nb), nu in zip(made, bodies, poses, twists, strict=True):
+            velocity = R_nb @ (nu[:3] + np.cross(nu[3:], body.r_bg))
+            p.resetBaseVelocity(handle, swapped(velocity), swapped(R_nb @ nu[3:]), physicsClientId=client)
+        p.stepSimulation(physicsClientId=client)
+        rows = p.getContactPoints(made[0], made[1], physicsClientId=client)
+        for handle in made:
+            p.removeBody(handle, physicsClientId=client)
+        return [_contact_row(row, h) for row in rows]
+
+    def _shape(self, vertices: Array, r_origin: Array | float = 0.0) -> int:
+        """Collision shape of a vertex set (n, 3) in b, seen from the point r_origin [m] in b."""
+        seen = (vertices - r_origin) @ SWAP
+        shape: int = self._p.createCollisionShape(
+            self._p.GEOM_MESH, vertices=_listed(seen.tobytes()), physicsClientId=self._client
+        )
+        return shape
+
+    def _body(self, mass: float, vertices: Array) -> int:
+        p, client = self._p, self._client
+        body: int = p.createMultiBody(mass, self._shape(vertices), useMaximalCoordinates=1, physicsClientId=client)
+        p.setCollisionFilterGroupMask(body, -1, 0, 0, physicsClientId=client)  # asked for by name only
+        return body
+
+    def _dynamic_body(
+        self, ship: int, body: BulletBody, friction: float, restitution: float, position: Place, orientation: Quaternion
+    ) -> int:
+        p, client = self._p, self._client
+        key = (ship, body.r_bg.tobytes())
+        if key not in self._dynamic_shapes:
+            self._dynamic_shapes[key] = self._shape(np.vstack(self._hulls[ship].parts), body.r_bg)
+        handle: int = p.createMultiBody(
+            body.mass, self._dynamic_shapes[key], basePosition=position, baseOrientation=orientation,
+            useMaximalCoordinates=1, physicsClientId=client,
+        )  # fmt: skip
+        # The mass once more: with an inertia and without a mass, changeDynamics sets the mass to zero.
+        p.changeDynamics(
+            handle, -1, mass=body.mass, linearDamping=0.0, angularDamping=0.0, lateralFriction=friction**0.5,
+            restitution=restitution**0.5,
+            localInertiaDiagonal=np.abs(swapped(body.inertia)).tolist(), physicsClientId=client,
+        )  # fmt: skip
+        return handle
+
+
+def _give_back_memory() -> None:
+    """Return freed memory to the system: a world has 30 MB of buffers, and glibc keeps them for the process. Takes
+    some milliseconds; where the C library is another, nothing is done."""
+    trim = getattr(CDLL(None), "malloc_trim", None)
+    if trim is not None:
+        trim(0)
+
+
+@lru_cache(maxsize=512)
+def _listed(vertices: bytes) -> list[list[float]]:
+    """Vertices (n, 3) as lists, the same object for the same hull: pybullet 3.2 never gives back the references that it
+    takes to the numbers, and would keep a copy of every hull of every world."""
+    listed: list[list[float]] = np.frombuffer(vertices).reshape(-1, 3).tolist()
+    return listed
+
+
+def _contact_row(row: Sequence[Any], h: float) -> tuple[Array, Array, Array, float, Array]:
+    """A row of getContactPoints in n; Bullet's forces act on A along a normal that points from B to A."""
+    on_a, on_b, normal = (np.array(swapped(row[k])) for k in (5, 6, 7))
+    if row[9] == 0.0:  # a prediction: Bullet leaves the friction directions of a contact it did not solve unset
+        return on_a, on_b, -normal, float(row[8]), np.zeros(3)
+    force_on_a = normal * row[9] + np.array(swapped(row[11])) * row[10] + np.array(swapped(row[13])) * row[12]
+    return on_a, on_b, -normal, float(row[8]), -force_on_a * h

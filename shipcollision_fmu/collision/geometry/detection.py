@@ -1,0 +1,166 @@
+"""Where two hulls touch: Bullet's answer, cleaned until a solver can trust it.
+
+1. A closest point at a positive distance is a prediction, not a contact: only gap <= 0 counts.
+2. Bullet gives one point, at an arbitrary place along a line or an area of contact. The contact points are the corners
+   of what the two facing features have in common (manifold.py).
+3. In deep overlap the direction of least overlap jumps, for a ship soon to the vertical: while the overlap is deeper
+   than SHALLOW the last normal from before is kept, turning with the hull whose face it belongs to.
+4. The convex parts of one hull are joined (compound_hull.py): faces and edges inside the hull give no contact, and what the
+   parts of a face have in contact is one contact.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import dist
+
+import numpy as np
+
+from ...ship.frames import Array
+from ...ship.hull import HullMesh
+from ..dynamics.body_state import Shadow
+from ..dynamics.contact import Contact, make_contact
+from .bullet import MARGIN, Closest, Engine
+from .compound_hull import JoinedParts, as_one, on_the_outside
+from .manifold import FEATURE_DEPTH, contact_manifold, foremost
+from .plan_overlap import least_overlap
+
+__all__ = ["SHALLOW", "Detector", "KeptNormals"]
+
+SHALLOW = 0.5
+"""Overlap [m] down to which Bullet's normal is taken: some steps of a fast approach, far below a hull's breadth, beyond
+which least overlap no longer tells the side that was struck."""
+
+SAME_POINT = 0.5
+"""Contact points closer than this [m] are one point: different convex parts give the same one."""
+
+FLUSH = 1e-6
+"""Gap [m] at which a corner counts as touching when another one of the same face touches."""
+
+SMALL = 15.0
+"""Least extent [m] of a hull below which SAME_POINT and FEATURE_DEPTH shrink with it: a boat is met like a ship."""
+
+KeptNormals = dict[tuple[int, int], tuple[int, list[float]]]
+"""Per pair of ships (a, b): which of them carries the last shallow normal, and that normal in its body frame."""
+
+
+class Detector:
+    """Contacts and clearance between hulls. Holds no state that matters: the kept normals belong to the caller."""
+
+    def __init__(self, hulls: Sequence[HullMesh]) -> None:
+        self._hulls = tuple(hulls)
+        self._joined = [JoinedParts(hull) for hull in hulls]
+        self._scales = [min(1.0, float(np.ptp(hull.vertices, axis=0).min()) / SMALL) for hull in hulls]
+        self.engine = Engine(hulls)
+
+    def place(self, ship: int, shadow: Shadow) -> None:
+        """Move a hull to its shadow's predicted pose."""
+        self.engine.place(ship, shadow.x, shadow.R)
+
+    def clearance(self, a: int, b: int, cap: float) -> float:
+        """Least distance [m] between two placed hulls, negative in overlap, at most `cap`."""
+        return self.engine.gap(a, b, cap)
+
+    def touching(self, a: int, b: int) -> bool:
+        """Whether two placed hulls touch or overlap."""
+        return self.engine.gap(a, b, MARGIN) <= 0.0
+
+    def contacts(self, a: int, b: int, shadows: Sequence[Shadow], kept: KeptNormals) -> list[Contact]:
+        """Contact points of two placed hulls, gap <= 0. Updates `kept` while the overlap is shallow."""
+        touching = [c for c in self.engine.closest(a, b, 0.0) if c.gap <= 0.0]
+        if not touching:
+            kept.pop((a, b), None)
+            return []
+        one, other, scale = self._joined[a], self._joined[b], self._scale(a, b)
+        joined = not (one.whole and other.whole)
+        if joined:
+            touching = on_the_outside(touching, one, other, (shadows[a], shadows[b]))
+        shallow = min(c.gap for c in touching) > -SHALLOW
+        carried = None if shallow else kept.get((a, b))
+        if carried is None and not shallow:  # deep inside each other, and never seen apart
+            carried = kept[(a, b)] = self._level(a, b, touching, shadows)
+        found: list[Contact] = []
+        hidden: list[Contact] = []
+        for closest in touching:
+            normal = closest.normal if carried is None else _turned(carried, shadows[a], shadows[b])
+            feature_a, feature_b = self._features(a, b, closest, normal, shadows, scale * FEATURE_DEPTH)
+            if shallow and closest is touching[0]:
+                carrier = 0 if len(feature_a) > len(feature_b) else 1
+                kept[(a, b)] = (carrier, (normal @ shadows[(a, b)[carrier]].R).tolist())
+            # Features that pass each other (a corner beside a face's edge) leave Bullet's own point.
+            corners = contact_manifold(feature_a, feature_b, normal)
+            places = corners or [(0.5 * (closest.on_a + closest.on_b), closest.gap)]
+            # Faces that meet flush touch with all their corners, whatever the last bits of the gaps say.
+            touch = FLUSH if min(gap for _, gap in places) <= 0.0 else 0.0
+            for point, gap in places:
+                if gap <= touch:
+                    contact = make_contact(a, b, shadows, point, normal, gap)
+                    # With a kept normal, parts that pass each other along it or lie behind others have no contact.
+                    inside = joined and not shallow and (not corners or self._is_inside(contact, closest, shadows))
+                    (hidden if inside else found).append(contact)
+        return _distinct(as_one(found or hidden) if joined else found, scale * SAME_POINT)
+
+    def facing(self, a: int, b: int, distance: float, shadows: Sequence[Shadow], kept: KeptNormals) -> Contact | None:
+        """The middle of what is nearer than `distance` [m] of two placed hulls, with the least gap; None: nothing."""
+        near = self.engine.closest(a, b, distance)
+        if not near:
+            return None
+        nearest = min(near, key=lambda c: c.gap)
+        gap, normal = nearest.gap, nearest.normal
+        if gap <= -SHALLOW and (a, b) in kept:
+            normal = _turned(kept[a, b], shadows[a], shadows[b])
+        depth = max(self._scale(a, b) * FEATURE_DEPTH, distance - gap)
+        feature_a, feature_b = self._features(a, b, nearest, normal, shadows, depth)
+        places = contact_manifold(feature_a, feature_b, normal) or [(0.5 * (nearest.on_a + nearest.on_b), gap)]
+        weights = [max(distance - g, 0.0) for _, g in places]
+        if not any(weights):
+            weights = [1.0] * len(places)
+        total = sum(weights)
+        middle: Array = sum((w / total * point for (point, _), w in zip(places, weights, strict=True)), np.zeros(3))
+        return make_contact(a, b, shadows, middle, normal, gap)
+
+    def _level(self, a: int, b: int, touching: Sequence[Closest], shadows: Sequence[Shadow]) -> tuple[int, list[float]]:
+        """Level normal of least overlap of the two hulls' plans, carried by the ship whose side it belongs to."""
+        in_a = np.vstack([self._placed_part(a, i, shadows) for i in sorted({c.part_a for c in touching})])
+        in_b = np.vstack([self._placed_part(b, i, shadows) for i in sorted({c.part_b for c in touching})])
+        _, normal, carrier = least_overlap(in_a, in_b)
+        return carrier, (normal @ shadows[(a, b)[carrier]].R).tolist()
+
+    def _scale(self, a: int, b: int) -> float:
+        return min(self._scales[a], self._scales[b])
+
+    def _is_inside(self, contact: Contact, closest: Closest, shadows: Sequence[Shadow]) -> bool:
+        """Whether a contact with a kept normal lies on a face that another part of the same hull covers."""
+        half = 0.5 * contact.gap * contact.normal
+        a, b = shadows[contact.a], shadows[contact.b]
+        return self._joined[contact.a].covers(
+            closest.part_a, a.body(contact.point - half), contact.normal @ a.R
+        ) or self._joined[contact.b].covers(closest.part_b, b.body(contact.point + half), -(contact.normal @ b.R))
+
+    def _placed_part(self, ship: int, part: int, shadows: Sequence[Shadow]) -> Array:
+        points: Array = shadows[ship].x + self._hulls[ship].parts[part] @ shadows[ship].R.T
+        return points
+
+    def _features(
+        self, a: int, b: int, closest: Closest, normal: Array, shadows: Sequence[Shadow], depth: float
+    ) -> tuple[Array, Array]:
+        """Points (n, 3) of either part that face the other one: foremost along the normal, within `depth` [m]."""
+        in_a = self._placed_part(a, closest.part_a, shadows)
+        in_b = self._placed_part(b, closest.part_b, shadows)
+        return foremost(in_a, normal, depth), foremost(in_b, -normal, depth)
+
+
+def _distinct(contacts: list[Contact], apart: float) -> list[Contact]:
+    """Contacts more than `apart` [m] from each other, the first of those that are nearer."""
+    found: list[Contact] = []
+    for contact in contacts:
+        if all(dist(contact.point, c.point) > apart for c in found):
+            found.append(contact)
+    return found
+
+
+def _turned(carried: tuple[int, list[float]], one: Shadow, other: Shadow) -> Array:
+    """A kept normal in n, as it has turned with the hull that carries it."""
+    carrier, normal_b = carried
+    normal: Array = (one, other)[carrier].R @ np.array(normal_b)
+    return normal

@@ -1,0 +1,215 @@
+"""The law of one contact: no approach left, no pull, friction inside the cone and against the slip; and its solution.
+
+    0 <= P_n   perpendicular to   v_n >= 0                         no approach left, no pull
+    |P_t| <= mu P_n,   and while sliding   P_t = -mu P_n v_t / |v_t|    friction inside the cone, against the slip
+
+It is equation (13) of Guan et al. 2014, the law with bounds, with a cone for their pyramid.
+
+Here v = v(0) + W P, W (3, 3) of the contact alone. The tangents are turned so that W_tt = diag(a_1, a_2):
+
+    W = [[W_nn, w_1, w_2], [w_1, a_1, 0], [w_2, 0, a_2]]
+
+Three answers are tried in turn: apart, stick, slide. Where ships are held (heave, in 3 degrees of freedom) and the
+normal slopes, many impulses stop them alike: the least is taken, that of friction at its limit. Sliding is one equation
+for the angle of the friction, solved by Newton's method. Where that fails (friction so strong that it presses the hulls
+together on the way, or hulls that can hardly move in some direction), the normal impulse itself is the unknown:
+
+    f(P_n) = v_n + W_nn P_n + w . P_t(P_n) = 0        P_t(P_n): friction in the disc of radius mu P_n that takes most
+
+f(0) < 0, and f grows without bound for any W that is positive definite: a zero exists and is bracketed. P_t(P_n) is the
+smallest of a quadratic form on a disc, P_t = -(W_tt + g)^-1 (v_t + w P_n) with one g >= 0 (g = 0: it sticks).
+
+References: Jourdan, Alart and Jean (1998), Comput. Methods Appl. Mech. Eng. 155:31-47 (block form with friction);
+More and Sorensen (1983), SIAM J. Sci. Stat. Comput. 4:553-572 (the quadratic form on a disc).
+"""
+
+from __future__ import annotations
+
+from math import atan2, cos, hypot, inf, sin, sqrt
+from typing import NamedTuple
+
+import numpy as np
+
+from ...ship.frames import Array
+
+__all__ = ["Block", "friction_in_disc", "law_residual", "solve_contact"]
+
+RANK = 1e-9
+"""Share of W_nn below which what is left of it when friction holds both tangents is rounding."""
+
+ROUNDING = 1e-14
+"""Approach, as a share of that before, that counts as stopped."""
+
+Row = tuple[float, float, float]
+NONE: Row = (0.0, 0.0, 0.0)
+
+
+class Block(NamedTuple):
+    """W of one contact in its principal tangents [1/kg]; h_i = 1 / a_i, zero where the ships cannot move."""
+
+    W_nn: float
+    w_1: float
+    w_2: float
+    a_1: float
+    a_2: float
+    h_1: float
+    h_2: float
+
+    @classmethod
+    def of(cls, W: Array) -> Block:
+        """From W (3, 3) whose tangents are principal already, with exact zeros where the ships cannot move."""
+        W_nn, w_1, w_2, a_1, a_2 = (float(x) for x in (W[0, 0], W[0, 1], W[0, 2], W[1, 1], W[2, 2]))
+        return cls(W_nn, w_1, w_2, a_1, a_2, 1.0 / a_1 if a_1 > 0.0 else 0.0, 1.0 / a_2 if a_2 > 0.0 else 0.0)
+
+
+def solve_contact(W: Block, v: Row, mu: float, near: float | None = None) -> tuple[Row, float | None]:
+    """Impulse (P_n, P_1, P_2) [N s] of one contact with the velocity v [m/s] before; and the angle of its friction if
+    it slides.
+
+    near: angle from which the search starts; None: friction against the slip before.
+    """
+    v_n, v_1, v_2 = v
+    if v_n >= 0.0:
+        return NONE, None
+    stick = _stick(W, v, mu)
+    if stick is not None:
+        return stick, None
+    if mu == 0.0:
+        return (-v_n / W.W_nn, 0.0, 0.0), None
+    found = _slide(W, v, mu, atan2(-v_2, -v_1) if near is None else near)
+    return found if found is not None else _bracketed(W, v, mu)
+
+
+def _stick(W: Block, v: Row, mu: float) -> Row | None:
+    """The impulse in the cone that stops all three directions, the least where there are many; None when there is
+    none."""
+    v_n, v_1, v_2 = v
+    if (W.h_1 == 0.0 and v_1 != 0.0) or (W.h_2 == 0.0 and v_2 != 0.0):
+        return None
+    rest = W.W_nn - W.w_1 * W.w_1 * W.h_1 - W.w_2 * W.w_2 * W.h_2
+    left = v_n - W.w_1 * W.h_1 * v_1 - W.w_2 * W.h_2 * v_2  # of the approach, when friction holds both tangents
+    held = rest <= RANK * W.W_nn
+    if held and abs(left) > RANK * hypot(v_n, v_1, v_2):
+        return None
+    P_n = _least_in_cone(W, v_1, v_2, mu) if held else -left / rest
+    P_1, P_2 = -(v_1 + W.w_1 * P_n) * W.h_1, -(v_2 + W.w_2 * P_n) * W.h_2
+    size, most = hypot(P_1, P_2), mu * P_n
+    if held and most > 0.0 and abs(size - most) <= 1e-6 * most:  # on the cone, but for rounding
+        P_1, P_2 = P_1 * most / size, P_2 * most / size
+    elif size > most:
+        return None
+    return P_n, P_1, P_2
+
+
+def _least_in_cone(W: Block, v_1: float, v_2: float, mu: float) -> float:
+    """Least P_n at which friction that holds the slip is in the cone, where P_n does nothing more; 0: none."""
+    x, y, dx, dy = v_1 * W.h_1, v_2 * W.h_2, W.w_1 * W.h_1, W.w_2 * W.h_2
+    a, b, c = dx * dx + dy * dy - mu * mu, x * dx + y * dy, x * x + y * y
+    square = b * b - a * c
+    return c / (sqrt(square) - b) if square >= 0.0 and sqrt(square) > b else 0.0
+
+
+def _slide(W: Block, v: Row, mu: float, angle: float) -> tuple[Row, float] | None:
+    """Impulse P_n (1, mu cos, mu sin) that stops the approach and leaves a slip straight against it; None if Newton's
+    method does not find one."""
+    W_nn, w_1, w_2, a_1, a_2, _, _ = W
+    v_n, v_1, v_2 = v
+    for _ in range(15):
+        c, s = cos(angle), sin(angle)
+        felt = W_nn + mu * (w_1 * c + w_2 * s)
+        if felt <= 1e-3 * W_nn:
+            return None
+        P_n = -v_n / felt
+        P_1, P_2 = mu * P_n * c, mu * P_n * s
+        slip_1, slip_2 = v_1 + w_1 * P_n + a_1 * P_1, v_2 + w_2 * P_n + a_2 * P_2
+        across, along = s * slip_1 - c * slip_2, c * slip_1 + s * slip_2
+        grown = -P_n * mu * (w_2 * c - w_1 * s) / felt  # dP_n / dangle
+        d_1 = w_1 * grown + a_1 * mu * (grown * c - P_n * s)
+        d_2 = w_2 * grown + a_2 * mu * (grown * s + P_n * c)
+        slope = along + s * d_1 - c * d_2
+        if slope == 0.0:
+            return None
+        step = -across / slope
+        if abs(step) <= 1e-14 * max(1.0, abs(angle)) or across == 0.0:
+            return ((P_n, P_1, P_2), angle) if along <= 0.0 else None
+        angle += min(0.5, max(-0.5, step))
+    # Where rounding does not let the step get smaller, what it would change decides.
+    return ((P_n, P_1, P_2), angle) if along < 0.0 and abs(across) <= 1e-12 * hypot(v_n, v_1, v_2) else None
+
+
+def _bracketed(W: Block, v: Row, mu: float) -> tuple[Row, float | None]:
+    """The same by the zero of f(P_n), bracketed from zero outwards and closed in by halving and by secants."""
+
+    def f(P_n: float) -> float:
+        P_1, P_2 = friction_in_disc(W, v[1] + W.w_1 * P_n, v[2] + W.w_2 * P_n, mu * P_n)
+        return v[0] + W.W_nn * P_n + W.w_1 * P_1 + W.w_2 * P_2
+
+    low, f_low = 0.0, v[0]
+    high = -0.125 * v[0] / W.W_nn
+    f_high = f(high)
+    stopped = ROUNDING * v[0]
+    for _ in range(200):
+        if f_high >= stopped:
+            break
+        low, f_low, high = high, f_high, 2.0 * high
+        f_high = f(high)
+    else:  # no impulse in the cone stops them: neither ship can move along any of its directions
+        return (-v[0] / W.W_nn, 0.0, 0.0), None
+    for k in range(200):
+        middle = 0.5 * (low + high) if k % 3 == 2 else low - f_low * (high - low) / (f_high - f_low)
+        if not low < middle < high:
+            break
+        f_middle = f(middle)
+        if f_middle < stopped:
+            low, f_low = middle, f_middle
+        else:
+            high, f_high = middle, max(f_middle, 0.0)
+    P_n = low if -f_low < f_high else high
+    P_1, P_2 = friction_in_disc(W, v[1] + W.w_1 * P_n, v[2] + W.w_2 * P_n, mu * P_n)
+    return (P_n, P_1, P_2), atan2(P_2, P_1)
+
+
+def friction_in_disc(W: Block, v_1: float, v_2: float, radius: float) -> tuple[float, float]:
+    """Friction (P_1, P_2) in a disc [N s] that holds the slip v if it can, and else takes most energy from it."""
+    size = hypot(v_1, v_2)
+    if size == 0.0 or radius <= 0.0:
+        return 0.0, 0.0
+    P_1, P_2 = -v_1 * W.h_1, -v_2 * W.h_2
+    held = (W.h_1 > 0.0 or v_1 == 0.0) and (W.h_2 > 0.0 or v_2 == 0.0)
+    if held and hypot(P_1, P_2) <= radius:
+        return P_1, P_2
+    # |P(g)| falls with g; 1/|P(g)| is concave, so Newton's method from the left never overshoots.
+    g = max(0.0, size / radius - max(W.a_1, W.a_2), abs(v_1) / radius - W.a_1, abs(v_2) / radius - W.a_2)
+    if g > 1e18 * max(W.a_1, W.a_2):  # next to it W_tt is nothing
+        return -v_1 / size * radius, -v_2 / size * radius
+    for _ in range(60):
+        b_1, b_2 = W.a_1 + g, W.a_2 + g
+        P_1, P_2 = -v_1 / b_1 if v_1 else 0.0, -v_2 / b_2 if v_2 else 0.0
+        square = P_1 * P_1 + P_2 * P_2
+        length = sqrt(square)
+        bend = (P_1 * P_1 / b_1 if P_1 else 0.0) + (P_2 * P_2 / b_2 if P_2 else 0.0)
+        step = (length / radius - 1.0) * square / bend
+        g += step
+        if abs(step) <= 1e-15 * g:
+            break
+    share = radius / length
+    return P_1 * share, P_2 * share
+
+
+def law_residual(W: Array, v: Array, mu: float, P: Array) -> float:
+    """By how much impulses break the law: the largest velocity [m/s] by which a contact misses complementarity, or its
+    friction the projection on the cone. W (3k, 3k), v (3k,) before, P (k, 3), tangents in any axes.
+
+    Zero if and only if the law holds at every contact (the natural map of the complementarity problem).
+    """
+    after, stiff = (v + W @ P.ravel()).reshape(-1, 3), np.diag(W).reshape(-1, 3).tolist()
+    if not np.isfinite(after).all():
+        return inf
+    worst = 0.0
+    for (P_n, P_1, P_2), (v_n, v_1, v_2), (w_n, w_1, w_2) in zip(P.tolist(), after.tolist(), stiff, strict=True):
+        rho = max(w_1, w_2) or 1.0
+        x, y = P_1 - v_1 / rho, P_2 - v_2 / rho
+        size, radius = hypot(x, y), mu * max(P_n, 0.0)
+        share = radius / size if size > radius else 1.0
+        worst = max(worst, abs(min(P_n * w_n, v_n)), hypot(P_1 - x * share, P_2 - y * share) * rho)
+    return worst

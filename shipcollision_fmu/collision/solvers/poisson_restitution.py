@@ -1,0 +1,74 @@
+"""Restitution of a whole impact: all contacts of a patch spring back together, and never with more than they stored.
+
+    compression   P_c      plastic impact of all contacts at once (gauss_seidel.py)
+    restitution   P_r      normal impulses e P_c,n; friction held or sliding anew inside the cone mu e P_c,n (Poisson)
+    impact        P_c + P_r
+
+Newton's rule asks every contact of one rigid patch for its own share of its own approach, which the patch cannot
+satisfy; Poisson's asks the impact as a whole. For one contact that slides one way throughout both rules agree.
+
+With friction Poisson's rule can create energy, rarely. Then the impact (1 + e) P_c is taken instead, which cannot:
+P_c is plastic, so P_c . (v + W P_c) <= 0, hence P_c . W P_c <= -P_c . v = a, and the energy gained is
+
+    (1 + e) P_c . v + 1/2 (1 + e)^2 P_c . W P_c  <=  -1/2 (1 + e)(1 - e) a  <=  0
+
+References: Poisson's hypothesis as in Glocker and Pfeiffer (1995); that it may gain energy: Stronge (2000), chapter 3.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...ship.frames import Array
+from .gauss_seidel import RESIDUAL, Solution, principal_axes, solve_pgs, without_rounding
+from .one_contact import Block, friction_in_disc
+
+__all__ = ["solve_impact"]
+
+NO_REBOUND = 1e-12
+"""Restitution that counts as none: what springs back is rounding."""
+
+MAX_SWEEPS = 1000
+"""Bound on the sweeps over the friction of restitution. What they leave is not against any law but in the split: the
+friction stays in its disc."""
+
+
+def solve_impact(W: Array, v: Array, mu: float, e: float, start: Array | None = None) -> Solution:
+    """Impulses of k contacts with restitution e. W (3k, 3k) [1/kg], v (3k,) [m/s] before, in contact axes; start (k,
+    3): impulses like those expected (see solve_pgs)."""
+    plastic = solve_pgs(W, v, mu, start)
+    if e <= NO_REBOUND or not plastic.P.any():
+        return plastic
+    P = plastic.P.ravel()
+    whole = P + _sprung_back(W, v + W @ P, mu, e * P)
+    if whole @ (v + 0.5 * W @ whole) > 0.0:
+        whole = (1.0 + e) * P
+    last = solve_pgs(W, v + W @ whole, mu)  # contacts that the others' rebound has closed
+    residual = max(plastic.residual, last.residual)
+    return Solution(whole.reshape(-1, 3) + last.P, residual, plastic.sweeps + last.sweeps)
+
+
+def _sprung_back(W: Array, v: Array, mu: float, P: Array) -> Array:
+    """Impulses of restitution (3k,): P's normal parts are given; friction, in discs of mu times them, holds the slip if
+    it can. Projected Gauss-Seidel on the tangential pairs alone: what it minimises is convex, so it gets there."""
+    T = principal_axes(W)
+    W, v = T @ W @ T.T, T @ v
+    without_rounding(W, v)
+    P = T @ P
+    blocks = [Block.of(W[n : n + 3, n : n + 3]) for n in range(0, len(P), 3)]
+    for n in range(0, len(P), 3):
+        P[n + 1 : n + 3] = 0.0
+    scale = float(np.abs(v).max() + np.abs(W @ P).max())
+    for _ in range(MAX_SWEEPS):
+        change = 0.0
+        for i, block in enumerate(blocks):
+            n = 3 * i
+            pair = slice(n + 1, n + 3)
+            old = P[pair].copy()
+            own = np.array([block.a_1, block.a_2]) * old
+            free = v[pair] + W[pair] @ P - own
+            P[pair] = friction_in_disc(block, float(free[0]), float(free[1]), mu * float(P[n]))
+            change = max(change, float(np.abs(np.array([block.a_1, block.a_2]) * (P[pair] - old)).max()))
+        if change <= RESIDUAL * scale:
+            break
+    return P @ T

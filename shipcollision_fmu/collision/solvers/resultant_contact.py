@@ -1,0 +1,44 @@
+"""The contacts of one pair as a single contact: what the closed forms of an impact can answer.
+
+The point and the normal are those of the resultant of a frictionless plastic impact at all the contacts:
+
+    lambda = normal impulses of that impact (gauss_seidel.py, mu = 0)
+    point  = sum(lambda_i point_i) / sum(lambda_i)        normal = sum(lambda_i n_i), of length 1
+
+For parallel normals that one impulse does to both ships what all of them do, so no contact is left approaching: it is
+the centre of percussion of the patch, and moves over it with the ships' rotation. A centre weighted by overlap would
+follow the depth of a past moment instead. Contacts that do not approach have no share.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..dynamics.body_state import Shadow
+from ..dynamics.contact import Contact, contact_velocity, make_contact
+from ..dynamics.contact_frame import contact_axes
+from ..dynamics.delassus import contact_jacobian, delassus
+from .gauss_seidel import solve_pgs
+
+__all__ = ["resultant_contact"]
+
+
+def resultant_contact(contacts: Sequence[Contact], shadows: Sequence[Shadow]) -> Contact | None:
+    """One contact for all of a pair's; None when nothing approaches. Its gap is the deepest."""
+    axes = [contact_axes(c.normal) for c in contacts]
+    velocity = np.concatenate([axis @ contact_velocity(c, shadows) for axis, c in zip(axes, contacts, strict=True)])
+    if velocity[0::3].min() >= 0.0:
+        return None
+    if len(contacts) == 1:
+        return contacts[0]
+    G, ships = contact_jacobian(contacts)
+    local = np.vstack([axis @ G[3 * i : 3 * i + 3] for i, axis in enumerate(axes)])
+    share = solve_pgs(delassus(local, ships, shadows), velocity, 0.0).P[:, 0]
+    share = share / share.sum()
+    point = sum((w * c.point for w, c in zip(share, contacts, strict=True)), np.zeros(3))
+    normal = sum((w * c.normal for w, c in zip(share, contacts, strict=True)), np.zeros(3))
+    return make_contact(
+        contacts[0].a, contacts[0].b, shadows, point, normal / np.linalg.norm(normal), min(c.gap for c in contacts)
+    )

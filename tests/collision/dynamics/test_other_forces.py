@@ -1,0 +1,80 @@
+"""What other forces do within a step, seen from poses; the way ahead in plain numbers; no answer adds energy."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from shipcollision_fmu.collision.ahead import state_ahead
+from shipcollision_fmu.collision.dynamics.body_state import Shadow
+from shipcollision_fmu.collision.dynamics.contact import Impulse, actual_velocity, make_contact
+from shipcollision_fmu.collision.dynamics.other_forces import Seen, drift
+from shipcollision_fmu.collision.dynamics.passivity import passive
+from shipcollision_fmu.manoeuvring.coasting import coasted
+from shipcollision_fmu.ship.frames import rotation
+
+H, REACH = 0.1, 100.0
+ANGLE, RATE = st.floats(-0.5, 0.5), st.floats(-0.02, 0.02)
+M_INVERSE = np.diag([1e-7, 2e-7, 1e-7, 1e-9, 1e-11, 1e-11])
+
+
+def seen(t: float, eta: list[float], nu: list[float], applied: np.ndarray | None = None) -> Seen:
+    return Seen(t, H, eta[:3], eta[3:], nu, [0.0] * 6 if applied is None else applied.tolist())
+
+
+@given(st.tuples(ANGLE, ANGLE, st.floats(-3, 3)), st.tuples(RATE, RATE, RATE), st.tuples(*[st.floats(-5, 5)] * 3))
+def test_a_ship_that_coasts_has_none(
+    attitude: tuple[float, ...], rate: tuple[float, ...], r_bg: tuple[float, ...]
+) -> None:
+    """Also where CO goes round CG, and with an impulse at the start of the step."""
+    eta, nu, J = [3.0, -2.0, 1.0, *attitude], [4.0, 0.5, -0.1, *rate], np.array([1e6, -2e6, 0, 1e7, 0, 3e8])
+    struck = np.array(nu) + M_INVERSE @ J
+    after = coasted(eta, struck.tolist(), np.array(r_bg), H)
+    assert drift(seen(0.0, eta, nu), seen(H, *after, J), M_INVERSE, np.array(r_bg), REACH) is None
+
+
+def test_a_steady_force_is_half_in_the_mean_and_whole_at_the_end() -> None:
+    a = np.array([0.02, -0.03, 0.0])
+    eta, nu = [0.0, 0.0, 0.0, 0.0, 0.0, 0.7], [2.0, 0.1, 0.0, 0.0, 0.0, 0.0]
+    R = rotation(eta[3:])
+    x = R @ (np.array(nu[:3]) * H + 0.5 * a * H**2)
+    later = seen(H, [*x.tolist(), 0.0, 0.0, 0.7], [*(np.array(nu[:3]) + a * H).tolist(), 0.0, 0.0, 0.0])
+    found = drift(seen(0.0, eta, nu), later, M_INVERSE, np.zeros(3), REACH)
+    assert found is not None
+    np.testing.assert_allclose(found.mean[:3], 0.5 * a * H, atol=1e-12)
+    np.testing.assert_allclose(found.gain[:3], a * H, atol=1e-12)
+
+
+@pytest.mark.parametrize(("t", "x"), [(0.3, 0.2), (H, 9.0)])
+def test_a_jump_in_time_or_place_is_no_drift(t: float, x: float) -> None:
+    eta, nu = [0.0] * 6, [2.0, 0.0, 0.0, 0.0, 0.0, 0.0]
+    assert drift(seen(0.0, eta, nu), seen(t, [x + 0.001, *[0.0] * 5], nu), M_INVERSE, np.zeros(3), REACH) is None
+
+
+@given(st.tuples(ANGLE, ANGLE, st.floats(-9, 9)), st.tuples(RATE, RATE, RATE))
+def test_the_short_way_ahead_is_the_shadows(attitude: tuple[float, ...], rate: tuple[float, ...]) -> None:
+    position, velocity = np.array([100.0, -50.0, 1.0]), [4.0, 0.5, -0.1]
+    r_bg = np.array([-3.0, 0.5, 2.0])
+    shadow = Shadow.at(position, np.array(attitude), np.array([*velocity, *rate]), M_INVERSE, r_bg)
+    shadow.advance(0.2)
+    shadow.advance(0.3)
+    place, angles, turned = state_ahead(position.tolist(), attitude, velocity, rate, r_bg.tolist(), 0.5)
+    np.testing.assert_allclose(place, shadow.x, atol=1e-12)
+    np.testing.assert_allclose(rotation(angles), shadow.R, atol=1e-12)
+    np.testing.assert_allclose([*turned, *rate], shadow.nu_predicted, atol=1e-12)
+    assert abs(angles[2] - attitude[2]) < 0.1
+
+
+@given(st.floats(0.1, 10.0), st.floats(-3.0, 3.0))
+def test_an_answer_that_would_add_energy_becomes_elastic(size: float, sway: float) -> None:
+    """A ship at 1 m/s against a wall; beyond twice the plastic impulse energy is added, and is taken back."""
+    wall = Shadow.wall(np.array([50.0, 0.0, 0.0]), 0.0)
+    ship = Shadow.at(np.zeros(3), np.zeros(3), np.array([1.0, sway, 0, 0, 0, 0]), M_INVERSE)
+    shadows = [ship, wall]
+    contact = make_contact(0, 1, shadows, np.array([50.0, 0.0, 0.0]), np.array([1.0, 0.0, 0.0]), 0.0)
+    (answer,), scaled = passive([Impulse(contact, np.array([size * 1e7, 0.0, 0.0]))], shadows)
+    assert answer.P[0] == pytest.approx(min(size, 2.0) * 1e7)
+    assert scaled == (answer.P[0] < size * 1e7 * (1.0 - 1e-9))
+    np.testing.assert_allclose(actual_velocity(contact, shadows), [-1.0, -sway, 0.0])

@@ -1,0 +1,57 @@
+"""What is shown of contact points loses nothing: sums per pair, and friction that stays in its cone."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from shipcollision_fmu.collision.contact_points import Slot, fitted, merged
+from shipcollision_fmu.collision.dynamics.body_state import Shadow
+from shipcollision_fmu.collision.dynamics.contact import make_contact
+from shipcollision_fmu.collision.interface import ContactSlot, contact_slots
+
+SHADOWS = [Shadow.at(np.zeros(3), np.zeros(3), np.zeros(6), np.eye(6)) for _ in range(6)]
+
+
+def slot(
+    a: int, b: int, place: float, P: list[float], normal: tuple[float, float] = (0.0, 1.0), impact: int = 1
+) -> Slot:
+    contact = make_contact(a, b, SHADOWS, np.array([place, 0.0, 0.0]), np.array([*normal, 0.0]), -0.01)
+    return Slot.of(contact, np.array(P), 10.0, impact, impact)
+
+
+def shown(of: Slot) -> ContactSlot:
+    place = ContactSlot()
+    of.fill(place)
+    return place
+
+
+@pytest.mark.parametrize(("ships", "slots"), [(2, 8), (3, 12), (20, 64), (500, 64)])
+def test_slots_grow_with_the_ships_of_the_build(ships: int, slots: int) -> None:
+    assert contact_slots(ships) == slots
+
+
+def test_a_normal_that_turns_between_substeps_makes_no_friction() -> None:
+    """Frictionless impulses of 3 and 4 N s along two normals: none of either is tangential."""
+    (joined,) = merged([slot(0, 1, 0.0, [0.0, 3.0, 0.0])], slot(0, 1, 0.1, [4.0, 0.0, 0.0], normal=(1.0, 0.0)))
+    values = shown(joined).values
+    assert values[1] == 7.0
+    assert values[2] == 0.0
+    assert shown(joined).impulse == [4.0, 3.0, 0.0]
+    assert values[3] == 20.0
+
+
+def test_too_many_points_are_joined_by_pair_and_kind() -> None:
+    slots = [slot(0, 1, 10.0 * k, [0.1, 1.0 + k, 0.0]) for k in range(4)]
+    slots += [slot(2, 3, 10.0 * k, [0.0, 20.0, 0.0]) for k in range(3)]
+    slots += [slot(0, 1, 50.0, [0.0, 5.0, 0.0], impact=0)]  # of a fender
+    assert fitted(slots, 8) == slots
+    joined = fitted(slots, 7)
+    assert [(s.contact.a, s.contact.b, s.impact > 0) for s in joined if s.contact] == [
+        (2, 3, True), (0, 1, True), (0, 1, False),
+    ]  # fmt: skip
+    assert [s.P.tolist() for s in joined] == [[0.0, 60.0, 0.0], [pytest.approx(0.4), 10.0, 0.0], [0.0, 5.0, 0.0]]
+    assert [s.energy for s in joined] == [30.0, 40.0, 10.0]
+    assert joined[1].contact is not None
+    assert joined[1].contact.point[0] == 30.0  # of the largest impulse
+    assert len(fitted(slots, 2)) == 2
