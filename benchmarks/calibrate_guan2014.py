@@ -26,7 +26,7 @@ from rich.console import Console
 from shipcollision_fmu import load_scenario, load_ship, simulate
 from shipcollision_fmu.cli.run_table import table
 from shipcollision_fmu.ship.frames import rotation
-from shipcollision_fmu.ship.library import models_directory
+from shipcollision_fmu.ship.loading.library import models_directory
 from shipcollision_fmu.ship.ship import Ship
 
 

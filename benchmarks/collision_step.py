@@ -30,8 +30,8 @@ from shipcollision_fmu.fmi.names import IMPULSE, STATE, named
 from shipcollision_fmu.fmi.package import fmu_bytes, slave_directory
 from shipcollision_fmu.fmi.ship_collision import INTERFACE
 from shipcollision_fmu.ship.frames import SWAP
-from shipcollision_fmu.ship.hull import build_hull
-from shipcollision_fmu.ship.library import load_ship
+from shipcollision_fmu.ship.hull.hull import build_hull
+from shipcollision_fmu.ship.loading.library import load_ship
 
 ROUNDS, STEPS, H = 5, 300, 0.05
 SHIP, NAMES = "kvlcc2", ("own", "target")

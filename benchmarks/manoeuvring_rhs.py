@@ -26,7 +26,7 @@ from rich.table import Table
 from shipcollision_fmu.manoeuvring.mmg import Mmg
 from shipcollision_fmu.manoeuvring.sailing import CALM, Machines, Sailing, Six
 from shipcollision_fmu.manoeuvring.spatial import SpatialMmg
-from shipcollision_fmu.ship.library import load_ship
+from shipcollision_fmu.ship.loading.library import load_ship
 
 ROUNDS = 40
 DURATION = 20.0

@@ -24,7 +24,7 @@ _HOME = {
     "encounter": "shipcollision_fmu.encounters.encounter",
     "imazu": "shipcollision_fmu.encounters.imazu",
     "load_scenario": "shipcollision_fmu.scenario.scenario",
-    "load_ship": "shipcollision_fmu.ship.library",
+    "load_ship": "shipcollision_fmu.ship.loading.library",
     "simulate": "shipcollision_fmu.cosim.simulate",
     "traffic_scenario": "shipcollision_fmu.encounters.traffic.situation",
 }

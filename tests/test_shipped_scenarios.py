@@ -14,9 +14,9 @@ from shipcollision_fmu.collision.model import ShipCollision
 from shipcollision_fmu.cosim.simulate import Run
 from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
 from shipcollision_fmu.scenario.scenario import Scenario, scenario_names
+from shipcollision_fmu.ship.degrees_of_freedom import FREE
 from shipcollision_fmu.ship.frames import rotation
-from shipcollision_fmu.ship.free_motions import FREE
-from shipcollision_fmu.ship.library import load_ship
+from shipcollision_fmu.ship.loading.library import load_ship
 
 ALGORITHMS = ("gauss-seidel", "jacobi")
 

@@ -13,7 +13,7 @@ __all__ = ["scenarios", "ships"]
 @click.command()
 def ships() -> None:
     """List the shipped ships."""
-    from ..ship.library import load_ship, ship_names
+    from ..ship.loading.library import load_ship, ship_names
     from .run_table import table
 
     listed = table("name", "kind", ">L_pp [m]", ">B [m]", ">T [m]", ">mass [t]", "under way")

@@ -50,7 +50,7 @@ class Commands(click.Group):
         """As click's, with a suggestion for a name that is nearly right."""
         names = self.list_commands(ctx)
         if args[0] not in names and not args[0].startswith("-"):
-            from ..ship.refusal import suggestion
+            from ..ship.loading.messages import suggestion
 
             ctx.fail(f"unknown command {args[0]!r}:{suggestion(args[0], names)} known: {', '.join(names)}")
         return super().resolve_command(ctx, args)

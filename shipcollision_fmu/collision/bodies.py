@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import InputError
+from ..ship.degrees_of_freedom import free_inverse, tilted_inverse
 from ..ship.frames import Array, skew
-from ..ship.free_motions import free_inverse, tilted_inverse
-from ..ship.hull import HullMesh, build_hull
-from ..ship.library import Ship, load_ship
+from ..ship.hull.hull import HullMesh, build_hull
+from ..ship.loading.library import Ship, load_ship
 from .dynamics.body_state import Shadow
 from .fender import Fender, fender_of
 from .geometry.broad_phase import Rectangle

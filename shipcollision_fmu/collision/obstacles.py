@@ -32,9 +32,9 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 
 from ..errors import InputError
 from ..ship.frames import Array
-from ..ship.hull import HullMesh
-from ..ship.refusal import one_line
-from ..ship.toml import parsed, read_toml
+from ..ship.hull.hull import HullMesh
+from ..ship.loading.messages import one_line
+from ..ship.loading.toml import parsed, read_toml
 from .fender import Fender
 from .geometry.clipping import convex_polygon
 

@@ -16,7 +16,7 @@ from ..collision.obstacles import obstacles_toml
 from ..fmi.names import ANSWERS, APPLIED, ORDERS, STATE, SURROUNDINGS, named
 from ..scenario.scenario import Scenario, heading_table, order_table
 from ..scenario.tables import AutopilotTable, ShipStart
-from ..ship.library import load_ship
+from ..ship.loading.library import load_ship
 from .component import Buffer, Component, Group, Value
 from .helm import Autopilot, Evasion, HelmState, Route, Seen, Steering, helmed
 from .master import System, Wire

@@ -18,7 +18,7 @@ from ..manoeuvring.model import ShipManoeuvring
 from ..manoeuvring.trials.steady_course import self_propulsion
 from ..scenario.scenario import Scenario, order_table
 from ..ship.frames import Array
-from ..ship.library import load_ship
+from ..ship.loading.library import load_ship
 
 __all__ = [
     "BEYOND", "Mover", "Order", "Pose", "as_run", "nearer", "relative_velocity", "steered", "track", "under_way",

@@ -23,8 +23,8 @@ import numpy as np
 
 from ..errors import ScenarioError
 from ..scenario.scenario import Scenario, scenario_of
-from ..ship.hull import build_hull
-from ..ship.library import load_ship
+from ..ship.hull.hull import build_hull
+from ..ship.loading.library import load_ship
 from .approach_track import Mover, as_run, nearer, relative_velocity, steered, track, under_way
 from .encounter_file import Coming, Impact, encounter_text
 from .plan_contact import common_deck, place, section, touches

@@ -23,7 +23,7 @@ from ..errors import ScenarioError
 from ..manoeuvring.trials.steady_course import self_propulsion
 from ..scenario.scenario import Scenario, scenario_of
 from ..scenario.toml_writer import scenario_text
-from ..ship.library import load_ship
+from ..ship.loading.library import load_ship
 from .encounter_file import ship_reference
 from .request import FASTEST, whole_steps
 

@@ -13,7 +13,7 @@ from math import ceil, isfinite
 from typing import Any
 
 from ..errors import ScenarioError
-from ..ship.refusal import suggestion
+from ..ship.loading.messages import suggestion
 from .plan_contact import Side
 
 __all__ = ["FASTEST", "KINDS", "Kind", "Wanted", "asked_for", "checked", "either", "whole_steps"]

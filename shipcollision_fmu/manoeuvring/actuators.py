@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import copysign, radians
 
-from ..ship.manoeuvring_tables import EngineTable, RudderTable
+from ..ship.tables.manoeuvring import EngineTable, RudderTable
 
 __all__ = ["NEUTRAL", "Actuator", "Engine", "Gear", "engine", "steering_gear"]
 

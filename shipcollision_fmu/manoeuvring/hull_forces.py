@@ -26,8 +26,8 @@ from __future__ import annotations
 
 from math import atan2, hypot, radians, tan
 
-from ..ship.manoeuvring_tables import ManoeuvringTable
 from ..ship.ship import Ship
+from ..ship.tables.manoeuvring import ManoeuvringTable
 
 __all__ = ["HullForces", "cross_flow"]
 

@@ -24,9 +24,9 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..errors import InputError, ScenarioError, StepError
+from ..ship.degrees_of_freedom import free_inverse, tilted_inverse, to_level
 from ..ship.frames import Array
-from ..ship.free_motions import free_inverse, tilted_inverse, to_level
-from ..ship.library import Ship, load_ship
+from ..ship.loading.library import Ship, load_ship
 from .actuators import NEUTRAL, Gear
 from .coasting import coasted
 from .mmg import Mmg

@@ -33,8 +33,8 @@ from functools import lru_cache
 from math import atan2, degrees, exp, floor, hypot, pi, sqrt
 
 from ..errors import ShipError
-from ..ship.manoeuvring_tables import PropellerTable
 from ..ship.ship import Ship
+from ..ship.tables.manoeuvring import PropellerTable
 from .b_series import ROTATION, bollard, coefficient, pitch_of
 
 __all__ = ["Propeller", "drift"]

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 from math import atan, cos, sin
 
-from ..ship.free_motions import Six
+from ..ship.degrees_of_freedom import Six
 from ..ship.seakeeping import Seakeeping
 
 __all__ = ["Restoring"]

@@ -19,8 +19,8 @@ from __future__ import annotations
 
 from math import copysign, cos, hypot, pi, sin, sqrt
 
-from ..ship.manoeuvring_tables import PropellerTable, RudderTable
 from ..ship.ship import Ship
+from ..ship.tables.manoeuvring import PropellerTable, RudderTable
 
 __all__ = ["Rudder"]
 

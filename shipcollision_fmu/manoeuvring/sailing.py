@@ -12,7 +12,7 @@ from math import cos, sin
 from typing import NamedTuple
 
 from ..errors import ShipError
-from ..ship.free_motions import Six
+from ..ship.degrees_of_freedom import Six
 from ..ship.ship import Ship
 from ..ship.windage import windage
 from .actuators import Actuator, Engine, Gear, engine, steering_gear

@@ -30,7 +30,7 @@ from math import atan2, cos, hypot, sin, sqrt
 import numpy as np
 
 from ..errors import ShipError
-from ..ship.free_motions import free_inverse, from_level, to_level
+from ..ship.degrees_of_freedom import free_inverse, from_level, to_level
 from ..ship.seakeeping import seakeeping
 from ..ship.ship import Ship
 from .damping import Damping

@@ -11,7 +11,7 @@ from pathlib import Path, PurePosixPath
 
 from ..errors import ShipError
 from ..scenario.toml_writer import scenario_text
-from ..ship.library import ship_content, ship_names
+from ..ship.loading.library import ship_content, ship_names
 
 __all__ = ["FOLDER", "packed_ship"]
 

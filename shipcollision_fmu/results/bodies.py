@@ -14,7 +14,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ..collision.obstacles import ObstacleTable, obstacle
-from ..ship.hull import HullMesh, build_hull
+from ..ship.hull.hull import HullMesh, build_hull
 from ..ship.ship import Ship
 
 __all__ = ["bodies"]

@@ -30,8 +30,8 @@ import numpy.typing as npt
 from ..collision.collisions import heading_angle
 from ..fmi.names import STATE, named
 from ..scenario.tables import DamageTable
+from ..ship.degrees_of_freedom import free_inverse, tilted_inverse
 from ..ship.frames import Array, rotation, rotation_vector
-from ..ship.free_motions import free_inverse, tilted_inverse
 from ..ship.ship import Ship
 from .damage import BOW, indicative_damage
 from .record import Impact, Record

@@ -31,8 +31,8 @@ from .. import __version__
 from ..collision.interface import CollisionParameters
 from ..fmi.names import STATE
 from ..scenario.scenario import Scenario
+from ..ship.degrees_of_freedom import level_axes
 from ..ship.frames import Array, rotation
-from ..ship.free_motions import level_axes
 from ..ship.ship import Ship
 from .published import compared
 from .record import Record

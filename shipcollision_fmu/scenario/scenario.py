@@ -14,10 +14,10 @@ from pydantic import Field, PrivateAttr, ValidationError, model_validator
 
 from ..collision.obstacles import ObstacleTable
 from ..errors import ScenarioError, ShipError
-from ..ship.library import load_ship, models_directory
-from ..ship.refusal import one_line, suggestion
+from ..ship.loading.library import load_ship, models_directory
+from ..ship.loading.messages import one_line, suggestion
+from ..ship.loading.toml import parsed, read_toml
 from ..ship.ship import Ship
-from ..ship.toml import parsed, read_toml
 from .initial_overlap import refuse_overlap
 from .tables import Algorithm, Collision, Environment, Header, Reference, ShipStart, Table
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from .frames import Array
-from .hull_table import HullTable
-from .manoeuvring_tables import EngineTable, ManoeuvringTable, PropellerTable, RudderTable
-from .particulars import SeakeepingTable, WindTable
+from .tables.hull import HullTable
+from .tables.manoeuvring import EngineTable, ManoeuvringTable, PropellerTable, RudderTable
+from .tables.particulars import SeakeepingTable, WindTable
 
 __all__ = ["Ship"]
 

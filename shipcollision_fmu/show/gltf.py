@@ -23,8 +23,8 @@ from typing import Any
 import numpy as np
 
 from .. import __version__
-from ..ship.convex import Indices
 from ..ship.frames import Array
+from ..ship.hull.convex import Indices
 from .glb import Document
 from .palette import Paint, linear, paint_of, topsides
 from .parts import Shape, fitting_shapes, hull_shapes

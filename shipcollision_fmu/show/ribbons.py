@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..ship.convex import Indices
 from ..ship.frames import Array
+from ..ship.hull.convex import Indices
 from .scratches import Scratch
 from .surface import Surface, nearest, solid_triangles
 

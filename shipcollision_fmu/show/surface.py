@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..ship.convex import Indices
 from ..ship.frames import Array
+from ..ship.hull.convex import Indices
 
 __all__ = ["Surface", "bands", "corner_normals", "nearest", "solid_triangles"]
 

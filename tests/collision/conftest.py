@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from shipcollision_fmu.collision.model import ShipCollision
+from shipcollision_fmu.ship.degrees_of_freedom import free_inverse, level_axes, tilted_inverse
 from shipcollision_fmu.ship.frames import attitude_from_rotation, rotation, rotation_vector
-from shipcollision_fmu.ship.free_motions import free_inverse, level_axes, tilted_inverse
-from shipcollision_fmu.ship.library import load_ship
+from shipcollision_fmu.ship.loading.library import load_ship
 
 BOX = 'shape = "box"\ndepth = 20.0'
 SHIP = 'shape = "parametric"\ndepth = 20.0\nbow_length = 40.0\nstern_length = 50.0'

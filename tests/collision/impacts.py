@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 from shipcollision_fmu.collision.dynamics.body_state import Shadow, point_jacobian
 from shipcollision_fmu.collision.dynamics.contact import make_contact
 from shipcollision_fmu.collision.dynamics.contact_frame import contact_axes
+from shipcollision_fmu.ship.degrees_of_freedom import FREE, free_inverse, level_axes, tilted_inverse
 from shipcollision_fmu.ship.frames import attitude_from_rotation, rotation
-from shipcollision_fmu.ship.free_motions import FREE, free_inverse, level_axes, tilted_inverse
 from shipcollision_fmu.ship.inertia import added_mass_matrix, rigid_body_inertia
 
 Array = np.ndarray[Any, np.dtype[np.float64]]

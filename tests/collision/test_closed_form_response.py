@@ -10,8 +10,8 @@ import pytest
 from shipcollision_fmu.collision.dynamics.body_state import Shadow
 from shipcollision_fmu.collision.dynamics.contact import contact_velocity, make_contact
 from shipcollision_fmu.collision.solvers.resultant_contact import resultant_contact
-from shipcollision_fmu.ship.free_motions import free_inverse
-from shipcollision_fmu.ship.library import load_ship
+from shipcollision_fmu.ship.degrees_of_freedom import free_inverse
+from shipcollision_fmu.ship.loading.library import load_ship
 from tests.collision.conftest import BOX, World
 
 MakeShip, MakeWorld = Callable[..., str], Callable[..., World]

@@ -13,8 +13,8 @@ from shipcollision_fmu.collision.closed_form import energy_of_stick, solve_close
 from shipcollision_fmu.collision.dynamics.body_state import point_jacobian
 from shipcollision_fmu.collision.four_dof import FourDofImpact, FourDofShip, four_dof_impact
 from shipcollision_fmu.collision.solvers.impact_process import solve_slip_path
+from shipcollision_fmu.ship.degrees_of_freedom import free_inverse
 from shipcollision_fmu.ship.frames import rotation
-from shipcollision_fmu.ship.free_motions import free_inverse
 from tests.collision.impacts import Array, floats
 
 Case = tuple[FourDofShip, FourDofShip, float, float, float, float, float]

@@ -21,7 +21,7 @@ from shipcollision_fmu.collision.obstacles import (
 )
 from shipcollision_fmu.errors import InputError, StepError
 from shipcollision_fmu.ship.frames import attitude_from_rotation
-from shipcollision_fmu.ship.hull import HullMesh
+from shipcollision_fmu.ship.hull.hull import HullMesh
 from tests.collision.conftest import BOX, NO_ADDED_MASS, World
 
 Make = Callable[..., str]
@@ -53,7 +53,7 @@ def read(text: str) -> ObstacleTable:
 
 
 def _content(text: str) -> dict:
-    from shipcollision_fmu.ship.toml import parsed
+    from shipcollision_fmu.ship.loading.toml import parsed
 
     (table,) = parsed(text, "test", InputError).values()
     return table

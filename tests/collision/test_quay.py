@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from shipcollision_fmu.collision.model import ShipCollision
-from shipcollision_fmu.ship.free_motions import free_inverse
-from shipcollision_fmu.ship.library import load_ship
+from shipcollision_fmu.ship.degrees_of_freedom import free_inverse
+from shipcollision_fmu.ship.loading.library import load_ship
 from tests.collision.conftest import BOX
 
 Make = Callable[..., str]

@@ -9,7 +9,7 @@ from math import atan2, cos, degrees, isfinite, pi, sin
 import numpy as np
 import pytest
 
-from shipcollision_fmu.ship.free_motions import level_axes
+from shipcollision_fmu.ship.degrees_of_freedom import level_axes
 from tests.collision.conftest import World
 
 Make = Callable[..., str]

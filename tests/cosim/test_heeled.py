@@ -16,9 +16,9 @@ from hypothesis import strategies as st
 
 from shipcollision_fmu.collision.model import ShipCollision
 from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
+from shipcollision_fmu.ship.degrees_of_freedom import FREE, level_axes
 from shipcollision_fmu.ship.frames import Array, rotation
-from shipcollision_fmu.ship.free_motions import FREE, level_axes
-from shipcollision_fmu.ship.library import load_ship
+from shipcollision_fmu.ship.loading.library import load_ship
 
 SHIP = "kvlcc2"
 M, L, B = load_ship(SHIP).M, load_ship(SHIP).L_oa, load_ship(SHIP).B

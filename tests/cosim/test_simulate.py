@@ -17,8 +17,8 @@ from shipcollision_fmu import load_scenario, load_ship, simulate
 from shipcollision_fmu.cosim import simulate as module
 from shipcollision_fmu.cosim.simulate import Run
 from shipcollision_fmu.errors import HostError, ScenarioError, StepError
+from shipcollision_fmu.ship.degrees_of_freedom import free_inverse
 from shipcollision_fmu.ship.frames import rotation
-from shipcollision_fmu.ship.free_motions import free_inverse
 from tests.conftest import Write
 
 BOTH = pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])

@@ -13,7 +13,7 @@ import pytest
 import trimesh
 
 from shipcollision_fmu.scenario.scenario import Scenario, load_scenario, scenario_of
-from shipcollision_fmu.ship.library import models_directory
+from shipcollision_fmu.ship.loading.library import models_directory
 
 from .encounter import Encounter, Rows, run_master
 from .masters import MASTERS

@@ -10,7 +10,7 @@ import pytest
 
 from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
 from shipcollision_fmu.ship.frames import Array, rotation
-from shipcollision_fmu.ship.library import load_ship
+from shipcollision_fmu.ship.loading.library import load_ship
 
 Start = Callable[..., ShipManoeuvring]
 R_BG = load_ship("kvlcc2").r_bg

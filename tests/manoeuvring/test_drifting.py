@@ -9,7 +9,7 @@ import pytest
 
 from shipcollision_fmu.errors import ScenarioError, StepError
 from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
-from shipcollision_fmu.ship.library import load_ship
+from shipcollision_fmu.ship.loading.library import load_ship
 
 Start = Callable[..., ShipManoeuvring]
 

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from shipcollision_fmu.manoeuvring.hull_forces import BETA, GAMMA, HullForces, cross_flow
-from shipcollision_fmu.ship.library import load_ship
+from shipcollision_fmu.ship.loading.library import load_ship
 
 SHIP = load_ship("kvlcc2")
 assert SHIP.manoeuvring is not None

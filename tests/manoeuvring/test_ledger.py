@@ -10,9 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
+from shipcollision_fmu.ship.degrees_of_freedom import FREE
 from shipcollision_fmu.ship.frames import Array
-from shipcollision_fmu.ship.free_motions import FREE
-from shipcollision_fmu.ship.library import load_ship
+from shipcollision_fmu.ship.loading.library import load_ship
 
 from .conftest import started
 

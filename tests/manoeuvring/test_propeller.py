@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from shipcollision_fmu.errors import ShipError
 from shipcollision_fmu.manoeuvring.propeller import Propeller, drift
-from shipcollision_fmu.ship.library import load_ship
+from shipcollision_fmu.ship.loading.library import load_ship
 
 SHIP = load_ship("kvlcc2")
 assert SHIP.propeller is not None

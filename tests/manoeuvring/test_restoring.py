@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from shipcollision_fmu.manoeuvring.restoring import Restoring
 from shipcollision_fmu.ship.frames import rotation
-from shipcollision_fmu.ship.library import load_ship
+from shipcollision_fmu.ship.loading.library import load_ship
 from shipcollision_fmu.ship.seakeeping import seakeeping
 
 SEA = seakeeping(load_ship("kvlcc2"))

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from shipcollision_fmu.manoeuvring.propeller import Propeller, drift
 from shipcollision_fmu.manoeuvring.rudder import Rudder
-from shipcollision_fmu.ship.library import load_ship
+from shipcollision_fmu.ship.loading.library import load_ship
 
 SHIP = load_ship("kvlcc2")
 assert SHIP.rudder is not None

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
-from shipcollision_fmu.ship.library import load_ship
+from shipcollision_fmu.ship.loading.library import load_ship
 
 from .conftest import started
 

@@ -10,7 +10,7 @@ import pytest
 
 from shipcollision_fmu.manoeuvring.mmg import Mmg
 from shipcollision_fmu.manoeuvring.sailing import CALM, Machines, Six
-from shipcollision_fmu.ship.library import load_ship, ship_names
+from shipcollision_fmu.ship.loading.library import load_ship, ship_names
 
 from .conftest import started
 

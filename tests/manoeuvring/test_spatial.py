@@ -15,9 +15,9 @@ from hypothesis import strategies as st
 from shipcollision_fmu.errors import ScenarioError, StepError
 from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
 from shipcollision_fmu.manoeuvring.spatial import SpatialMmg
+from shipcollision_fmu.ship.degrees_of_freedom import FREE, level_axes
 from shipcollision_fmu.ship.frames import Array, rotation
-from shipcollision_fmu.ship.free_motions import FREE, level_axes
-from shipcollision_fmu.ship.library import load_ship
+from shipcollision_fmu.ship.loading.library import load_ship
 from shipcollision_fmu.ship.seakeeping import Seakeeping, seakeeping
 
 from .conftest import started

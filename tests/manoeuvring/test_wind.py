@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
 from shipcollision_fmu.manoeuvring.wind import WindForces
-from shipcollision_fmu.ship.library import load_ship
+from shipcollision_fmu.ship.loading.library import load_ship
 from shipcollision_fmu.ship.windage import windage
 
 Start = Callable[..., ShipManoeuvring]

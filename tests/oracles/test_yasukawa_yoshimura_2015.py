@@ -15,7 +15,7 @@ from math import copysign, pi, radians
 import pytest
 
 from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
-from shipcollision_fmu.ship.library import load_ship
+from shipcollision_fmu.ship.loading.library import load_ship
 
 TOLERANCE = 0.10
 ROWS = [

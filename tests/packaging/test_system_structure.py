@@ -28,8 +28,8 @@ from shipcollision_fmu.packaging.packed_ship import packed_ship
 from shipcollision_fmu.packaging.ssp import ssp_bytes, write_ssp
 from shipcollision_fmu.packaging.system_structure import TimedOrder, system_structure
 from shipcollision_fmu.scenario.scenario import load_scenario, scenario_names
-from shipcollision_fmu.ship.hull import build_hull
-from shipcollision_fmu.ship.library import load_ship, models_directory
+from shipcollision_fmu.ship.hull.hull import build_hull
+from shipcollision_fmu.ship.loading.library import load_ship, models_directory
 
 Write = Callable[..., Path]
 OSP = "{http://opensimulationplatform.com/MSMI/OSPSystemStructure}"

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from shipcollision_fmu import load_scenario, simulate
-from shipcollision_fmu.ship.hull import build_hull
+from shipcollision_fmu.ship.hull.hull import build_hull
 from tests.conftest import Write
 
 QUAY = """

@@ -13,7 +13,7 @@ from shipcollision_fmu import load_scenario, simulate
 from shipcollision_fmu.fmi.names import STATE
 from shipcollision_fmu.results.events import events
 from shipcollision_fmu.results.record import CONTACT_COLUMNS, SIGNALS, Impact, Record
-from shipcollision_fmu.ship.library import load_ship
+from shipcollision_fmu.ship.loading.library import load_ship
 
 STEP = 0.5
 NAMES = ("left", "middle", "right")

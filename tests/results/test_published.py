@@ -10,7 +10,7 @@ import pytest
 from shipcollision_fmu.results.published import compared, state_at, world_state
 from shipcollision_fmu.scenario.tables import Reference, ShipStart
 from shipcollision_fmu.ship.frames import rotation
-from shipcollision_fmu.ship.library import load_ship
+from shipcollision_fmu.ship.loading.library import load_ship
 
 NOUGHT = np.zeros(3)
 

@@ -9,7 +9,7 @@ import pytest
 
 from shipcollision_fmu.errors import ShipError
 from shipcollision_fmu.ship.hydrostatics import hydrostatics
-from shipcollision_fmu.ship.library import load_ship
+from shipcollision_fmu.ship.loading.library import load_ship
 from shipcollision_fmu.ship.seakeeping import seakeeping
 
 

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from shipcollision_fmu.ship.degrees_of_freedom import free_inverse
 from shipcollision_fmu.ship.frames import Array, skew
-from shipcollision_fmu.ship.free_motions import free_inverse
 from shipcollision_fmu.ship.inertia import (
     H,
     added_mass_matrix,

@@ -7,8 +7,8 @@ from typing import get_args
 
 import pytest
 
-from shipcollision_fmu.ship.library import load_ship
-from shipcollision_fmu.ship.particulars import WindType
+from shipcollision_fmu.ship.loading.library import load_ship
+from shipcollision_fmu.ship.tables.particulars import WindType
 from shipcollision_fmu.ship.windage import BLENDERMANN, TYPE_BY_WORD, windage
 
 

@@ -17,7 +17,7 @@ from math import dist
 import numpy as np
 
 from ...ship.frames import Array
-from ...ship.hull import HullMesh
+from ...ship.hull.hull import HullMesh
 from ..dynamics.body_state import Shadow
 from ..dynamics.contact import Contact, make_contact
 from .bullet import MARGIN, Closest, Engine

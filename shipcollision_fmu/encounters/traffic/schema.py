@@ -15,7 +15,7 @@ from typing import Annotated
 from pydantic import AliasChoices, BaseModel, ConfigDict, Field, ValidationError
 
 from ...errors import ScenarioError
-from ...ship.refusal import one_line
+from ...ship.loading.messages import one_line
 
 __all__ = [
     "Dimensions", "Environment", "Initial", "Leg", "Position", "Situation", "Static", "TrafficShip", "Waypoint",

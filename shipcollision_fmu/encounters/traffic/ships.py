@@ -16,7 +16,7 @@ from typing import NamedTuple
 from ...errors import ScenarioError
 from ...scenario.tables import SHORTEST_LEG
 from ...scenario.toml_writer import scenario_text
-from ...ship.particulars import RHO_SEA
+from ...ship.tables.particulars import RHO_SEA
 from ..imazu import KNOT
 from .schema import Dimensions, Initial, Position, Static, TrafficShip
 from .tangent_plane import TangentPlane

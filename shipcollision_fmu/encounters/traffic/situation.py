@@ -23,7 +23,7 @@ from ...errors import ScenarioError
 from ...manoeuvring.trials.steady_course import self_propulsion
 from ...scenario.scenario import load_scenario
 from ...scenario.toml_writer import scenario_text
-from ...ship.library import load_ship
+from ...ship.loading.library import load_ship
 from ..encounter_file import ship_reference
 from ..request import whole_steps
 from .schema import Environment, Situation, TrafficShip, situation

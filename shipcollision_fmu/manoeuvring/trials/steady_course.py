@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import isfinite
 
 from ...errors import ScenarioError
-from ...ship.library import load_ship
+from ...ship.loading.library import load_ship
 from ...ship.ship import Ship
 from ..model import ShipManoeuvring
 

@@ -9,8 +9,8 @@ import pytest
 
 from shipcollision_fmu.collision.dynamics.body_state import Shadow
 from shipcollision_fmu.collision.geometry.detection import SHALLOW, Detector
-from shipcollision_fmu.ship.hull import build_hull
-from shipcollision_fmu.ship.hull_table import HullTable
+from shipcollision_fmu.ship.hull.hull import build_hull
+from shipcollision_fmu.ship.tables.hull import HullTable
 
 BOX = HullTable(shape="box", depth=20.0)
 PLUMB = HullTable(shape="parametric", depth=20.0, bow_length=40.0, stern_length=50.0)

@@ -15,8 +15,8 @@ from shipcollision_fmu.collision.solvers.aclm_fixed_point import nearer_by_slidi
 from shipcollision_fmu.collision.solvers.gauss_seidel import solve_pgs
 from shipcollision_fmu.collision.solvers.one_contact import law_residual
 from shipcollision_fmu.collision.solvers.poisson_restitution import solve_impact
+from shipcollision_fmu.ship.degrees_of_freedom import FREE, free_inverse
 from shipcollision_fmu.ship.frames import rotation
-from shipcollision_fmu.ship.free_motions import FREE, free_inverse
 from shipcollision_fmu.ship.inertia import added_mass_matrix, rigid_body_inertia
 from tests.collision.impacts import Impact, floats, impacts
 

@@ -8,8 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from shipcollision_fmu.errors import ShipError
-from shipcollision_fmu.ship.frames import attitude_from_rotation, rotation, rotation_vector
-from shipcollision_fmu.ship.free_motions import (
+from shipcollision_fmu.ship.degrees_of_freedom import (
     FREE,
     free_inverse,
     from_level,
@@ -17,7 +16,8 @@ from shipcollision_fmu.ship.free_motions import (
     tilted_inverse,
     to_level,
 )
-from shipcollision_fmu.ship.library import load_ship
+from shipcollision_fmu.ship.frames import attitude_from_rotation, rotation, rotation_vector
+from shipcollision_fmu.ship.loading.library import load_ship
 
 M = load_ship("kvlcc2").M
 SCALE = np.sqrt(np.diag(M))  # makes units comparable

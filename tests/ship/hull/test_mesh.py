@@ -14,12 +14,12 @@ import numpy as np
 import pytest
 
 from shipcollision_fmu.errors import HostError, ShipError
-from shipcollision_fmu.ship import mesh as mesh_module
-from shipcollision_fmu.ship.convex import enclosed_volume, half_spaces, is_convex
-from shipcollision_fmu.ship.hull import HullMesh, build_hull
-from shipcollision_fmu.ship.hull_table import HullTable
-from shipcollision_fmu.ship.library import load_ship, models_directory
-from shipcollision_fmu.ship.mesh import UNITS, mesh_hull
+from shipcollision_fmu.ship.hull import mesh as mesh_module
+from shipcollision_fmu.ship.hull.convex import enclosed_volume, half_spaces, is_convex
+from shipcollision_fmu.ship.hull.hull import HullMesh, build_hull
+from shipcollision_fmu.ship.hull.mesh import UNITS, mesh_hull
+from shipcollision_fmu.ship.loading.library import load_ship, models_directory
+from shipcollision_fmu.ship.tables.hull import HullTable
 
 L_OA, B, T, DEPTH = 200.0, 30.0, 10.0, 20.0
 TO_FILE = np.array([1.0, -1.0, -1.0])
@@ -258,7 +258,7 @@ def test_parts_that_hold_too_much_are_refused(read: Read, monkeypatch: pytest.Mo
 PARTS_DIGEST = """
 import hashlib
 from shipcollision_fmu.ship.hull import build_hull
-from shipcollision_fmu.ship.library import load_ship
+from shipcollision_fmu.ship.loading.library import load_ship
 ship = load_ship("mesh_example")
 hull = build_hull(ship.L_oa, ship.B, ship.T, ship.hull)
 print(hashlib.sha256(b"".join(part.tobytes() for part in hull.parts)).hexdigest())

@@ -33,8 +33,8 @@ from collections.abc import Mapping
 from math import log10, pi, sqrt
 from typing import Any, NamedTuple
 
-from ..errors import ShipError
-from .hydrostatics import GRAVITY
+from ...errors import ShipError
+from ..hydrostatics import GRAVITY
 
 __all__ = ["Dimensions", "added_mass_fractions", "completed", "hull_derivatives"]
 

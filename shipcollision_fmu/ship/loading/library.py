@@ -10,10 +10,10 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from ..errors import ShipError
+from ...errors import ShipError
+from ..ship import Ship
 from .assembly import assembled
-from .refusal import suggestion
-from .ship import Ship
+from .messages import suggestion
 from .ship_file import ship_file
 from .toml import read_toml
 
@@ -22,7 +22,7 @@ __all__ = ["Ship", "load_ship", "models_directory", "ship_content", "ship_names"
 
 def models_directory() -> Path:
     """Folder of the shipped models: inside an installed package, beside the package in a working copy."""
-    package = Path(__file__).resolve().parent.parent
+    package = Path(__file__).resolve().parents[2]
     inside = package / "models"
     return inside if inside.is_dir() else package.parent / "models"
 

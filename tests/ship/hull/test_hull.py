@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from shipcollision_fmu.errors import ShipError
-from shipcollision_fmu.ship.hull import HullMesh, build_hull
-from shipcollision_fmu.ship.hull_table import HullTable
+from shipcollision_fmu.ship.hull.hull import HullMesh, build_hull
+from shipcollision_fmu.ship.tables.hull import HullTable
 
 L_OA, B, T = 288.1, 44.0, 10.5
 FORMS = {

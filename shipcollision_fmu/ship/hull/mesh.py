@@ -32,11 +32,11 @@ from types import ModuleType
 
 import numpy as np
 
-from ..errors import HostError, ShipError
+from ...errors import HostError, ShipError
+from ..frames import Array
+from ..tables.hull import HullTable
 from .convex import Indices, enclosed_volume, half_spaces, is_convex
-from .frames import Array
 from .hull import HullMesh
-from .hull_table import HullTable
 
 __all__ = ["UNITS", "VOLUME_TOLERANCE", "mesh_hull"]
 

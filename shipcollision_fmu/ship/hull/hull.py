@@ -27,10 +27,10 @@ from math import radians, tan
 import numpy as np
 import numpy.typing as npt
 
-from ..errors import ShipError
+from ...errors import ShipError
+from ..frames import Array
+from ..tables.hull import HullTable
 from .convex import Indices, half_spaces
-from .frames import Array
-from .hull_table import HullTable
 
 __all__ = ["HullMesh", "build_hull"]
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from .frames import Array
+from ..frames import Array
 
 __all__ = ["Indices", "enclosed_volume", "half_spaces", "is_convex"]
 

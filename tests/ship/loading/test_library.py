@@ -10,8 +10,8 @@ import pytest
 
 from shipcollision_fmu.errors import ShipError
 from shipcollision_fmu.ship.frames import Array
-from shipcollision_fmu.ship.hull import build_hull
-from shipcollision_fmu.ship.library import load_ship, models_directory, ship_names
+from shipcollision_fmu.ship.hull.hull import build_hull
+from shipcollision_fmu.ship.loading.library import load_ship, models_directory, ship_names
 
 BARGE = """
 [ship]

@@ -12,12 +12,12 @@ from typing import Any
 
 from pydantic import Field, PrivateAttr, ValidationError, model_validator
 
-from ..errors import ShipError
-from .estimate import Dimensions, completed
-from .hull_table import HullTable
-from .manoeuvring_tables import EngineTable, ManoeuvringTable, PropellerTable, RudderTable
-from .particulars import AddedMassTable, ParticularsTable, SeakeepingTable, ShipTable, Table, WindTable
-from .refusal import one_line
+from ...errors import ShipError
+from ..tables.hull import HullTable
+from ..tables.manoeuvring import EngineTable, ManoeuvringTable, PropellerTable, RudderTable
+from ..tables.particulars import AddedMassTable, ParticularsTable, SeakeepingTable, ShipTable, Table, WindTable
+from .messages import one_line
+from .mmg_estimate import Dimensions, completed
 
 __all__ = ["ShipFile", "ship_file"]
 

@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 
 from shipcollision_fmu.errors import ShipError
-from shipcollision_fmu.ship.manoeuvring_tables import ManoeuvringTable
-from shipcollision_fmu.ship.ship_file import ship_file
+from shipcollision_fmu.ship.loading.ship_file import ship_file
+from shipcollision_fmu.ship.tables.manoeuvring import ManoeuvringTable
 
 BARE: dict[str, Any] = {
     "ship": {"name": "Barge", "kind": "barge", "source": "made up for this test"},

@@ -15,13 +15,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..errors import ShipError
-from .frames import Array
-from .inertia import added_mass_matrix, is_positive_definite, rigid_body_inertia
-from .seakeeping import seakeeping
-from .ship import Ship
+from ...errors import ShipError
+from ..frames import Array
+from ..inertia import added_mass_matrix, is_positive_definite, rigid_body_inertia
+from ..seakeeping import seakeeping
+from ..ship import Ship
+from ..windage import windage
 from .ship_file import ShipFile
-from .windage import windage
 
 __all__ = ["assembled"]
 

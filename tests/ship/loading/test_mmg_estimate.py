@@ -8,8 +8,13 @@ from pathlib import Path
 import pytest
 
 from shipcollision_fmu.errors import ShipError
-from shipcollision_fmu.ship.estimate import Dimensions, added_mass_fractions, completed, hull_derivatives
-from shipcollision_fmu.ship.library import load_ship
+from shipcollision_fmu.ship.loading.library import load_ship
+from shipcollision_fmu.ship.loading.mmg_estimate import (
+    Dimensions,
+    added_mass_fractions,
+    completed,
+    hull_derivatives,
+)
 
 BULK = Dimensions(279.0, 44.0, 16.1, 0.84, 0.0, 1025.0)
 CONTAINER = Dimensions(250.0, 32.2, 8.5, 0.60, 0.0, 1025.0)
