@@ -29,10 +29,10 @@ from ..ship.frames import Array
 from ..ship.loading.library import Ship, load_ship
 from .actuators import NEUTRAL, Gear
 from .coasting import coasted
-from .mmg import Mmg
-from .ports import ShipInputs, ShipOutputs, ShipParameters
-from .sailing import Forces, Machines, Sailing, Six, Surroundings
-from .spatial import SpatialMmg
+from .interface import ShipInputs, ShipOutputs, ShipParameters
+from .mmg_3dof import Mmg
+from .mmg_6dof import SpatialMmg
+from .mmg_base import Forces, Machines, Sailing, Six, Surroundings
 
 __all__ = ["ShipManoeuvring"]
 

@@ -18,8 +18,8 @@ from collections.abc import Sequence
 from math import atan2, cos, hypot, sin
 
 from ..ship.ship import Ship
+from .mmg_base import Forces, Machines, Sailing, Six, Surroundings
 from .propeller import drift
-from .sailing import Forces, Machines, Sailing, Six, Surroundings
 
 __all__ = ["Mmg"]
 

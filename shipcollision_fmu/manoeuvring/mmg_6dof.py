@@ -7,7 +7,7 @@
 M is the ship's whole (6, 6), about CO, in b: rigid body and added mass, with the sway added mass at its depth z_y,
 which couples sway and roll. It is the M that answers an impulse.
 
-Nothing counts twice. With heave, roll and pitch at rest these are the equations of mmg.py, term by term: of C the Munk
+Nothing counts twice. With heave, roll and pitch at rest these are the equations of mmg_3dof.py, term by term: of C the Munk
 moment in yaw, u (m_y (v - z_y p) - m_x v), is left out, because N_v' has it. The MMG polynomials, propeller and rudder
 are evaluated for the velocity of the point H = (0, 0, z_H) of the ship and act at their own depths z_H, z_P, z_R:
 
@@ -34,8 +34,8 @@ from ..ship.degrees_of_freedom import free_inverse, from_level, to_level
 from ..ship.seakeeping import seakeeping
 from ..ship.ship import Ship
 from .damping import Damping
+from .mmg_base import Forces, Machines, Sailing, Six, Surroundings
 from .restoring import Restoring
-from .sailing import Forces, Machines, Sailing, Six, Surroundings
 
 __all__ = ["SpatialMmg"]
 

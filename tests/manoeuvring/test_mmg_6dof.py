@@ -13,8 +13,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from shipcollision_fmu.errors import ScenarioError, StepError
+from shipcollision_fmu.manoeuvring.mmg_6dof import SpatialMmg
 from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
-from shipcollision_fmu.manoeuvring.spatial import SpatialMmg
 from shipcollision_fmu.ship.degrees_of_freedom import FREE, level_axes
 from shipcollision_fmu.ship.frames import Array, rotation
 from shipcollision_fmu.ship.loading.library import load_ship
