@@ -23,9 +23,9 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
+from shipcollision_fmu.manoeuvring.mmg import CALM, Machines, Sailing, Six
 from shipcollision_fmu.manoeuvring.mmg_3dof import Mmg
 from shipcollision_fmu.manoeuvring.mmg_6dof import SpatialMmg
-from shipcollision_fmu.manoeuvring.mmg_base import CALM, Machines, Sailing, Six
 from shipcollision_fmu.ship.loading.library import load_ship
 
 ROUNDS = 40

@@ -18,7 +18,7 @@ from collections.abc import Sequence
 from math import atan2, cos, hypot, sin
 
 from ..ship.ship import Ship
-from .mmg_base import Forces, Machines, Sailing, Six, Surroundings
+from .mmg import Forces, Machines, Sailing, Six, Surroundings
 from .propeller import drift
 
 __all__ = ["Mmg"]

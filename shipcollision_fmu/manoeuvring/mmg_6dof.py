@@ -34,7 +34,7 @@ from ..ship.degrees_of_freedom import free_inverse, from_level, to_level
 from ..ship.seakeeping import seakeeping
 from ..ship.ship import Ship
 from .damping import Damping
-from .mmg_base import Forces, Machines, Sailing, Six, Surroundings
+from .mmg import Forces, Machines, Sailing, Six, Surroundings
 from .restoring import Restoring
 
 __all__ = ["SpatialMmg"]

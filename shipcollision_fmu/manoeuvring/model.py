@@ -30,9 +30,9 @@ from ..ship.loading.library import Ship, load_ship
 from .actuators import NEUTRAL, Gear
 from .coasting import coasted
 from .interface import ShipInputs, ShipOutputs, ShipParameters
+from .mmg import Forces, Machines, Sailing, Six, Surroundings
 from .mmg_3dof import Mmg
 from .mmg_6dof import SpatialMmg
-from .mmg_base import Forces, Machines, Sailing, Six, Surroundings
 
 __all__ = ["ShipManoeuvring"]
 

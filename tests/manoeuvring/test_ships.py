@@ -8,8 +8,8 @@ from math import radians
 
 import pytest
 
+from shipcollision_fmu.manoeuvring.mmg import CALM, Machines, Six
 from shipcollision_fmu.manoeuvring.mmg_3dof import Mmg
-from shipcollision_fmu.manoeuvring.mmg_base import CALM, Machines, Six
 from shipcollision_fmu.ship.loading.library import load_ship, ship_names
 
 from .conftest import started
