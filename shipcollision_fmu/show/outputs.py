@@ -6,11 +6,12 @@ from collections.abc import Callable
 from pathlib import Path
 
 from ..files import IN_PLACE, write_file
-from . import animation, osg
-from .gltf import glb
+from .film import animation
+from .gltf.gltf import glb
+from .osg import osg
 from .page import PAGE, replay_html
 from .plots import FOLDER, write_plots
-from .scene import Scene, load_scene
+from .scene.scene import Scene, load_scene
 
 __all__ = ["PAGE", "listed", "load_scene", "made", "page", "remove"]
 

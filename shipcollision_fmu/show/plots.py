@@ -23,9 +23,9 @@ from ..collision.geometry.clipping import convex_polygon
 from ..files import IN_PLACE, write_file
 from ..ship.frames import Array, rotation_from_quaternion
 from .extras import require
-from .palette import topsides
-from .scene import Obstacle, Scene, Ship
-from .signals import Signal
+from .scene.palette import topsides
+from .scene.scene import Obstacle, Scene, Ship
+from .scene.signals import Signal
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -15,11 +15,11 @@ from selenium.webdriver.common.by import By
 
 from shipcollision_fmu import load_scenario, simulate
 from shipcollision_fmu.ship.frames import rotation, rotation_from_quaternion
-from shipcollision_fmu.show.gltf import glb
+from shipcollision_fmu.show.gltf.gltf import glb
+from shipcollision_fmu.show.gltf.ribbons import ribbon
 from shipcollision_fmu.show.page import replay_html, write_page
-from shipcollision_fmu.show.ribbons import ribbon
-from shipcollision_fmu.show.run_folder import STATE
-from shipcollision_fmu.show.scene import Scene, load_scene
+from shipcollision_fmu.show.scene.run_folder import STATE
+from shipcollision_fmu.show.scene.scene import Scene, load_scene
 
 from .browser import Page, chromium
 from .conftest import MakeRun

@@ -12,11 +12,11 @@ import pytest
 from PIL import Image
 
 from shipcollision_fmu.show.plots import drawn, saved, write_plots
-from shipcollision_fmu.show.scene import Scene, load_scene
+from shipcollision_fmu.show.scene.scene import Scene, load_scene
+from tests.show.osg.test_osg import in_the_world, states
 
 from .conftest import MakeRun
 from .foreign import with_many_collisions, with_names
-from .test_osg import in_the_world, states
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

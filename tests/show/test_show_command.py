@@ -12,7 +12,8 @@ import pytest
 from click.testing import CliRunner, Result
 
 from shipcollision_fmu.cli import main
-from shipcollision_fmu.show import animation, extras
+from shipcollision_fmu.show import extras
+from shipcollision_fmu.show.film import animation
 
 from .conftest import MakeRun
 from .foreign import with_names

@@ -20,10 +20,10 @@ import numpy as np
 from ... import __version__
 from ...errors import HostError
 from ...files import IN_PLACE, write_file
-from ..gltf import extras, glb
-from ..palette import topsides
-from ..scene import Scene, Ship, load_scene
-from ..signals import Signals
+from ..gltf.gltf import extras, glb
+from ..scene.palette import topsides
+from ..scene.scene import Scene, Ship, load_scene
+from ..scene.signals import Signals
 
 __all__ = ["PAGE", "replay_html", "write_page"]
 

@@ -1,0 +1,230 @@
+"""The one scene: what there is to see of a run, from which page, glTF, OpenSceneGraph and plots are all written.
+
+    Scene
+    ├── ships       hull and fittings in b about CO, z down; a track: poses of b in n over time
+    ├── obstacles   surface in their b, and where that lies in n
+    ├── scratches   lines on a hull, in the b of the ship that bears them, a time per point; both ships bear theirs
+    ├── effects     explosion, debris, fire, smoke, at a point of a ship, in its b
+    ├── events      the collisions, for people to jump to
+    └── signals     curves over time
+
+Everything is in SI units and in the project's frames: n is north, east, down; b forward, starboard, down. Quaternions
+are (x, y, z, w) of R_nb, with a continuous sign. Nothing here is drawn and no colour is chosen.
+
+Tracks and signals are thinned, see resample.py: between two poses of a track position is linear and attitude slerp, and
+then no point of a hull is farther than POSE_ERROR from where states.csv puts it at that row's time.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+
+from ...fmi.names import STATE
+from ...ship.frames import Array
+from .effects import Effect, effects_of
+from .fittings import Fitting, fittings_of
+from .resample import kept
+from .run_folder import CollisionEvent, RunFolder, ShipBody, read_run_folder
+from .scratches import Scratch, scratches_of
+from .signals import Signals, signals_of
+from .surface import Surface, solid_triangles
+
+__all__ = ["POSE_ERROR", "Effect", "Event", "Obstacle", "Scene", "Scratch", "Ship", "Track", "load_scene", "scene_of"]
+
+POSE_ERROR = 0.005
+"""What thinning may move any point of a hull by [m]."""
+
+
+@dataclass(frozen=True, eq=False)
+class Track:
+    """Poses over time: times (k,) [s], position of b's origin in n (k, 3) [m], quaternion of R_nb (k, 4)."""
+
+    times: Array
+    position: Array
+    quaternion: Array
+
+    def at(self, time: float) -> tuple[Array, Array]:
+        """Position (3,) and quaternion (4,) at a time [s], held before the first and after the last."""
+        i = int(np.clip(np.searchsorted(self.times, time, side="right") - 1, 0, max(len(self.times) - 2, 0)))
+        j = min(i + 1, len(self.times) - 1)
+        span = self.times[j] - self.times[i]
+        share = float(np.clip((time - self.times[i]) / span, 0.0, 1.0)) if span > 0.0 else 0.0
+        position = self.position[i] + share * (self.position[j] - self.position[i])
+        return position, slerp(self.quaternion[i], self.quaternion[j], share)
+
+
+@dataclass(frozen=True, eq=False)
+class Ship:
+    """A ship: its name in the scenario, the model's name and kind, dimensions [m], hull and fittings in b, track.
+
+    Fittings (a deckhouse, hatches, a mast) are there for the eye, to tell bow from stern: contact does not know them.
+    """
+
+    name: str
+    model: str
+    kind: str
+    L_pp: float
+    L_oa: float
+    B: float
+    T: float
+    hull: Surface
+    fittings: tuple[Fitting, ...]
+    track: Track
+
+
+@dataclass(frozen=True, eq=False)
+class Obstacle:
+    """What does not move: surface in its b, position of b in n (3,) [m], heading [rad]."""
+
+    name: str
+    kind: str
+    surface: Surface
+    position: Array
+    heading: float
+
+
+@dataclass(frozen=True, eq=False)
+class Event:
+    """Something to jump to: time and end [s], its point in n (3,) [m], and the figures of a collision.
+
+    closing_speed [m/s] and angle [rad] are None where the run does not know them; impulse [N s], energy [J].
+    """
+
+    kind: Literal["collision"]
+    id: int
+    time: float
+    end: float
+    ship_a: str
+    ship_b: str
+    point: Array
+    closing_speed: float | None
+    angle: float | None
+    impulse: float
+    energy: float
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """All there is to see. `origin` (3,) [m] in n is a round place amid it, for formats in single precision."""
+
+    name: str
+    description: str
+    start: float
+    end: float
+    origin: Array
+    ships: tuple[Ship, ...]
+    obstacles: tuple[Obstacle, ...]
+    scratches: tuple[Scratch, ...]
+    effects: tuple[Effect, ...]
+    events: tuple[Event, ...]
+    signals: Signals
+
+    def ship(self, name: str) -> Ship:
+        """The ship of that name; KeyError if there is none."""
+        for ship in self.ships:
+            if ship.name == name:
+                return ship
+        raise KeyError(name)
+
+
+def load_scene(folder: str | Path) -> Scene:
+    """The scene of the run in a folder. Raises InputError when it is not the folder of a whole run."""
+    return scene_of(read_run_folder(folder))
+
+
+def scene_of(run: RunFolder) -> Scene:
+    """The scene of a run."""
+    ships = tuple(
+        _ship(name, body, run.times, run.states[:, i]) for i, (name, body) in enumerate(run.bodies.ships.items())
+    )
+    obstacles = tuple(
+        Obstacle(
+            name, body.kind, solid_triangles(_surface(body.vertices, body.triangles)), np.array(body.position),
+            body.heading,
+        )
+        for name, body in run.bodies.obstacles.items()
+    )  # fmt: skip
+    scratches = scratches_of(run.events.scratches, {ship.name: ship.hull for ship in ships})
+    return Scene(
+        name=run.summary.scenario,
+        description=run.summary.description,
+        start=float(run.times[0]),
+        end=float(run.times[-1]),
+        origin=_origin(run),
+        ships=ships,
+        obstacles=obstacles,
+        scratches=scratches,
+        effects=effects_of(run, scratches),
+        events=tuple(map(_event, run.events.collisions)),
+        signals=signals_of(run),
+    )
+
+
+def slerp(q: Array, r: Array, share: float) -> Array:
+    """The quaternion `share` of the way from q to r, both of length 1. Shoemake (1985)."""
+    cosine = float(q @ r)
+    if cosine < 0.0:
+        r, cosine = -r, -cosine
+    angle = np.arccos(min(1.0, cosine))
+    if angle < 1e-6:
+        mixed = q + share * (r - q)
+    else:
+        mixed = (np.sin((1 - share) * angle) * q + np.sin(share * angle) * r) / np.sin(angle)
+    result: Array = mixed / np.linalg.norm(mixed)
+    return result
+
+
+def _ship(name: str, body: ShipBody, times: Array, states: Array) -> Ship:
+    hull = solid_triangles(_surface(body.vertices, body.triangles))
+    reach = float(np.linalg.norm(hull.vertices, axis=1).max())
+    return Ship(
+        name=name, model=body.ship, kind=body.kind, L_pp=body.L_pp, L_oa=body.L_oa, B=body.B, T=body.T,
+        hull=hull, fittings=fittings_of(body, hull), track=_track(times, states, reach),
+    )  # fmt: skip
+
+
+def _surface(vertices: list[tuple[float, float, float]], triangles: list[tuple[int, int, int]]) -> Surface:
+    return Surface(np.array(vertices, dtype=float), np.array(triangles, dtype=np.int64))
+
+
+def _track(times: Array, states: Array, reach: float) -> Track:
+    """The thinned track. A quaternion that is off by dq turns the hull by 2 |dq|, and moves it by 2 |dq| reach."""
+    position = states[:, [STATE.index(f"position.{axis}") for axis in ("north", "east", "down")]]
+    quaternion = quaternions(states[:, [STATE.index(f"attitude.{angle}") for angle in ("roll", "pitch", "yaw")]])
+    rows = kept(times, np.hstack([position, 2.0 * reach * quaternion]), POSE_ERROR / np.sqrt(2.0))
+    return Track(times[rows], position[rows], quaternion[rows])
+
+
+def quaternions(attitude: Array) -> Array:
+    """Quaternions (k, 4) of attitudes (k, 3) = (roll, pitch, yaw) [rad], with a continuous sign."""
+    (cx, cy, cz), (sx, sy, sz) = np.cos(0.5 * attitude.T), np.sin(0.5 * attitude.T)
+    q = np.column_stack([
+        sx * cy * cz - cx * sy * sz, cx * sy * cz + sx * cy * sz, cx * cy * sz - sx * sy * cz,
+        cx * cy * cz + sx * sy * sz,
+    ])  # fmt: skip
+    turned = np.einsum("ij,ij->i", q[1:], q[:-1]) < 0.0
+    q[1:] *= np.where(np.cumsum(turned) % 2 == 1, -1.0, 1.0)[:, None]
+    return q
+
+
+def _origin(run: RunFolder) -> Array:
+    """The first point of contact, else the middle of all tracks; on the water, in whole tens of metres."""
+    if run.events.collisions:
+        place = np.array(run.events.collisions[0].first_point.n)
+    else:
+        tracks = run.states[:, :, :3].reshape(-1, 3)
+        place = 0.5 * (tracks.min(axis=0) + tracks.max(axis=0))
+    return np.array([*np.round(place[:2], -1), 0.0]) + 0.0  # no negative zero
+
+
+def _event(collision: CollisionEvent) -> Event:
+    return Event(
+        kind="collision", id=collision.id, time=collision.start, end=collision.end,
+        ship_a=collision.ship_a, ship_b=collision.ship_b, point=np.array(collision.first_point.n),
+        closing_speed=collision.closing_speed, angle=collision.angle,
+        impulse=collision.impulse.magnitude, energy=collision.energy,
+    )  # fmt: skip

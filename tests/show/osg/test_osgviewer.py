@@ -1,0 +1,189 @@
+"""Debian's stock osgviewer plays the scene: no complaint, and before, during and after the impact the right picture.
+
+osgviewer runs by the clock, and a busy machine is late. So pictures are compared only where the clock does not matter:
+before the ships start to move, and after the run's end, when they stay where they are. In between it is enough that
+fire is seen at some time where the ships touch. What should be seen comes from our own depth buffer (raster.py).
+"""
+
+from __future__ import annotations
+
+import shlex
+import shutil
+import subprocess
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from shipcollision_fmu.ship.frames import rotation_from_quaternion
+from shipcollision_fmu.show.film.raster import Eye, nearest
+from shipcollision_fmu.show.osg import zup
+from shipcollision_fmu.show.osg.osg import osg_files, viewer_line, write_osg
+from shipcollision_fmu.show.scene.palette import display, paint_of
+from shipcollision_fmu.show.scene.parts import ship_parts
+from shipcollision_fmu.show.scene.scene import Scene, Ship, load_scene
+
+from .screen import SIZE, Screen, screen
+
+pytestmark = pytest.mark.slow
+
+ANGLE = float(np.degrees(2.0 * np.arctan(0.26)))
+"""Vertical angle that osgviewer sees: OSG takes a screen 0.26 m high, 0.5 m away."""
+PATIENCE = 60.0
+"""What a busy machine may take for a run of six seconds [s]."""
+
+
+@contextmanager
+def viewer(scene: Scene, folder: Path) -> Iterator[tuple[Screen, list[str]]]:
+    """osgviewer on a screen, started by the very line that is printed; afterwards the list holds what it said."""
+    write_osg(scene, folder)
+    width, height = SIZE
+    line = viewer_line(folder).replace("--window 80 80 1280 720", f"--window 0 0 {width} {height}")
+    setting, *command = shlex.split(line)
+    assert shutil.which(command[0]), "needs osgviewer: apt install openscenegraph"
+    said: list[str] = []
+    (folder / "screen").mkdir()
+    with screen(folder / "screen") as shown:
+        name, value = setting.split("=")
+        program = subprocess.Popen(
+            command, env={**shown.environment, name: value}, cwd="/", text=True,
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+        )  # fmt: skip
+        try:
+            yield shown, said
+        finally:
+            program.terminate()
+            said += [line for line in program.communicate(timeout=20)[0].splitlines() if line.strip()]
+
+
+def wait(shown: Screen, wanted: Callable[[np.ndarray], bool], what: str) -> np.ndarray:
+    """The first picture that is as wanted."""
+    end = time.monotonic() + PATIENCE
+    while time.monotonic() < end:
+        pixels = shown.pixels()
+        if wanted(pixels):
+            return pixels
+        time.sleep(0.1)
+    raise AssertionError(f"{what} is not seen within {PATIENCE:g} s")
+
+
+def eye_at(folder: Path, time_there: float) -> Eye:
+    """The camera of camera.path."""
+    rows = np.loadtxt(folder / "camera.path")
+    position = np.array([np.interp(time_there, rows[:, 0], rows[:, k]) for k in (1, 2, 3)])
+    turn = rotation_from_quaternion(rows[0, 4:])  # the camera does not turn
+    assert np.ptp(rows[:, 4:], axis=0).max() < 1e-6
+    return Eye(zup.places(position), zup.places(position + turn @ [0.0, 0.0, -1.0]), ANGLE, *SIZE)
+
+
+def placed(ship: Ship, time: float, points: np.ndarray) -> np.ndarray:
+    """Points of a ship's b in n."""
+    position, quaternion = ship.track.at(time)
+    return position + points @ rotation_from_quaternion(quaternion).T
+
+
+def expected(scene: Scene, eye: Eye, time: float, paint: str) -> np.ndarray:
+    """Pixels in which that paint should be seen, under water too."""
+    surfaces, wanted = [], []
+    for index, ship in enumerate(scene.ships):
+        for part, surface in ship_parts(ship, index):
+            surfaces.append(placed(ship, time, surface.vertices)[surface.triangles])
+            wanted.append(np.full(len(surface.triangles), part.name == paint))
+    seen = nearest(eye, np.concatenate(surfaces))
+    return np.concatenate([*wanted, [False]])[seen.triangle]
+
+
+def agreement(a: np.ndarray, b: np.ndarray) -> float:
+    """What two sets of pixels have in common, over all of both."""
+    return float((a & b).sum() / (a | b).sum())
+
+
+def red(pixels: np.ndarray) -> np.ndarray:
+    """The target's topsides, in any light; its bottom, its hatches and fire are browner."""
+    r, g, b = np.moveaxis(pixels.astype(int), 2, 0)
+    return (r > 100) & (r > 4 * g) & (g < b + 20)
+
+
+def blue(pixels: np.ndarray) -> np.ndarray:
+    """The own ship's topsides; the sea is greener."""
+    r, g, b = np.moveaxis(pixels.astype(int), 2, 0)
+    return (b > 100) & (2 * b > 3.3 * g) & (b > 2.6 * r)
+
+
+def fire(pixels: np.ndarray, before: np.ndarray) -> np.ndarray:
+    """Yellow and orange flames, where there was another colour before."""
+    r, g, b = np.moveaxis(pixels.astype(int), 2, 0)
+    changed = np.abs(pixels.astype(int) - before).max(axis=2) > 40
+    return changed & (r > 190) & (g > 95) & (b < 110) & (r > g + 20)
+
+
+def around(eye: Eye, point: np.ndarray, radius: float) -> np.ndarray:
+    """Pixels within so many pixels of where a point of n is seen."""
+    x, y, _ = eye.project(point)
+    columns, rows = np.meshgrid(np.arange(eye.width), np.arange(eye.height))
+    return np.hypot(columns + 0.5 - x, rows + 0.5 - y) < radius
+
+
+def test_the_impact_is_seen(guan2014: Path, tmp_path: Path) -> None:
+    """Before: two ships. During: fire where they touch. Nothing is complained of. The decks are bare: some containers
+    have the colour of fire."""
+    scene = load_scene(guan2014)
+    scene = replace(scene, ships=tuple(replace(ship, fittings=()) for ship in scene.ships))
+    with viewer(scene, tmp_path) as (shown, said):
+        eye = eye_at(tmp_path, 0.0)
+        before = wait(shown, lambda pixels: bool(red(pixels).sum() > 500), "the target")
+        place = around(eye, scene.events[0].point, 45.0)
+        during = wait(shown, lambda pixels: bool((fire(pixels, before) & place).sum() > 150), "fire")
+    assert said == []
+    assert agreement(red(before), expected(scene, eye, scene.start, "topsides 1")) > 0.9
+    assert agreement(blue(before), expected(scene, eye, scene.start, "topsides 0")) > 0.85
+    assert (fire(during, before) & ~place).sum() < 0.5 * (fire(during, before) & place).sum()
+
+
+def test_the_end_is_seen(guan2014: Path, tmp_path: Path) -> None:
+    """After: the ships where the run ends, the scratch on the target's side. Without effects, which would hide it."""
+    scene = replace(load_scene(guan2014), effects=())
+    paint = np.array(display(paint_of("scratch").colour)) * 255
+    scratch = next(scratch for scratch in scene.scratches if scratch.ship == "target")
+    with viewer(scene, tmp_path) as (shown, said):
+        before = wait(shown, lambda pixels: bool(red(pixels).sum() > 500), "the target")
+        eye = eye_at(tmp_path, scene.end + osg_files(scene).delay)
+        wanted = expected(scene, eye, scene.end, "topsides 1")
+        after = wait(shown, lambda pixels: agreement(red(pixels), wanted) > 0.93, "the target's last place")
+    assert said == []
+    assert agreement(red(before), wanted) < 0.8
+    assert agreement(blue(after), expected(scene, eye, scene.end, "topsides 0")) > 0.85
+    painted = np.abs(after.astype(int) - paint).max(axis=2) <= 3
+    seen = eye.project(placed(scene.ship("target"), scene.end, scratch.points))
+    assert 10 < painted.sum() < 400
+    rows, columns = np.nonzero(painted)
+    away = np.hypot(columns[:, None] + 0.5 - seen[:, 0], rows[:, None] + 0.5 - seen[:, 1]).min(axis=1)
+    assert away.max() < 6.0, "a scratch is drawn where there is none"
+
+
+def test_osgconv_reads_it_and_makes_a_binary_scene(kvlcc2_crossing: Path, tmp_path: Path) -> None:
+    """The other run, with a growing line of 200 steps."""
+    write_osg(load_scene(kvlcc2_crossing), tmp_path)
+    done = subprocess.run(
+        ["osgconv", str(tmp_path / "scene.osgt"), str(tmp_path / "scene.osgb")], check=True, text=True,
+        capture_output=True, cwd="/", env={"OSG_FILE_PATH": str(tmp_path), "PATH": "/usr/bin:/bin"},
+    )  # fmt: skip
+    assert done.stderr == ""
+    assert done.stdout.replace(str(tmp_path), "").splitlines() == ["Data written to '/scene.osgb'."]
+    assert (tmp_path / "scene.osgb").stat().st_size > 50_000
+
+
+def test_osgconv_notices_what_is_wrong(guan2014: Path, tmp_path: Path) -> None:
+    """That silence means something: with one word of the file spoiled OSG does complain."""
+    write_osg(load_scene(guan2014), tmp_path)
+    text = (tmp_path / "scene.osgt").read_text()
+    (tmp_path / "spoiled.osgt").write_text(text.replace("osg::AnimationPath {", "osg::AnimationPad {", 1))
+    done = subprocess.run(
+        ["osgconv", str(tmp_path / "spoiled.osgt"), str(tmp_path / "scene.osgb")], check=False, text=True,
+        capture_output=True, cwd="/", env={"OSG_FILE_PATH": str(tmp_path), "PATH": "/usr/bin:/bin"},
+    )  # fmt: skip
+    assert "AnimationPad" in done.stderr + done.stdout
