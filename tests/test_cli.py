@@ -229,7 +229,7 @@ def test_a_mistake_is_one_line_and_writes_nothing(
         (["validate"], 2, "Missing argument 'FMU'"),
         (["validate", "absent.fmu"], 2, "absent.fmu does not exist: build the FMUs with `shipcollision build`"),
         (["validate", "barge.toml"], 2, "barge.toml is not a zip archive: give the path of a .fmu file"),
-        (["build", "--out", "barge.toml"], 1, "the FMUs cannot be written to barge.toml: "),
+        (["build", "--out", "barge.toml"], 1, "cannot write to barge.toml: "),
     ],
 )
 def test_bad_usage_is_one_line(folder: Path, arguments: list[str], status: int, line: str) -> None:

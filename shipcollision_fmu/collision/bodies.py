@@ -12,7 +12,8 @@ import numpy as np
 from ..errors import InputError
 from ..ship.degrees_of_freedom import free_inverse, tilted_inverse
 from ..ship.frames import Array, skew
-from ..ship.hull.hull import HullMesh, build_hull
+from ..ship.hull.hull import build_hull
+from ..ship.hull.solid import HullMesh
 from ..ship.loading.library import Ship, load_ship
 from .dynamics.body_state import Shadow
 from .fender import Fender, fender_of

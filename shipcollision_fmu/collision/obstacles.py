@@ -32,7 +32,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 
 from ..errors import InputError
 from ..ship.frames import Array
-from ..ship.hull.hull import HullMesh
+from ..ship.hull.solid import HullMesh
 from ..ship.loading.messages import one_line
 from ..ship.loading.toml import parsed, read_toml
 from .fender import Fender

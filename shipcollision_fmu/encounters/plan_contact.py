@@ -21,7 +21,7 @@ from typing import Literal
 import numpy as np
 
 from ..ship.frames import Array
-from ..ship.hull.hull import HullMesh
+from ..ship.hull.solid import HullMesh
 
 __all__ = ["Place", "Side", "Touch", "common_deck", "gap", "moved", "place", "section", "touch", "touches"]
 

@@ -7,9 +7,10 @@
 M is the ship's whole (6, 6), about CO, in b: rigid body and added mass, with the sway added mass at its depth z_y,
 which couples sway and roll. It is the M that answers an impulse.
 
-Nothing counts twice. With heave, roll and pitch at rest these are the equations of mmg_3dof.py, term by term: of C the Munk
-moment in yaw, u (m_y (v - z_y p) - m_x v), is left out, because N_v' has it. The MMG polynomials, propeller and rudder
-are evaluated for the velocity of the point H = (0, 0, z_H) of the ship and act at their own depths z_H, z_P, z_R:
+Nothing counts twice. With heave, roll and pitch at rest these are the equations of mmg_3dof.py, term by term: of C the
+Munk moment in yaw, u (m_y (v - z_y p) - m_x v), is left out, because N_v' has it. The MMG polynomials, propeller and
+rudder are evaluated for the velocity of the point H = (0, 0, z_H) of the ship and act at their own depths z_H, z_P,
+z_R:
 
     u_H = u_r + z_H q      v_H = v_r - z_H p      K = -z Y      M = z X
 

@@ -14,7 +14,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from ..collision.obstacles import ObstacleTable, obstacle
-from ..ship.hull.hull import HullMesh, build_hull
+from ..ship.hull.hull import build_hull
+from ..ship.hull.solid import HullMesh
 from ..ship.ship import Ship
 
 __all__ = ["bodies"]

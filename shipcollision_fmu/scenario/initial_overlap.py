@@ -16,7 +16,8 @@ from ..collision.geometry.detection import SHALLOW, Detector
 from ..collision.geometry.plan_overlap import least_overlap
 from ..collision.obstacles import ObstacleTable, obstacle
 from ..errors import ScenarioError
-from ..ship.hull.hull import HullMesh, build_hull
+from ..ship.hull.hull import build_hull
+from ..ship.hull.solid import HullMesh
 from ..ship.ship import Ship
 from .tables import ShipStart
 

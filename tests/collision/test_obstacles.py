@@ -21,7 +21,7 @@ from shipcollision_fmu.collision.obstacles import (
 )
 from shipcollision_fmu.errors import InputError, StepError
 from shipcollision_fmu.ship.frames import attitude_from_rotation
-from shipcollision_fmu.ship.hull.hull import HullMesh
+from shipcollision_fmu.ship.hull.solid import HullMesh
 from tests.collision.conftest import BOX, NO_ADDED_MASS, World
 
 Make = Callable[..., str]

@@ -11,7 +11,8 @@ import pytest
 from shipcollision_fmu import load_ship
 from shipcollision_fmu.encounters.plan_contact import common_deck, gap, moved, place, section, touch
 from shipcollision_fmu.ship.frames import Array
-from shipcollision_fmu.ship.hull.hull import HullMesh, build_hull
+from shipcollision_fmu.ship.hull.hull import build_hull
+from shipcollision_fmu.ship.hull.solid import HullMesh
 
 BOX = np.array([[-50.0, -10.0], [50.0, -10.0], [50.0, 10.0], [-50.0, 10.0]])
 

@@ -12,7 +12,7 @@ from math import asin, atan2, cos, degrees, hypot, sin
 import numpy as np
 import pytest
 
-from shipcollision_fmu.collision.four_dof import FourDofImpact, FourDofShip, four_dof_impact
+from tests.oracles.guan2014 import FourDofImpact, FourDofShip, four_dof_impact
 
 M_OWN = 170.162e6
 OWN_BEFORE = {"x": -343.2120, "y": 81.6614, "h": 0.2908, "v": (-2.8282, 4.2215, 0.0)}

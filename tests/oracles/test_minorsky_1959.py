@@ -12,8 +12,8 @@ from pathlib import Path
 
 import pytest
 
-from shipcollision_fmu.collision.four_dof import FourDofShip, four_dof_impact
 from tests.collision.conftest import World
+from tests.oracles.guan2014 import FourDofShip, four_dof_impact
 
 CASES = [(1e7, 1e7, 5.0), (4e7, 1e7, 3.0), (2e6, 3e8, 8.0)]
 

@@ -16,7 +16,7 @@ from math import copysign, cos, radians, sin
 
 import pytest
 
-from shipcollision_fmu.collision.four_dof import FourDofImpact, FourDofShip, four_dof_impact
+from tests.oracles.guan2014 import FourDofImpact, FourDofShip, four_dof_impact
 
 MASS, LENGTH = 4000e3, 82.5
 VESSEL = FourDofShip(

@@ -62,7 +62,7 @@ def test_npm_that_reaches_nobody_is_one_clear_line(
 
 
 def test_lock_files_name_no_registry() -> None:
-    for folder in (PAGE, PROJECT / "tests" / "show"):
+    for folder in (PAGE, PROJECT / "tests" / "show" / "gltf"):
         text = (folder / "package-lock.json").read_text(encoding="utf-8")
         assert '"resolved"' not in text
         assert '"integrity"' in text

@@ -2,8 +2,8 @@
 
 A shadow has two poses. The pose of *application* is where the ship model will apply the impulse, so there it is booked,
 and momentum balances to rounding: the pose received at the start of the communication step, or for a ship that is late
-(under a parallel master, impulse_ledger.py) that which she will have one step on. The *predicted* pose moves on with the
-substeps and is where contact is looked for.
+(under a parallel master, impulse_ledger.py) that which she will have one step on. The *predicted* pose moves on with
+the substeps and is where contact is looked for.
 
     nu      twist about CO in b of the pose of application, changed by impulses only
     drift   what other forces are expected to add to it, in the mean over the step; off_centre: what it lacks to the

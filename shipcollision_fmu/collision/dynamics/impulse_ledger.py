@@ -19,10 +19,10 @@ well, as wrenches (linear, and angular about n's origin):
     owed        = meant - delivered - (pending, at the pose received now)
 
 What is owed goes out with the next impulse, and after a ship was seen to be late impulses are solved and booked for the
-pose that she will have by then (body_state.py). Linear and angular momentum are kept to rounding under either master, once
-all is applied. Not so for a body that turns, or moves as a share of its size, by more than FAR in a step, as a log that
-was run over or a buoy: what such a one is owed is written off, since by the next step it would come from a wrong side,
-and could add energy.
+pose that she will have by then (body_state.py). Linear and angular momentum are kept to rounding under either master,
+once all is applied. Not so for a body that turns, or moves as a share of its size, by more than FAR in a step, as a log
+that was run over or a buoy: what such a one is owed is written off, since by the next step it would come from a wrong
+side, and could add energy.
 """
 
 from __future__ import annotations

@@ -3,9 +3,9 @@
     T(s P) - T(0) = s P.v + 1/2 s^2 P' W P        v relative velocities before, W from delassus.py          [J]
 
 is zero at s = -2 P.v / P' W P. The solvers do not add energy by themselves but in known corners: Newton's restitution
-with friction, and contact solved with the velocity expected over a step (other_forces.py), when the force that was expected
-is gone. Ships that touch directly or through others are scaled together, so each stays in balance and in its friction
-cone; obstacles, which do not move, connect nobody.
+with friction, and contact solved with the velocity expected over a step (other_forces.py), when the force that was
+expected is gone. Ships that touch directly or through others are scaled together, so each stays in balance and in its
+friction cone; obstacles, which do not move, connect nobody.
 """
 
 from __future__ import annotations

@@ -21,7 +21,7 @@ import numpy as np
 
 from ...errors import HostError
 from ...ship.frames import SWAP, Array, quaternion_w, swapped
-from ...ship.hull.hull import HullMesh
+from ...ship.hull.solid import HullMesh
 
 __all__ = ["MARGIN", "BulletBody", "Closest", "Engine", "bullet_module"]
 

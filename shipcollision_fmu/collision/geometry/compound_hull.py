@@ -22,7 +22,7 @@ from dataclasses import replace
 import numpy as np
 
 from ...ship.frames import Array
-from ...ship.hull.hull import HullMesh
+from ...ship.hull.solid import HullMesh
 from ..dynamics.body_state import Shadow
 from ..dynamics.contact import Contact
 from ..dynamics.contact_frame import contact_axes

@@ -5,8 +5,8 @@
    of what the two facing features have in common (manifold.py).
 3. In deep overlap the direction of least overlap jumps, for a ship soon to the vertical: while the overlap is deeper
    than SHALLOW the last normal from before is kept, turning with the hull whose face it belongs to.
-4. The convex parts of one hull are joined (compound_hull.py): faces and edges inside the hull give no contact, and what the
-   parts of a face have in contact is one contact.
+4. The convex parts of one hull are joined (compound_hull.py): faces and edges inside the hull give no contact, and what
+   the parts of a face have in contact is one contact.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from math import dist
 import numpy as np
 
 from ...ship.frames import Array
-from ...ship.hull.hull import HullMesh
+from ...ship.hull.solid import HullMesh
 from ..dynamics.body_state import Shadow
 from ..dynamics.contact import Contact, make_contact
 from .bullet import MARGIN, Closest, Engine

@@ -23,7 +23,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...ship.frames import Array
-from .one_contact import law_residual
+from .contact_law import law_residual
 
 __all__ = ["newton"]
 

@@ -1,8 +1,8 @@
 """Projected Gauss-Seidel: non-penetration and Coulomb friction at all contacts at once.
 
-Guan et al. 2014, equations (5)-(13), state the law of contact (one_contact.py) with a pyramid for the cone, one scalar row
-at a time, and stop after a fixed count. Here a contact is one 3 x 3 block, the cone is a cone, and the sweeps end on a
-residual.
+Guan et al. 2014, equations (5)-(13), state the law of contact (contact_law.py) with a pyramid for the cone, one scalar
+row at a time, and stop after a fixed count. Here a contact is one 3 x 3 block, the cone is a cone, and the sweeps end
+on a residual.
 
     equations (5)-(10)    motion of the bodies under contact impulses: here v = v(0) + W P (delassus.py)
     equation (11)         the Jacobian; in the second body's block r_j belongs where r_i is printed (delassus.py)
@@ -15,8 +15,8 @@ residual.
     start from the impulses of the substep before, scaled to take most energy (warm start)
     sweep over the contacts until none changes its velocity by more than RESIDUAL of the approach; sweeps that slow down
     steadily are extrapolated (aitken.py)
-    sweeps that do not get there in PATIENCE are followed by Newton's method on all contacts at once (alart_curnier.py), and
-    where that fails, by a sequence of convex problems (aclm_fixed_point.py), now and then with Newton's method from there
+    sweeps that do not get there in PATIENCE are followed by Newton's method on all contacts at once (alart_curnier.py),
+    and where that fails, by a sequence of convex problems (aclm_fixed_point.py), now and then with Newton's method
     measure what is left by the law itself: Solution.residual
 
 Plain floats in the sweeps: a block is nine numbers, arrays would cost more than the sums.
@@ -35,7 +35,8 @@ from ...ship.frames import Array
 from .aclm_fixed_point import nearer_by_sliding_speed
 from .aitken import Extrapolation
 from .alart_curnier import newton
-from .one_contact import Block, law_residual, solve_contact
+from .contact_law import Block, law_residual
+from .one_contact import solve_contact
 
 __all__ = ["RESIDUAL", "Solution", "principal_axes", "solve_pgs", "without_rounding"]
 

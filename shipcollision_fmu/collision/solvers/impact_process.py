@@ -16,8 +16,8 @@ normal impulse has given back the share e^2 of the work that it took in (Stronge
     E_t = -integral of s.dP_t = mu integral of |s| dp >= 0   energy lost to friction          [J]
 
 so energy is never created, whatever the geometry. Newton's restitution (v_n after = -e v_n before) with friction can
-create it, see closed_form.py. Where slip neither stops nor turns, and without friction, the impulse is that of the
-closed form at any e; where a plastic impact ends in stick, too.
+create it, see tests/oracles/newton_impact.py. Where slip neither stops nor turns, and without friction, the impulse is
+that of the closed form at any e; where a plastic impact ends in stick, too.
 
 Friction that presses the hulls together faster than the normal impulse parts them (a "jam") needs no special case: the
 slip then decelerates, stops, and the path goes on from there. W may be singular, as it is for ships that move in the

@@ -20,8 +20,8 @@ from __future__ import annotations
 import numpy as np
 
 from ...ship.frames import Array
+from .contact_law import Block, friction_in_disc
 from .gauss_seidel import RESIDUAL, Solution, principal_axes, solve_pgs, without_rounding
-from .one_contact import Block, friction_in_disc
 
 __all__ = ["solve_impact"]
 

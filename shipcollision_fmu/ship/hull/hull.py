@@ -1,4 +1,4 @@
-"""The hull as a solid: a closed mesh, and the convex parts that contact detection works on.
+"""The hull of a ship from a few numbers: a closed mesh, and the convex parts that contact detection works on.
 
 A hull is a stack of level polygons whose corresponding edges are parallel. Then every face of the shell is plane, a
 change of an edge's distance with height is rake, flare or bilge, and where these distances are concave in height the
@@ -31,41 +31,13 @@ from ...errors import ShipError
 from ..frames import Array
 from ..tables.hull import HullTable
 from .convex import Indices, half_spaces
+from .solid import HullMesh
 
-__all__ = ["HullMesh", "build_hull"]
+__all__ = ["build_hull"]
 
 BOW_EDGES = 12
 """Edges of the waterline from shoulder to stem, per side: a chord error of B/2 / (4 x 12^2), about 4 cm on 50 m."""
 STERN_EDGES = 6
-
-
-@dataclass(frozen=True)
-class HullMesh:
-    """A closed hull surface and its convex parts, in b about CO [m].
-
-    vertices (n, 3); triangles (m, 3), counter-clockwise seen from outside; parts: vertex sets (k_i, 3) whose convex
-    hulls together are the solid; planes: of each part, half-spaces (m_i, 4) as convex.half_spaces gives them, which
-    contact needs to tell where parts are joined (without them every part stands for itself). What the parts add to the
-    solid: volume_error, relative, and bulge, how far they stand out where it is hollow [m].
-    """
-
-    vertices: Array
-    triangles: Indices
-    parts: tuple[Array, ...]
-    planes: tuple[Array, ...] = ()
-    volume_error: float = 0.0
-    bulge: float = 0.0
-
-    @property
-    def volume(self) -> float:
-        """Enclosed volume [m3], by the divergence theorem; positive when the normals point outwards."""
-        p, q, r = (self.vertices[self.triangles[:, k]] for k in range(3))
-        return float(np.einsum("ij,ij->", p, np.cross(q, r)) / 6.0)
-
-    @property
-    def reach(self) -> float:
-        """Largest horizontal distance of any point of the hull from CO [m]."""
-        return float(np.hypot(self.vertices[:, 0], self.vertices[:, 1]).max())
 
 
 @dataclass(frozen=True)

@@ -36,7 +36,7 @@ from ...errors import HostError, ShipError
 from ..frames import Array
 from ..tables.hull import HullTable
 from .convex import Indices, enclosed_volume, half_spaces, is_convex
-from .hull import HullMesh
+from .solid import HullMesh
 
 __all__ = ["UNITS", "VOLUME_TOLERANCE", "mesh_hull"]
 

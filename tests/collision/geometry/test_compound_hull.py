@@ -15,7 +15,8 @@ from shipcollision_fmu.collision.dynamics.body_state import Shadow
 from shipcollision_fmu.collision.geometry.compound_hull import JoinedParts
 from shipcollision_fmu.collision.geometry.detection import Detector
 from shipcollision_fmu.ship.hull.convex import half_spaces
-from shipcollision_fmu.ship.hull.hull import HullMesh, build_hull
+from shipcollision_fmu.ship.hull.hull import build_hull
+from shipcollision_fmu.ship.hull.solid import HullMesh
 from shipcollision_fmu.ship.tables.hull import HullTable
 
 BOX = HullTable(shape="box", depth=20.0)

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from shipcollision_fmu.collision.dynamics.body_state import point_jacobian
 from shipcollision_fmu.collision.dynamics.contact_frame import contact_axes
 from shipcollision_fmu.collision.solvers.aclm_fixed_point import nearer_by_sliding_speed
+from shipcollision_fmu.collision.solvers.contact_law import law_residual
 from shipcollision_fmu.collision.solvers.gauss_seidel import solve_pgs
-from shipcollision_fmu.collision.solvers.one_contact import law_residual
 from shipcollision_fmu.collision.solvers.poisson_restitution import solve_impact
 from shipcollision_fmu.ship.degrees_of_freedom import FREE, free_inverse
 from shipcollision_fmu.ship.frames import rotation

@@ -10,13 +10,13 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from shipcollision_fmu.collision.closed_form import energy_of_stick, solve_closed_form
 from shipcollision_fmu.collision.solvers.gauss_seidel import solve_pgs
 from shipcollision_fmu.collision.solvers.impact_process import SlipPath, solve_slip_path
 from shipcollision_fmu.collision.solvers.poisson_restitution import solve_impact
 from shipcollision_fmu.errors import StepError
 from shipcollision_fmu.ship.frames import rotation
 from tests.collision.impacts import Array, Impact, check_momentum, floats, impacts
+from tests.oracles.newton_impact import energy_of_stick, solve_closed_form
 
 PLASTIC = st.just(0.0)
 

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from shipcollision_fmu.errors import ShipError
-from shipcollision_fmu.ship.hull.hull import HullMesh, build_hull
+from shipcollision_fmu.ship.hull.hull import build_hull
+from shipcollision_fmu.ship.hull.solid import HullMesh
 from shipcollision_fmu.ship.tables.hull import HullTable
 
 L_OA, B, T = 288.1, 44.0, 10.5

@@ -16,8 +16,9 @@ import pytest
 from shipcollision_fmu.errors import HostError, ShipError
 from shipcollision_fmu.ship.hull import mesh as mesh_module
 from shipcollision_fmu.ship.hull.convex import enclosed_volume, half_spaces, is_convex
-from shipcollision_fmu.ship.hull.hull import HullMesh, build_hull
+from shipcollision_fmu.ship.hull.hull import build_hull
 from shipcollision_fmu.ship.hull.mesh import UNITS, mesh_hull
+from shipcollision_fmu.ship.hull.solid import HullMesh
 from shipcollision_fmu.ship.loading.library import load_ship, models_directory
 from shipcollision_fmu.ship.tables.hull import HullTable
 

@@ -7,11 +7,11 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from shipcollision_fmu.collision.closed_form import ClosedForm, energy_of_stick, solve_closed_form
 from shipcollision_fmu.collision.solvers.impact_process import solve_slip_path
 from shipcollision_fmu.errors import StepError
 from shipcollision_fmu.ship.frames import rotation
 from tests.collision.impacts import Impact, check_momentum, floats, impacts
+from tests.oracles.newton_impact import ClosedForm, energy_of_stick, solve_closed_form
 
 PLASTIC = st.just(0.0)
 

@@ -11,7 +11,7 @@
 
 Guan et al. (2014) carry the impulse over to the ships, equations (3)-(4), and print no equation for the impulse itself.
 This completes them, with M the full 6 x 6 mass and added mass of each ship, any contact height and any initial rates.
-Their own four degrees of freedom, angles and symbols, and what had to be corrected, are in four_dof.py. With e = 0 and
+Their own four degrees of freedom, angles and symbols, and what had to be corrected, are in guan2014.py. With e = 0 and
 in the plane it is the solution of Pedersen and Zhang (1998): their impulse ratio mu* is |P_t|/P_n at stick.
 
 Limits, known and tested:
@@ -33,8 +33,8 @@ from typing import Literal
 
 import numpy as np
 
-from ..errors import StepError
-from ..ship.frames import Array
+from shipcollision_fmu.errors import StepError
+from shipcollision_fmu.ship.frames import Array
 
 __all__ = ["ClosedForm", "energy_of_stick", "solve_closed_form"]
 

@@ -29,7 +29,7 @@ What the paper prints and what is corrected here:
              s = sign(eta_0), or -sign(W_nt) where there is no slip yet
 
 Pedersen and Zhang (1998) write D_xi = W_nn, K_eta = W_tt, D_eta = K_xi = W_nt (no roll), mu* = I_eta/I_xi at stick.
-The general form, in 6 x 6 and any direction, is closed_form.py: the two agree to rounding.
+The general form, in 6 x 6 and any direction, is newton_impact.py: the two agree to rounding.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from math import copysign, cos, inf, sin
 
-from .closed_form import STILL
+from tests.oracles.newton_impact import STILL
 
 __all__ = ["FourDofImpact", "FourDofShip", "four_dof_impact"]
 

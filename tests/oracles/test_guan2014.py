@@ -9,13 +9,13 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from shipcollision_fmu.collision.closed_form import energy_of_stick, solve_closed_form
 from shipcollision_fmu.collision.dynamics.body_state import point_jacobian
-from shipcollision_fmu.collision.four_dof import FourDofImpact, FourDofShip, four_dof_impact
 from shipcollision_fmu.collision.solvers.impact_process import solve_slip_path
 from shipcollision_fmu.ship.degrees_of_freedom import free_inverse
 from shipcollision_fmu.ship.frames import rotation
 from tests.collision.impacts import Array, floats
+from tests.oracles.guan2014 import FourDofImpact, FourDofShip, four_dof_impact
+from tests.oracles.newton_impact import energy_of_stick, solve_closed_form
 
 Case = tuple[FourDofShip, FourDofShip, float, float, float, float, float]
 

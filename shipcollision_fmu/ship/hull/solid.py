@@ -1,0 +1,41 @@
+"""The hull as a solid: a closed surface, and convex parts that together fill it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..frames import Array
+from .convex import Indices
+
+__all__ = ["HullMesh"]
+
+
+@dataclass(frozen=True)
+class HullMesh:
+    """A closed hull surface and its convex parts, in b about CO [m].
+
+    vertices (n, 3); triangles (m, 3), counter-clockwise seen from outside; parts: vertex sets (k_i, 3) whose convex
+    hulls together are the solid; planes: of each part, half-spaces (m_i, 4) as convex.half_spaces gives them, which
+    contact needs to tell where parts are joined (without them every part stands for itself). What the parts add to the
+    solid: volume_error, relative, and bulge, how far they stand out where it is hollow [m].
+    """
+
+    vertices: Array
+    triangles: Indices
+    parts: tuple[Array, ...]
+    planes: tuple[Array, ...] = ()
+    volume_error: float = 0.0
+    bulge: float = 0.0
+
+    @property
+    def volume(self) -> float:
+        """Enclosed volume [m3], by the divergence theorem; positive when the normals point outwards."""
+        p, q, r = (self.vertices[self.triangles[:, k]] for k in range(3))
+        return float(np.einsum("ij,ij->", p, np.cross(q, r)) / 6.0)
+
+    @property
+    def reach(self) -> float:
+        """Largest horizontal distance of any point of the hull from CO [m]."""
+        return float(np.hypot(self.vertices[:, 0], self.vertices[:, 1]).max())
