@@ -26,7 +26,7 @@ from ..errors import HostError
 
 __all__ = [
     "RECORD", "START", "BuildRecord", "confirmed", "contents", "contents_digest", "digest", "package_directory",
-    "start_values",
+    "running_build", "start_values",
 ]  # fmt: skip
 
 RECORD = "build.json"
@@ -145,6 +145,11 @@ def start_values(resources: str) -> dict[str, Any]:
     path = Path(resources) / START
     found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
     return found
+
+
+def running_build() -> str:
+    """The package that runs, for people and for comparison: its version and the first digits of its digest."""
+    return f"{shipcollision_fmu.__version__} {_running_digest()[:12]}"
 
 
 @cache

@@ -19,6 +19,7 @@ from hashlib import sha256
 from typing import Any, Protocol
 
 from ..errors import InputError, ShipCollisionError, StepError
+from .build_record import running_build
 from .variables import Kind, Table, Variable
 
 __all__ = ["Model", "Ports"]
@@ -205,6 +206,7 @@ class Ports:
         and inf too)."""
         return {
             "of": self._tag,
+            "build": running_build(),
             "values": [container[key] for container, key in self._cells],
             "model": self.model.get_state(),
             "read": self._initialised_from,
@@ -216,9 +218,7 @@ class Ports:
     def restore(self, state: Mapping[str, Any]) -> None:
         """Put a saved state back, also into a fresh instance. Raises InputError for what is not a state of this
         model."""
-        of = state.get("of") if isinstance(state, Mapping) else None
-        if of != self._tag:
-            raise InputError(f"{self.name}: this is not a saved state of it (of {of!r}, want {self._tag!r})")
+        self._refuse_foreign_state(state)
         if state["broken"]:
             raise InputError(f"{self.name}: this state was saved after a fault ({state['broken']})")
         before = None if self._broken else self.save()
@@ -230,6 +230,22 @@ class Ports:
             if isinstance(error, ShipCollisionError):
                 raise
             raise InputError(f"{self.name}: this saved state cannot be read: {_described(error)}") from error
+
+    def _refuse_foreign_state(self, state: Mapping[str, Any]) -> None:
+        """Raise InputError for the state of another model, and for one that another build of this package saved.
+
+        The keys of a state follow the names in the code, and only the code that saved a state continues it to the bit.
+        """
+        of = state.get("of") if isinstance(state, Mapping) else None
+        ours = isinstance(of, str) and of.partition(" ")[0] == self.name
+        if ours and state.get("build") != running_build():
+            raise InputError(
+                f"{self.name}: this state was saved by another build of shipcollision_fmu "
+                f"({state.get('build', 'an older one, without its name')}; this one is {running_build()}): a state can "
+                "be restored only in the build that saved it"
+            )
+        if of != self._tag:
+            raise InputError(f"{self.name}: this is not a saved state of it (of {of!r}, want {self._tag!r})")
 
     @property
     def warning(self) -> str:

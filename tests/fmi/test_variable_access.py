@@ -167,6 +167,9 @@ def test_restoring_reads_the_parameters_again(ports: Ports) -> None:
     ("spoil", "reason"),
     [
         (lambda state: state.update(of="Other 01"), r"not a saved state of it \(of 'Other 01', want 'Dummy "),
+        (lambda state: state.update(build="0.0.1 0123"), r"saved by another build .*\(0.0.1 0123; this one is \d"),
+        (lambda state: state.pop("build"), r"saved by another build .*\(an older one, without its name; this one is"),
+        (lambda state: state.update(of="Dummy 0123", build="0"), "saved by another build"),  # with another table
         (lambda state: state["model"].clear(), "this saved state cannot be read: KeyError: 'hidden'"),
         (lambda state: state["values"].pop(), "this saved state cannot be read: ValueError"),
     ],
