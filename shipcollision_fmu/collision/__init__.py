@@ -3,7 +3,7 @@
 model           a step, readable as its stages; README.md has the equations
 
 what it is of   ports, checks, bodies, obstacles
-where to        shadow, ahead, drift, ledger: poses and twists within a step, and what ships were given
+where to        shadow, drift, ledger: poses and twists within a step, and what ships were given
 who is near     neighbours, broad_phase
 where           detection: engine (the one module that knows pybullet), level, manifold, clipping, joined, axes, contact
 how much        responses, which chooses: delassus, then

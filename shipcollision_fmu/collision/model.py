@@ -32,8 +32,8 @@ from typing import Any
 import numpy as np
 
 from ..errors import StepError
+from ..ship.coasting import coast
 from ..ship.frames import attitude_from_rotation, attitude_unwrapped
-from .ahead import state_ahead
 from .bodies import Body, prepared
 from .checks import check_parameters, check_states, check_step
 from .collisions import Episodes
@@ -324,7 +324,7 @@ class ShipCollision:
         for i, shadow in enumerate(shadows[: len(self.names)]):
             out, state = self.outputs.ships[i], self.inputs.ships[i]
             if shadow is _ABSENT:
-                out.position[:], out.attitude[:], out.velocity[:] = state_ahead(
+                out.position[:], out.attitude[:], out.velocity[:] = coast(
                     state.position, state.attitude, state.velocity, state.rate, self._centres[i], H
                 )
                 out.rate[:] = state.rate

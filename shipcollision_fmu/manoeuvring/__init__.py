@@ -6,6 +6,5 @@ restoring, damping, wind            and what heave, roll, pitch and the air add
 sailing                             what all degrees of freedom share: machines, integration
 mmg, spatial                        equations of motion in 3, and in 4 or 6 degrees of freedom
 actuators                           rudder and engine follow their orders
-coasting                            no water: velocities constant in n
 ports, model                        a step of the ship model, readable as its stages
 """

@@ -24,11 +24,11 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..errors import InputError, ScenarioError, StepError
+from ..ship.coasting import coast
 from ..ship.degrees_of_freedom import free_inverse, tilted_inverse, to_level
 from ..ship.frames import Array
 from ..ship.loading.library import Ship, load_ship
 from .actuators import NEUTRAL, Gear
-from .coasting import coasted
 from .interface import ShipInputs, ShipOutputs, ShipParameters
 from .mmg import Forces, Machines, Sailing, Six, Surroundings
 from .mmg_3dof import Mmg
@@ -202,8 +202,9 @@ class ShipManoeuvring:
         if pushed:
             nu = set_up.kicked(before.eta, nu, half)
         _refuse_absurd(nu, set_up.ship, t)
-        eta_after, nu_after = coasted(before.eta, nu, set_up.ship.r_bg, h)
-        eta, nu = _six(eta_after), _six(nu_after)
+        r_bg = set_up.ship.r_bg.tolist()
+        position, attitude, velocity = coast(before.eta[:3], before.eta[3:], nu[:3], nu[3:], r_bg, h)
+        eta, nu = _six([*position, *attitude]), _six([*velocity, *nu[3:]])
         if pushed:
             nu = set_up.kicked(eta, nu, half)
             _refuse_absurd(nu, set_up.ship, t)

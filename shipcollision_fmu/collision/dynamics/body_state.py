@@ -24,7 +24,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...ship.frames import Array, rotation, rotation_vector, skew
+from ...ship.coasting import coast_pose
+from ...ship.frames import Array, rotation, skew
 
 __all__ = ["Shadow", "point_jacobian"]
 
@@ -77,11 +78,8 @@ class Shadow:
 
     def _moved(self, x: Array, R: Array, nu: Array, h: float) -> tuple[Array, Array]:
         v, omega = nu[:3], nu[3:]
-        if not omega.any():
-            return x + self.R_applied @ v * h, R
-        v_g = self.R_applied @ (v + skew(omega) @ self.r_bg)
-        R_new = rotation_vector(self.R_applied @ omega * h) @ R
-        return x + v_g * h + (R - R_new) @ self.r_bg, R_new
+        v_g = self.R_applied @ (v + skew(omega) @ self.r_bg) if omega.any() else self.R_applied @ v
+        return coast_pose(x, R, v_g, self.R_applied @ omega, self.r_bg, h)
 
     def ahead(self, nu: Array, h: float) -> tuple[Array, Array]:
         """Pose (x, R) h [s] after that of application, with the twist nu (6,) there."""

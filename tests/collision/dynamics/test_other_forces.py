@@ -7,12 +7,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from shipcollision_fmu.collision.ahead import state_ahead
 from shipcollision_fmu.collision.dynamics.body_state import Shadow
 from shipcollision_fmu.collision.dynamics.contact import Impulse, actual_velocity, make_contact
 from shipcollision_fmu.collision.dynamics.other_forces import Seen, drift
 from shipcollision_fmu.collision.dynamics.passivity import passive
-from shipcollision_fmu.manoeuvring.coasting import coasted
+from shipcollision_fmu.ship.coasting import coast
 from shipcollision_fmu.ship.frames import rotation
 
 H, REACH = 0.1, 100.0
@@ -30,9 +29,10 @@ def test_a_ship_that_coasts_has_none(
 ) -> None:
     """Also where CO goes round CG, and with an impulse at the start of the step."""
     eta, nu, J = [3.0, -2.0, 1.0, *attitude], [4.0, 0.5, -0.1, *rate], np.array([1e6, -2e6, 0, 1e7, 0, 3e8])
-    struck = np.array(nu) + M_INVERSE @ J
-    after = coasted(eta, struck.tolist(), np.array(r_bg), H)
-    assert drift(seen(0.0, eta, nu), seen(H, *after, J), M_INVERSE, np.array(r_bg), REACH) is None
+    struck = (np.array(nu) + M_INVERSE @ J).tolist()
+    position, angles, velocity = coast(eta[:3], eta[3:], struck[:3], struck[3:], r_bg, H)
+    after = seen(H, [*position, *angles], [*velocity, *struck[3:]], J)
+    assert drift(seen(0.0, eta, nu), after, M_INVERSE, np.array(r_bg), REACH) is None
 
 
 def test_a_steady_force_is_half_in_the_mean_and_whole_at_the_end() -> None:
@@ -54,13 +54,13 @@ def test_a_jump_in_time_or_place_is_no_drift(t: float, x: float) -> None:
 
 
 @given(st.tuples(ANGLE, ANGLE, st.floats(-9, 9)), st.tuples(RATE, RATE, RATE))
-def test_the_short_way_ahead_is_the_shadows(attitude: tuple[float, ...], rate: tuple[float, ...]) -> None:
+def test_a_far_step_is_that_of_the_shadow(attitude: tuple[float, ...], rate: tuple[float, ...]) -> None:
     position, velocity = np.array([100.0, -50.0, 1.0]), [4.0, 0.5, -0.1]
     r_bg = np.array([-3.0, 0.5, 2.0])
     shadow = Shadow.at(position, np.array(attitude), np.array([*velocity, *rate]), M_INVERSE, r_bg)
     shadow.advance(0.2)
     shadow.advance(0.3)
-    place, angles, turned = state_ahead(position.tolist(), attitude, velocity, rate, r_bg.tolist(), 0.5)
+    place, angles, turned = coast(position.tolist(), attitude, velocity, rate, r_bg.tolist(), 0.5)
     np.testing.assert_allclose(place, shadow.x, atol=1e-12)
     np.testing.assert_allclose(rotation(angles), shadow.R, atol=1e-12)
     np.testing.assert_allclose([*turned, *rate], shadow.nu_predicted, atol=1e-12)
