@@ -127,13 +127,14 @@ def _sailed(mover: Mover, heading: float, current: tuple[float, float], steps: i
 
 def _stepped(model: ShipManoeuvring, orders: Mapping[int, list[float]], steps: int, h: float) -> list[Pose]:
     """Poses at the communication points; orders by the point at which they are given."""
-    model.inputs.orders[:] = orders.get(0, [0.0, 0.0])
+    inputs = model.inputs
+    inputs.rudder_order, inputs.propeller_order = orders.get(0, (0.0, 0.0))
     model.initialise()
     o, poses = model.outputs, []
     for k in range(steps + BEYOND + 1):
         poses.append(Pose(*o.position, *o.attitude, *o.velocity, *o.rate))
         if k in orders:
-            model.inputs.orders[:] = orders[k]
+            inputs.rudder_order, inputs.propeller_order = orders[k]
         if k < steps + BEYOND:
             model.step(k * h, h)
     return poses

@@ -50,11 +50,11 @@ def _state() -> Table:
             "output", "rate", ANGLES, "rad/s", "outputs.rate", "Angular velocity in b", depends_on=("initial.rate",)
         ),
         real(
-            "output", "rudder_angle", "rad", "outputs.actuators", 0, "Rudder angle, limited in rate and range",
+            "output", "rudder_angle", "rad", "outputs.rudder_angle", None, "Rudder angle, limited in rate and range",
             depends_on=(),
         ),
         real(
-            "output", "propeller_speed", "rev/s", "outputs.actuators", 1, "Propeller speed",
+            "output", "propeller_speed", "rev/s", "outputs.propeller_speed", None, "Propeller speed",
             depends_on=("propeller_order", "ship", "hydrodynamics"),
         ),
         *wrench(
@@ -77,12 +77,15 @@ def _forces() -> Table:
 def _inputs() -> Table:
     """Held over the step."""
     return (
-        real("input", "rudder_order", "rad", "inputs.orders", 0, "Ordered rudder angle"),
-        real("input", "propeller_order", "rev/s", "inputs.orders", 1, "Ordered propeller speed"),
+        real("input", "rudder_order", "rad", "inputs.rudder_order", None, "Ordered rudder angle"),
+        real("input", "propeller_order", "rev/s", "inputs.propeller_order", None, "Ordered propeller speed"),
         *vector("input", "current", NED[:2], "m/s", "inputs.current", "Velocity of the water, towards, in n"),
-        real("input", "wind.speed", "m/s", "inputs.wind", 0, "Speed of the wind over ground; 0: no force of the air"),
         real(
-            "input", "wind.direction", "rad", "inputs.wind", 1,
+            "input", "wind.speed", "m/s", "inputs.wind_speed", None,
+            "Speed of the wind over ground; 0: no force of the air",
+        ),
+        real(
+            "input", "wind.direction", "rad", "inputs.wind_direction", None,
             "Direction that the wind comes from, clockwise from north",
         ),
         *wrench(
@@ -106,7 +109,7 @@ def _parameters() -> Table:
             "false: the ship coasts, its velocity and angular velocity constant in n between impulses",
         ),
         real(
-            "parameter", "substep", "s", "parameters.substep", 0, "Longest internal step of the hydrodynamics",
+            "parameter", "substep", "s", "parameters.substep", None, "Longest internal step of the hydrodynamics",
             minimum=0.0,
         ),
         *vector("parameter", "initial.position", NED, "m", "parameters.initial_position", "CO at the start, in n"),

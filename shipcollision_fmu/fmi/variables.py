@@ -7,7 +7,7 @@ written there and nowhere else; modelDescription.xml, the accessors, the documen
     TABLE = (
         *vector("output", "position", NED, "m", "outputs.position", "Position of CO in n"),
         *wrench("input", "impulse", "impulse", IMPULSE, "inputs.impulse", "Cumulative impulse in b about CO"),
-        real("input", "rudder_order", "rad", "inputs.orders", 0, "Ordered rudder angle"),
+        real("input", "rudder_order", "rad", "inputs.rudder_order", None, "Ordered rudder angle"),
         integer("parameter", "degrees_of_freedom", "parameters.degrees_of_freedom", "3, 4 or 6", minimum=3, maximum=6),
         boolean("parameter", "hydrodynamics", "parameters.hydrodynamics", "false: the ship coasts"),
         string("parameter", "ship", "parameters.ship", "Name of a ship, or path of a TOML file"),

@@ -1,6 +1,6 @@
-"""What the ship model takes and gives, as plain lists and attributes.
+"""Parameters, inputs and outputs of the ship model: numbers by name, and vectors as lists.
 
-Reals are lists of stable identity: they are filled, never replaced, so that a caller may hold on to them.
+The lists keep their identity: they are filled, never replaced, so that a caller may hold on to them.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ class ShipParameters:
     """Which ship, how it moves, and its state at the start: n [m], (phi, theta, psi) [rad], b [m/s], [rad/s], about CO.
 
     degrees_of_freedom: 3 (surge, sway, yaw), 4 (and roll) or 6: what moves.
-    substep (one entry): the longest internal step of the hydrodynamics [s].
+    substep: the longest internal step of the hydrodynamics [s].
     """
 
     ship: str = "kvlcc2"
@@ -40,33 +40,47 @@ class ShipParameters:
     initial_attitude: list[float] = field(default_factory=three)
     initial_velocity: list[float] = field(default_factory=three)
     initial_rate: list[float] = field(default_factory=three)
-    substep: list[float] = field(default_factory=lambda: [0.05])
+    substep: float = 0.05
 
 
 @dataclass
 class ShipInputs:
-    """orders: rudder [rad], propeller [1/s]. current: north, east, towards [m/s]. wind: speed [m/s], direction that it
-    comes from [rad], clockwise from north. impulse: cumulative [N s, N m s]. force: held over the step [N, N m]. Both
-    (6), in b about CO."""
+    """Inputs, held over a step.
 
-    orders: list[float] = field(default_factory=two)
+    rudder_order [rad]; propeller_order [1/s]
+    current           velocity of the water towards north and east [m/s]
+    wind_speed        of the air over ground [m/s]; wind_direction: where it comes from, clockwise from north [rad]
+    impulse           cumulative, (6) in b about CO [N s, N m s]
+    force             external force and moment, (6) in b about CO [N, N m]
+    """
+
+    rudder_order: float = 0.0
+    propeller_order: float = 0.0
     current: list[float] = field(default_factory=two)
-    wind: list[float] = field(default_factory=two)
+    wind_speed: float = 0.0
+    wind_direction: float = 0.0
     impulse: list[float] = field(default_factory=six)
     force: list[float] = field(default_factory=six)
 
 
 @dataclass
 class ShipOutputs:
-    """position in n [m]; attitude (phi, theta, psi) [rad], psi without jumps; velocity over ground and rate in b about
-    CO [m/s, rad/s]; actuators: rudder angle [rad], propeller speed [1/s]; impulse_applied: cumulative, as the input
-    impulse; hull, propeller, rudder, wind: forces by origin, (6), in b about CO [N, N m]."""
+    """Outputs: the ship at the end of a step.
+
+    position          of CO in n [m]
+    attitude          (phi, theta, psi) [rad], psi without jumps
+    velocity, rate    of CO over ground, and angular, in b [m/s, rad/s]
+    rudder_angle [rad]; propeller_speed [1/s]
+    impulse_applied   cumulative, as the input impulse
+    hull, propeller, rudder, wind    forces by origin, (6) in b about CO [N, N m]
+    """
 
     position: list[float] = field(default_factory=three)
     attitude: list[float] = field(default_factory=three)
     velocity: list[float] = field(default_factory=three)
     rate: list[float] = field(default_factory=three)
-    actuators: list[float] = field(default_factory=two)
+    rudder_angle: float = 0.0
+    propeller_speed: float = 0.0
     impulse_applied: list[float] = field(default_factory=six)
     hull: list[float] = field(default_factory=six)
     propeller: list[float] = field(default_factory=six)

@@ -104,8 +104,9 @@ class ShipManoeuvring:
         Raises ShipError or ScenarioError on a bad parameter or start value; the model is then as it was.
         """
         p = self.parameters
-        _refuse_not_finite({k: v for k, v in _lists(p).items() if k != "substep"}, ScenarioError, "must be finite")
-        _refuse_not_finite(_lists(self.inputs), ScenarioError, "at the start must be finite")
+        start_values = {name: value for name, value in _reals(p).items() if name != "substep"}
+        _refuse_not_finite(start_values, ScenarioError, "must be finite")
+        _refuse_not_finite(_reals(self.inputs), ScenarioError, "at the start must be finite")
         set_up = self._prepared()
         eta = _six(map(float, [*p.initial_position, *p.initial_attitude]))
         nu = _six(map(float, [*p.initial_velocity, *p.initial_rate]))
@@ -115,7 +116,7 @@ class ShipManoeuvring:
         if set_up.sailing is not None:
             _refuse_held_motion(eta, nu, p.degrees_of_freedom)
             self._refuse_orders(set_up, ScenarioError, "at the start")
-            propeller_speed = set_up.sailing.engine.limited(self.inputs.orders[1])
+            propeller_speed = set_up.sailing.engine.limited(self.inputs.propeller_order)
             machines = Machines(0.0, propeller_speed, set_up.sailing.engine.started(propeller_speed))
         forces = self._forces(set_up.sailing, eta, nu, machines)
         self._set_up = set_up
@@ -124,10 +125,10 @@ class ShipManoeuvring:
     def _prepared(self) -> _SetUp:
         """What the parameters ask for; what is there already when they are unchanged."""
         p = self.parameters
-        wanted = (p.ship, p.degrees_of_freedom, p.hydrodynamics, *p.substep)
+        wanted = (p.ship, p.degrees_of_freedom, p.hydrodynamics, p.substep)
         if self._set_up is not None and self._set_up.parameters == wanted:
             return self._set_up
-        substep = p.substep[0]
+        substep = p.substep
         if not (isfinite(substep) and substep > 0.0):
             raise ScenarioError(f"substep = {substep} s must be finite and greater than 0, e.g. 0.05")
         ship = load_ship(p.ship, self.directory)
@@ -163,12 +164,13 @@ class ShipManoeuvring:
             raise StepError(f"step from t = {t} s over h = {h} s: t must be finite and h greater than 0")
         i = self.inputs
         # A sum passes NaN on.
-        if not isfinite(sum(i.orders) + sum(i.current) + sum(i.wind) + sum(i.impulse) + sum(i.force)):
-            _refuse_not_finite(_lists(i), StepError, f"at t = {t:g} s must be finite")
+        numbers = i.rudder_order + i.propeller_order + i.wind_speed + i.wind_direction
+        if not isfinite(numbers + sum(i.current) + sum(i.impulse) + sum(i.force)):
+            _refuse_not_finite(_reals(i), StepError, f"at t = {t:g} s must be finite")
         if max(abs(i.current[0]), abs(i.current[1])) >= ABSURD_SPEED:
             raise StepError(f"current = {i.current} m/s at t = {t:g} s must be below {ABSURD_SPEED:g} m/s")
-        if abs(i.wind[0]) >= ABSURD_SPEED:
-            raise StepError(f"wind speed = {i.wind[0]} m/s at t = {t:g} s must be below {ABSURD_SPEED:g} m/s")
+        if abs(i.wind_speed) >= ABSURD_SPEED:
+            raise StepError(f"wind speed = {i.wind_speed} m/s at t = {t:g} s must be below {ABSURD_SPEED:g} m/s")
         self._refuse_orders(set_up, StepError, f"at t = {t:g} s")
         ratio = h / set_up.substep
         if ratio > MAXIMUM_SUBSTEPS:
@@ -180,9 +182,9 @@ class ShipManoeuvring:
 
     def _refuse_orders(self, set_up: _SetUp, refusal: type[InputError | StepError], when: str) -> None:
         """A ship that drifts has nobody to carry them out."""
-        if set_up.sailing is None or set_up.sailing.propelled or not any(self.inputs.orders):
+        if set_up.sailing is None or set_up.sailing.propelled:
             return
-        for name, order in zip(("rudder", "propeller"), self.inputs.orders, strict=True):
+        for name, order in (("rudder", self.inputs.rudder_order), ("propeller", self.inputs.propeller_order)):
             if order != 0.0:
                 raise refusal(
                     f"{name}_order = {order} {when}, but ship {set_up.ship.name!r} has no [{name}]: order 0, or add "
@@ -219,7 +221,7 @@ class ShipManoeuvring:
         machines = Machines(before.rudder_angle, before.propeller_speed, before.gear)
         try:
             eta, nu, machines = sailing.sailed(
-                before.eta, nu, machines, i.orders, self._surroundings(), h, substeps
+                before.eta, nu, machines, (i.rudder_order, i.propeller_order), self._surroundings(), h, substeps
             )  # fmt: skip
         except (OverflowError, ValueError, ZeroDivisionError):  # the cosine of infinity
             raise StepError(
@@ -236,7 +238,7 @@ class ShipManoeuvring:
 
     def _surroundings(self) -> Surroundings:
         i = self.inputs
-        speed, direction = i.wind
+        speed, direction = i.wind_speed, i.wind_direction
         wind = (-speed * cos(direction), -speed * sin(direction)) if speed else (0.0, 0.0)  # where it blows to
         return Surroundings(i.current[0], i.current[1], *wind, *i.force)
 
@@ -252,7 +254,7 @@ class ShipManoeuvring:
         self._state, o = state, self.outputs
         o.position[:], o.attitude[:] = state.eta[:3], state.eta[3:]
         o.velocity[:], o.rate[:] = state.nu[:3], state.nu[3:]
-        o.actuators[:] = state.rudder_angle, state.propeller_speed
+        o.rudder_angle, o.propeller_speed = state.rudder_angle, state.propeller_speed
         o.impulse_applied[:] = state.impulse_applied
         o.hull[:], o.propeller[:], o.rudder[:], o.wind[:] = state.hull, state.propeller, state.rudder, state.wind
 
@@ -277,14 +279,15 @@ def _six(values: Iterable[float]) -> Six:
     return a, b, c, d, e, f
 
 
-def _lists(of: ShipParameters | ShipInputs) -> dict[str, list[float]]:
-    return {f.name: value for f in fields(of) if isinstance(value := getattr(of, f.name), list)}
+def _reals(of: ShipParameters | ShipInputs) -> dict[str, float | list[float]]:
+    """The real numbers and vectors among the fields, by name."""
+    return {f.name: value for f in fields(of) if isinstance(value := getattr(of, f.name), float | list)}
 
 
-def _refuse_not_finite(named: dict[str, list[float]], refusal: type[InputError | StepError], rule: str) -> None:
-    for name, values in named.items():
-        if not all(map(isfinite, values)):
-            raise refusal(f"{name} = {values} {rule}: look at what feeds it")
+def _refuse_not_finite(named: dict[str, float | list[float]], refusal: type[InputError | StepError], rule: str) -> None:
+    for name, value in named.items():
+        if not all(map(isfinite, value if isinstance(value, list) else [value])):
+            raise refusal(f"{name} = {value} {rule}: look at what feeds it")
 
 
 def _refuse_held_motion(eta: Six, nu: Six, degrees_of_freedom: int) -> None:

@@ -23,13 +23,17 @@ def started(
     position: Sequence[float] = ZERO, attitude: Sequence[float] = ZERO, velocity: Sequence[float] = ZERO,
     rate: Sequence[float] = ZERO, substep: float = 0.05, again: ShipManoeuvring | None = None, **inputs: Any,
 ) -> ShipManoeuvring:  # fmt: skip
-    """`again`: start this one again, which spares reading the ship file."""
+    """`again`: start this one again, which spares reading the ship file. Inputs by name; `orders` and `wind` are pairs:
+    rudder [rad] and propeller [1/s], speed [m/s] and direction [rad]."""
     model = again or ShipManoeuvring()
     p = model.parameters
-    p.ship, p.degrees_of_freedom, p.hydrodynamics, p.substep[0] = ship, degrees_of_freedom, hydrodynamics, substep
+    p.ship, p.degrees_of_freedom, p.hydrodynamics, p.substep = ship, degrees_of_freedom, hydrodynamics, substep
     p.initial_position[:], p.initial_attitude[:] = position, attitude
     p.initial_velocity[:], p.initial_rate[:] = velocity, rate
+    i = model.inputs
+    i.rudder_order, i.propeller_order = inputs.pop("orders", (i.rudder_order, i.propeller_order))
+    i.wind_speed, i.wind_direction = inputs.pop("wind", (i.wind_speed, i.wind_direction))
     for name, values in inputs.items():
-        getattr(model.inputs, name)[:] = values
+        getattr(i, name)[:] = values
     model.initialise()
     return model

@@ -24,26 +24,26 @@ def test_follows(value: float, order: float, time: float, expected: float) -> No
 
 def test_rudder_rate_and_range(start: Start) -> None:
     ship = start(degrees_of_freedom=3, hydrodynamics=True, velocity=[7.0, 0.0, 0.0], orders=[0.0, 1.2])
-    ship.inputs.orders[:] = [1.0, 1.2]
+    ship.inputs.rudder_order, ship.inputs.propeller_order = 1.0, 1.2
     ship.step(0.0, 10.0)
-    assert ship.outputs.actuators[0] == pytest.approx(radians(23.4), rel=1e-12)
+    assert ship.outputs.rudder_angle == pytest.approx(radians(23.4), rel=1e-12)
     ship.step(10.0, 10.0)
-    assert ship.outputs.actuators[0] == radians(35.0)
+    assert ship.outputs.rudder_angle == radians(35.0)
 
 
 def test_propeller_ramps(start: Start) -> None:
     ship = start(degrees_of_freedom=3, hydrodynamics=True, orders=[0.0, 1.0])
-    assert ship.outputs.actuators == [0.0, 1.0]  # turns as ordered from the start
-    ship.inputs.orders[1] = -3.0
+    assert (ship.outputs.rudder_angle, ship.outputs.propeller_speed) == (0.0, 1.0)  # turns as ordered from the start
+    ship.inputs.propeller_order = -3.0
     ship.step(0.0, 10.0)
-    assert ship.outputs.actuators[1] == pytest.approx(0.8, rel=1e-12)
+    assert ship.outputs.propeller_speed == pytest.approx(0.8, rel=1e-12)
     ship.step(10.0, 200.0)
-    assert ship.outputs.actuators[1] == -1.0
+    assert ship.outputs.propeller_speed == -1.0
 
 
 def test_start_order_is_limited(start: Start) -> None:
     ship = start(degrees_of_freedom=3, hydrodynamics=True, orders=[1.0, 99.0])
-    assert ship.outputs.actuators == [0.0, 1.6]
+    assert (ship.outputs.rudder_angle, ship.outputs.propeller_speed) == (0.0, 1.6)
 
 
 DIESEL = Engine(Actuator(least=-1.0, most=1.6, rate=0.1), reversal_delay=30.0)
@@ -104,17 +104,17 @@ def test_without_delay_the_engine_runs_through() -> None:
 def test_a_direct_reversing_ship(start: Start) -> None:
     """KCS: 63 s to stop the propeller from 1.9 rev/s, 90 s to reverse the engine; saved in the middle of it."""
     ship = start("kcs", degrees_of_freedom=3, hydrodynamics=True, velocity=[12.0, 0.0, 0.0], orders=[0.0, 1.9])
-    ship.inputs.orders[1] = -1.0
+    ship.inputs.propeller_order = -1.0
     for k in range(10):
         ship.step(10.0 * k, 10.0)
-    assert ship.outputs.actuators[1] == 0.0
+    assert ship.outputs.propeller_speed == 0.0
     saved = ship.get_state()
     assert saved["gear"] == pytest.approx([1.0, 100.0 - 1.9 / 0.03])
     after = []
     for _ in range(2):
         for k in range(10, 20):
             ship.step(10.0 * k, 10.0)
-        after.append((list(ship.outputs.velocity), list(ship.outputs.actuators)))
+        after.append((list(ship.outputs.velocity), (ship.outputs.rudder_angle, ship.outputs.propeller_speed)))
         ship.set_state(saved)
     assert after[0] == after[1]
     assert after[0][1][1] == pytest.approx(-1.0)

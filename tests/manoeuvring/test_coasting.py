@@ -86,6 +86,6 @@ def test_actuators_and_forces_rest(start: Start) -> None:
     ship = start(velocity=[5.0, 0.0, 0.0], orders=[0.5, 1.0], current=[1.0, 1.0])
     ship.step(0.0, 1.0)
     o = ship.outputs
-    assert o.actuators == [0.0, 0.0]
+    assert o.rudder_angle == o.propeller_speed == 0.0
     assert o.hull == o.propeller == o.rudder == [0.0] * 6
     assert o.velocity == [5.0, 0.0, 0.0]

@@ -171,7 +171,7 @@ def test_long_drift_at_rest_stays_at_rest(start: Start) -> None:
 def test_astern(start: Start) -> None:
     """The engine reversed stops the ship and then moves it astern, slower than it goes ahead."""
     ship = start(**MMG, velocity=[4.0, 0.0, 0.0], orders=[0.0, 0.6], substep=0.5)
-    ship.inputs.orders[1] = -0.8
+    ship.inputs.propeller_order = -0.8
     sail(ship, 1800.0)
     assert -6.0 < ship.outputs.velocity[0] < -1.0
 

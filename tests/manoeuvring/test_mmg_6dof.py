@@ -323,7 +323,7 @@ def test_without_levers_it_is_the_plane_motion(start: Start, decoupled: str, mod
     spatial = start(decoupled, **mode, **keys)
     plane = start(decoupled, hydrodynamics=True, degrees_of_freedom=3, **keys)
     for model in (spatial, plane):
-        model.inputs.orders[0] = 0.5
+        model.inputs.rudder_order = 0.5
         sail(model, 600.0, 5.0)
     np.testing.assert_allclose(state(spatial), state(plane), rtol=1e-9, atol=1e-8)
 

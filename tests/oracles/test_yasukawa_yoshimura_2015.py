@@ -40,7 +40,7 @@ def turning_circle(name: str, rudder_deg: float) -> tuple[float, float]:
     ship = ShipManoeuvring()
     ship.parameters.ship, ship.parameters.degrees_of_freedom, ship.parameters.hydrodynamics = name, 3, True
     ship.parameters.initial_velocity[0] = table.service_speed
-    ship.inputs.orders[:] = [radians(rudder_deg), table.service_rev_per_s]
+    ship.inputs.rudder_order, ship.inputs.propeller_order = radians(rudder_deg), table.service_rev_per_s
     ship.initialise()
     h = 0.05 * L / table.service_speed  # a twentieth of a ship's length at service speed
     found: list[float] = []

@@ -96,7 +96,7 @@ def under_way_model(name: str, speed: float, rev_per_s: float, degrees_of_freedo
     parameters = model.parameters
     parameters.ship, parameters.degrees_of_freedom, parameters.hydrodynamics = name, degrees_of_freedom, True
     parameters.initial_velocity[0] = speed
-    model.inputs.orders[:] = [0.0, rev_per_s]
+    model.inputs.propeller_order = rev_per_s
     return model
 
 

@@ -72,12 +72,13 @@ def sail(
 ) -> Iterator[Moment]:
     """The ship at every step from the order on; `rudder` is asked what to order [rad] before each."""
     model, h = under_way_model(start.name, start.speed, start.rev_per_s, start.degrees_of_freedom), start.step
-    model.parameters.substep[0] = h
+    model.parameters.substep = h
     model.initialise()
     for k in range(round(PATIENCE / STEP)):
         now = _moment(model, k * h)
         yield now
-        model.inputs.orders[:] = [rudder(now), start.rev_per_s if rev_per_s is None else rev_per_s]
+        model.inputs.rudder_order = rudder(now)
+        model.inputs.propeller_order = start.rev_per_s if rev_per_s is None else rev_per_s
         model.step(k * h, h)
     raise StepError(f"ship {start.name!r}: {what} has not ended after {PATIENCE:g} lengths at {start.speed:g} m/s")
 
@@ -85,8 +86,8 @@ def sail(
 def _moment(model: ShipManoeuvring, time: float) -> Moment:
     o = model.outputs
     return Moment(
-        time, o.position[0], o.position[1], o.attitude[2], o.velocity[0], o.velocity[1], o.rate[2], o.actuators[0],
-        o.actuators[1],
+        time, o.position[0], o.position[1], o.attitude[2], o.velocity[0], o.velocity[1], o.rate[2], o.rudder_angle,
+        o.propeller_speed,
     )  # fmt: skip
 
 
