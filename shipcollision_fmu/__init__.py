@@ -8,34 +8,62 @@ Users import from here:
     run.states, run.contacts, run.events, run.summary
     run = simulate(encounter("t-bone", own="kcs", own_speed=4.0).scenario)
 
-Names are fetched on first use, so that an FMU, which needs only the models, does not import a master.
+A name is imported on its first use. An FMU needs only the models, so it imports no master and no pictures. Type
+checkers read the imports under TYPE_CHECKING, and a test holds both lists together.
 """
 
 from __future__ import annotations
 
 from importlib import import_module
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .collision.model import ShipCollision
+    from .cosim.run import Run
+    from .cosim.simulate import simulate
+    from .encounters.encounter import encounter
+    from .encounters.imazu import imazu
+    from .encounters.traffic.situation import traffic_scenario
+    from .errors import HostError, InputError, ScenarioError, ShipCollisionError, ShipError, StepError
+    from .fmi.package import build_fmus
+    from .manoeuvring.model import ShipManoeuvring
+    from .scenario.scenario import Scenario, load_scenario
+    from .ship.loading.library import load_ship
+    from .ship.ship import Ship
 
 __version__ = "0.1.0"
 
-_HOME = {
-    "ShipCollisionError": "shipcollision_fmu.errors",
-    "build_fmus": "shipcollision_fmu.fmi.package",
-    "encounter": "shipcollision_fmu.encounters.encounter",
-    "imazu": "shipcollision_fmu.encounters.imazu",
-    "load_scenario": "shipcollision_fmu.scenario.scenario",
-    "load_ship": "shipcollision_fmu.ship.loading.library",
-    "simulate": "shipcollision_fmu.cosim.simulate",
-    "traffic_scenario": "shipcollision_fmu.encounters.traffic.situation",
-}
-
 __all__ = [
-    "ShipCollisionError", "__version__", "build_fmus", "encounter", "imazu", "load_scenario", "load_ship", "simulate",
-    "traffic_scenario",
+    "HostError", "InputError", "Run", "Scenario", "ScenarioError", "Ship", "ShipCollision", "ShipCollisionError",
+    "ShipError", "ShipManoeuvring", "StepError", "__version__", "build_fmus", "encounter", "imazu", "load_scenario",
+    "load_ship", "simulate", "traffic_scenario",
 ]  # fmt: skip
 
+_MODULES = {
+    "collision.model": ("ShipCollision",),
+    "cosim.run": ("Run",),
+    "cosim.simulate": ("simulate",),
+    "encounters.encounter": ("encounter",),
+    "encounters.imazu": ("imazu",),
+    "encounters.traffic.situation": ("traffic_scenario",),
+    "errors": ("HostError", "InputError", "ScenarioError", "ShipCollisionError", "ShipError", "StepError"),
+    "fmi.package": ("build_fmus",),
+    "manoeuvring.model": ("ShipManoeuvring",),
+    "scenario.scenario": ("Scenario", "load_scenario"),
+    "ship.loading.library": ("load_ship",),
+    "ship.ship": ("Ship",),
+}
+"""Modules and what users import of them."""
 
-def __getattr__(name: str) -> Any:
-    if name in _HOME:
-        return getattr(import_module(_HOME[name]), name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+if not TYPE_CHECKING:  # a type checker that reads this function takes every misspelt name for one of type Any
+
+    def __getattr__(name: str) -> Any:
+        for module, names in _MODULES.items():
+            if name in names:
+                return getattr(import_module(f".{module}", __name__), name)
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

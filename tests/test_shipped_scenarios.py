@@ -11,7 +11,7 @@ import pytest
 
 from shipcollision_fmu import load_scenario, simulate
 from shipcollision_fmu.collision.model import ShipCollision
-from shipcollision_fmu.cosim.simulate import Run
+from shipcollision_fmu.cosim.run import Run
 from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
 from shipcollision_fmu.scenario.scenario import Scenario, scenario_names
 from shipcollision_fmu.ship.degrees_of_freedom import FREE

@@ -13,7 +13,7 @@ from rich.text import Text
 from ..fmi.names import named
 
 if TYPE_CHECKING:
-    from ..cosim.simulate import Run
+    from ..cosim.run import Run
 
 __all__ = ["comparison", "lines", "table", "tables"]
 

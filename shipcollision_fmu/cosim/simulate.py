@@ -8,21 +8,14 @@ Both give the same bits.
 
 from __future__ import annotations
 
-import json
-import re
 from collections.abc import Callable, Mapping
 from contextlib import ExitStack, closing
-from dataclasses import dataclass, field
 from math import radians
 from pathlib import Path
 from time import perf_counter
-from typing import Any
-
-import numpy as np
-import numpy.typing as npt
 
 from ..errors import ScenarioError
-from ..files import check_writable, write_files
+from ..files import check_writable
 from ..fmi.interface import SHIPS, Interface
 from ..fmi.package import VERSIONS
 from ..fmi.ship_collision import INTERFACE as COLLISION
@@ -39,49 +32,15 @@ from .fmu_files import ready_fmus, require_pybullet
 from .interrupt import held_back
 from .master import ALGORITHMS
 from .recorder import Recorder
+from .run import Run
 from .wiring import MakeCollision, MakeShip, connected
 
-__all__ = ["Factories", "Progress", "Run", "as_models", "simulate", "stepped", "through_fmus"]
+__all__ = ["Factories", "Progress", "as_models", "simulate", "stepped", "through_fmus"]
 
 Progress = Callable[[int, int], None]
 """Called after every step with the steps done and the steps in all."""
 Factories = tuple[MakeShip, MakeCollision]
 """What makes the components of a run, and sees to it that they are closed."""
-
-
-@dataclass(frozen=True)
-class Run:
-    """A finished run.
-
-    states, contacts    NumPy structured arrays; the columns are those of states.csv and contacts.csv
-    events, summary     what is in events.json and summary.json
-    signals             structured array, that of signals.csv: clearance and dissipated energy over time
-    bodies              what is in bodies.json: hulls, inertias and obstacles
-    timing              what differs between runs of the same thing: mode, wall time [s], real-time factor
-    """
-
-    states: npt.NDArray[Any]
-    contacts: npt.NDArray[Any]
-    events: dict[str, Any]
-    summary: dict[str, Any]
-    signals: npt.NDArray[Any]
-    bodies: dict[str, Any]
-    timing: dict[str, Any] = field(compare=False)
-
-    def write(self, out: str | Path) -> None:
-        """Write the run's files into the folder `out`, all or none. Raises HostError.
-
-        Everything but timing.json is the same, to the byte, for the same scenario and software.
-        """
-        write_files(Path(out), {
-            "states.csv": _csv(self.states),
-            "contacts.csv": _csv(self.contacts),
-            "events.json": _json(self.events),
-            "summary.json": _json(self.summary),
-            "signals.csv": _csv(self.signals),
-            "bodies.json": _json(self.bodies),
-            "timing.json": _json(self.timing),
-        })  # fmt: skip
 
 
 def simulate(
@@ -181,26 +140,3 @@ def through_fmus(fmus: Mapping[str, Path], stack: ExitStack, ships: tuple[str, .
         return stack.enter_context(closing(FmuComponent(name, fmu)))
 
     return lambda name: made(name, MANOEUVRING), lambda: made("collision", COLLISION)
-
-
-def _csv(rows: npt.NDArray[Any]) -> str:
-    """Header and rows; floats as repr, so that reading them back gives the same double."""
-    assert rows.dtype.names is not None
-    lines = [",".join(rows.dtype.names), *(",".join(map(_cell, row)) for row in rows.tolist())]
-    return "\n".join(lines) + "\n"
-
-
-def _cell(value: Any) -> str:
-    return value if isinstance(value, str) else repr(value)
-
-
-def _json(data: Any) -> str:
-    """Indented, with a list of plain values on one line; floats as repr."""
-    text = json.dumps(data, indent=1, allow_nan=False, default=_plain) + "\n"
-    return re.sub(r"\[\n[^][{}]*\]", lambda found: re.sub(r"\n *", " ", found[0]).replace("[ ", "[")[:-2] + "]", text)
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, np.generic):
-        return value.item()
-    raise TypeError(f"{type(value).__name__} cannot be written as JSON")

@@ -22,7 +22,7 @@ from shipcollision_fmu.cosim.helm import (
     line_of_sight,
     steered,
 )
-from shipcollision_fmu.cosim.simulate import Run
+from shipcollision_fmu.cosim.run import Run
 from shipcollision_fmu.errors import ScenarioError
 from tests.conftest import BARGE, Write
 

@@ -15,7 +15,7 @@ from jsonschema import validate
 
 from shipcollision_fmu import load_scenario, load_ship, simulate
 from shipcollision_fmu.cosim import simulate as module
-from shipcollision_fmu.cosim.simulate import Run
+from shipcollision_fmu.cosim.run import Run
 from shipcollision_fmu.errors import HostError, ScenarioError, StepError
 from shipcollision_fmu.ship.degrees_of_freedom import free_inverse
 from shipcollision_fmu.ship.frames import rotation

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from shipcollision_fmu import load_scenario, simulate
-from shipcollision_fmu.cosim.simulate import Run
+from shipcollision_fmu.cosim.run import Run
 from shipcollision_fmu.results.published import state_at, world_state
 from shipcollision_fmu.scenario.scenario import Scenario
 from shipcollision_fmu.ship.frames import swapped
