@@ -39,18 +39,18 @@ def encounter(kind: str, out: Path | None, case: int | None, degrees_of_freedom:
     TYPE is head-on, crossing, overtaking, glancing, t-bone, drifting-target, late-evasive, loss-of-steering, or imazu
     with --case: one of the 22 cases of Imazu's problem, with one to three targets.
     """
-    from ..encounters.encounter import encounter as made
-    from ..encounters.imazu import imazu_with
+    from ..encounters.encounter import encounter as make_encounter
+    from ..encounters.imazu import imazu_from_options
     from ..files import check_writable, write_file
 
     directory = Path(".") if out is None else out.parent
     options["degrees_of_freedom"] = None if degrees_of_freedom is None else int(degrees_of_freedom)
     if kind == "imazu":
-        text = imazu_with(case, options, directory).text
+        text = imazu_from_options(case, options, directory).text
     else:
         if case is not None:
             raise click.UsageError("--case goes with TYPE imazu only")
-        text = made(kind, directory, **options).text
+        text = make_encounter(kind, directory, **options).text
     if out is None:
         click.echo(text, nl=False)
         return

@@ -1,13 +1,13 @@
-"""How a ship comes to an impact: her pose and velocity at every communication point, ending where they are wanted.
+"""Tracks to an impact: pose and velocity of a ship at every communication point, ending at a given place and heading.
 
-Coasting ships come in a straight line. Ships under way are sailed forwards with the model itself, then their track is
-turned and shifted so that it ends there; with a current, which does not turn, the start is improved until it does.
+A coasting ship moves in a straight line. A sailed ship is stepped forwards with the manoeuvring model. Its track is
+then turned and shifted so that it ends where required. A current does not turn with the track: with a current the
+heading at the start is corrected until the heading at the end is right.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from math import cos, degrees, radians, sin
 from typing import NamedTuple
 
@@ -15,36 +15,19 @@ import numpy as np
 
 from ..errors import ScenarioError
 from ..manoeuvring.model import ShipManoeuvring
-from ..manoeuvring.trials.steady_course import self_propulsion
 from ..scenario.scenario import Scenario, order_table
 from ..ship.frames import Array
-from ..ship.loading.library import load_ship
+from .approaching_ship import ApproachingShip
 
-__all__ = [
-    "BEYOND", "Mover", "Order", "Pose", "as_run", "nearer", "relative_velocity", "steered", "track", "under_way",
-]  # fmt: skip
+__all__ = ["POINTS_AFTER", "Pose", "compute_relative_velocity", "make_track", "sail_as_in_run", "shift_track"]
 
-BEYOND = 2
-"""Communication points of a track after the wanted impact, as if nothing had been met."""
-
-
-class Order(NamedTuple):
-    """From a communication point on: rudder [deg], revolutions [1/s]."""
-
-    k: int
-    rudder_deg: float
-    rev_per_s: float
-
-
-@dataclass(frozen=True)
-class Mover:
-    """How a ship comes to the impact: speed ahead and to starboard through the water, orders None when she coasts."""
-
-    file: str
-    surge: float
-    sway: float
-    orders: tuple[Order, ...] | None
-    degrees_of_freedom: int
+POINTS_AFTER = 2
+"""Communication points of a track after the impact, computed as if there were no contact. With fewer, an impact that
+the collision model finds one step late would be missed."""
+HEADING_TOLERANCE = 1e-10
+"""[rad] Error of the heading at the impact in a current; a file rounds headings to 2e-9 rad."""
+HEADING_CORRECTIONS = 50
+"""Corrections of the heading at the start in a current, after which the encounter is refused."""
 
 
 class Pose(NamedTuple):
@@ -64,84 +47,54 @@ class Pose(NamedTuple):
     yaw_rate: float
 
 
-def under_way(ship: str, speed: float, degrees_of_freedom: int) -> Mover:
-    """A ship that keeps her speed [m/s] on a straight course. Raises ScenarioError for one that can only coast."""
-    if load_ship(ship).manoeuvring is None:
-        raise ScenarioError(f"ship {ship!r} can only coast, she has no [manoeuvring]: take --coasting, or another ship")
-    order = Order(0, 0.0, self_propulsion(ship, speed) if speed > 0.0 else 0.0)
-    return Mover(ship, speed, 0.0, (order,), degrees_of_freedom)
-
-
-def steered(orders: tuple[Order, ...], k: int, rudder_deg: float) -> tuple[Order, ...]:
-    """The first order, and from the communication point k on the rudder."""
-    first = orders[0]
-    if k == 0:
-        return (Order(0, rudder_deg, first.rev_per_s),)
-    return (first, Order(k, rudder_deg, first.rev_per_s))
-
-
-def track(
-    mover: Mover, end: Array, heading: float, current: tuple[float, float], steps: int, h: float
+def make_track(
+    ship: ApproachingShip, end: Array, heading: float, current: tuple[float, float], steps: int, h: float
 ) -> list[Pose]:  # fmt: skip
-    """Poses at the communication points 0 to steps + BEYOND of a ship whose CO is at `end` (2,) in n at `steps`.
+    """Poses at the communication points 0 to steps + POINTS_AFTER, with CO at `end` (2,) in n [m] at `steps`.
 
-    Raises ScenarioError for a heading that she does not come to in the current.
+    heading [rad] at `steps`, current (north, east) [m/s], communication step h [s]. Raises ScenarioError for a heading
+    that the ship does not reach in the current.
     """
-    if mover.orders is None:
-        return _straight(mover, end, heading, steps, h)
+    if ship.orders is None:
+        return _make_straight_track(ship, end, heading, steps, h)
     start = heading
-    for _ in range(50):
-        sailed = _sailed(mover, start, current, steps, h)
-        error = heading - sailed[steps].heading
+    for _ in range(HEADING_CORRECTIONS):
+        poses = _sail(ship, start, current, steps, h)
+        error = heading - poses[steps].heading
         if not any(current):  # water at rest is the same in every direction
-            return _ending(_turned(sailed, error), end, steps)
-        if abs(error) < 1e-10:
-            return _ending(sailed, end, steps)
+            return _end_track_at(_turn_track(poses, error), end, steps)
+        if abs(error) < HEADING_TOLERANCE:
+            return _end_track_at(poses, end, steps)
         start += error
     raise ScenarioError(
-        f"ship {mover.file!r} does not come to {degrees(heading):.1f} deg in this current: take less drift"
+        f"ship {ship.file!r} does not come to {degrees(heading):.1f} deg in this current: take less drift"
     )
 
 
-def _straight(mover: Mover, end: Array, heading: float, steps: int, h: float) -> list[Pose]:
+def _make_straight_track(ship: ApproachingShip, end: Array, heading: float, steps: int, h: float) -> list[Pose]:
     c, s = cos(heading), sin(heading)
-    north, east = mover.surge * c - mover.sway * s, mover.surge * s + mover.sway * c
-    times = [(k - steps) * h for k in range(steps + BEYOND + 1)]
-    rest = (0.0, 0.0, 0.0, heading, mover.surge, mover.sway, 0.0, 0.0, 0.0, 0.0)
-    return [Pose(float(end[0] + north * t), float(end[1] + east * t), *rest) for t in times]
+    north, east = ship.surge * c - ship.sway * s, ship.surge * s + ship.sway * c
+    times = [(k - steps) * h for k in range(steps + POINTS_AFTER + 1)]
+    constant = (0.0, 0.0, 0.0, heading, ship.surge, ship.sway, 0.0, 0.0, 0.0, 0.0)
+    return [Pose(float(end[0] + north * t), float(end[1] + east * t), *constant) for t in times]
 
 
-def _sailed(mover: Mover, heading: float, current: tuple[float, float], steps: int, h: float) -> list[Pose]:
-    """The model's own track from n's origin, step by step as a run will make it."""
+def _sail(ship: ApproachingShip, heading: float, current: tuple[float, float], steps: int, h: float) -> list[Pose]:
+    """The manoeuvring model's track from n's origin, in the same steps as a run takes."""
     model, (north, east) = ShipManoeuvring(), current
     parameters = model.parameters
-    parameters.ship, parameters.degrees_of_freedom = mover.file, mover.degrees_of_freedom
+    parameters.ship, parameters.degrees_of_freedom = ship.file, ship.degrees_of_freedom
     parameters.hydrodynamics = True
     parameters.initial_attitude[2] = heading
     c, s = cos(heading), sin(heading)
-    parameters.initial_velocity[:] = [mover.surge + north * c + east * s, mover.sway - north * s + east * c, 0.0]
+    parameters.initial_velocity[:] = [ship.surge + north * c + east * s, ship.sway - north * s + east * c, 0.0]
     model.inputs.current[:] = [north, east]
-    orders = {order.k: [radians(order.rudder_deg), order.rev_per_s] for order in mover.orders or ()}
-    return _stepped(model, orders, steps, h)
+    orders = {order.k: [radians(order.rudder_deg), order.rev_per_s] for order in ship.orders or ()}
+    return _step_model(model, orders, steps, h)
 
 
-def _stepped(model: ShipManoeuvring, orders: Mapping[int, list[float]], steps: int, h: float) -> list[Pose]:
-    """Poses at the communication points; orders by the point at which they are given."""
-    inputs = model.inputs
-    inputs.rudder_order, inputs.propeller_order = orders.get(0, (0.0, 0.0))
-    model.initialise()
-    o, poses = model.outputs, []
-    for k in range(steps + BEYOND + 1):
-        poses.append(Pose(*o.position, *o.attitude, *o.velocity, *o.rate))
-        if k in orders:
-            inputs.rudder_order, inputs.propeller_order = orders[k]
-        if k < steps + BEYOND:
-            model.step(k * h, h)
-    return poses
-
-
-def as_run(scenario: Scenario, name: str, steps: int) -> list[Pose]:
-    """The track of a ship of a scenario, who meets nobody, to the bit as a run makes it, up to `steps` + BEYOND."""
+def sail_as_in_run(scenario: Scenario, name: str, steps: int) -> list[Pose]:
+    """The track of a scenario's ship without contact, to the bit as in a run, up to steps + POINTS_AFTER."""
     table = scenario.ships[name]
     model, start = ShipManoeuvring(), table.start
     parameters = model.parameters
@@ -151,33 +104,53 @@ def as_run(scenario: Scenario, name: str, steps: int) -> list[Pose]:
     parameters.initial_velocity[:], parameters.initial_rate[:] = start.velocity, start.rate
     if table.hydrodynamics:
         model.inputs.current[:] = scenario.environment.current
-    return _stepped(model, dict(order_table(table, scenario.step)), steps, scenario.step)
+    return _step_model(model, dict(order_table(table, scenario.step)), steps, scenario.step)
 
 
-def _turned(poses: Sequence[Pose], by: float) -> list[Pose]:
-    c, s = cos(by), sin(by)
+def _step_model(model: ShipManoeuvring, orders: Mapping[int, list[float]], steps: int, h: float) -> list[Pose]:
+    """Poses at the communication points; `orders` (rudder [rad], revolutions [1/s]) by communication point."""
+    inputs = model.inputs
+    inputs.rudder_order, inputs.propeller_order = orders.get(0, (0.0, 0.0))
+    model.initialise()
+    o, poses = model.outputs, []
+    for k in range(steps + POINTS_AFTER + 1):
+        poses.append(Pose(*o.position, *o.attitude, *o.velocity, *o.rate))
+        if k in orders:
+            inputs.rudder_order, inputs.propeller_order = orders[k]
+        if k < steps + POINTS_AFTER:
+            model.step(k * h, h)
+    return poses
+
+
+def _turn_track(poses: Sequence[Pose], angle: float) -> list[Pose]:
+    """The track turned about n's origin by an angle [rad]."""
+    c, s = cos(angle), sin(angle)
     return [
-        p._replace(north=p.north * c - p.east * s, east=p.north * s + p.east * c, heading=p.heading + by) for p in poses
+        p._replace(north=p.north * c - p.east * s, east=p.north * s + p.east * c, heading=p.heading + angle)
+        for p in poses
     ]
 
 
-def _ending(poses: Sequence[Pose], end: Array, steps: int) -> list[Pose]:
-    """Shifted so that it is there then."""
-    return nearer(poses, np.array([end[0] - poses[steps].north, end[1] - poses[steps].east]))
+def _end_track_at(poses: Sequence[Pose], end: Array, steps: int) -> list[Pose]:
+    """The track shifted so that CO is at `end` (2,) in n [m] at the communication point `steps`."""
+    return shift_track(poses, np.array([end[0] - poses[steps].north, end[1] - poses[steps].east]))
 
 
-def nearer(poses: Sequence[Pose], by: Array) -> list[Pose]:
-    """The track shifted by (2,) [m] in n."""
-    north, east = float(by[0]), float(by[1])
+def shift_track(poses: Sequence[Pose], shift: Array) -> list[Pose]:
+    """The track shifted by (2,) in n [m]."""
+    north, east = float(shift[0]), float(shift[1])
     return [p._replace(north=p.north + north, east=p.east + east) for p in poses]
 
 
-def relative_velocity(own: Pose, target: Pose) -> Array:
-    """Of own relative to the target at n's origin, where they touch [m/s]; (2,) in n, in plan."""
+def compute_relative_velocity(own: Pose, target: Pose) -> Array:
+    """Velocity of own's material point at n's origin relative to the target's there, in plan; (2,) in n [m/s].
+
+    v = v_CO + omega x (origin - CO) for each ship.
+    """
     velocities = []
     for pose in (own, target):
         c, s = cos(pose.heading), sin(pose.heading)
-        north = pose.surge * c - pose.sway * s + pose.yaw_rate * pose.east  # omega x (origin - CO)
+        north = pose.surge * c - pose.sway * s + pose.yaw_rate * pose.east
         east = pose.surge * s + pose.sway * c - pose.yaw_rate * pose.north
         velocities.append(np.array([north, east]))
     relative: Array = velocities[0] - velocities[1]

@@ -1,109 +1,88 @@
-"""An encounter as a scenario file."""
+"""The scenario file of an encounter: its comment and its tables."""
 
 from __future__ import annotations
 
-import os
 from math import degrees
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..scenario.toml_writer import scenario_text
-from ..ship.frames import Array
-from ..ship.ship import Ship
-from .approach_track import Mover, Pose
-from .plan_contact import Place, Touch
-from .request import Kind, Wanted, either, whole_steps
+from .approach_track import Pose
+from .approaching_ship import ApproachingShip
+from .plan_contact import PlanContact
+from .planned_impact import PlannedImpact
+from .request import Kind, Request, count_steps, value_or_default
+from .ship_table import build_ship_table, refer_to_ship, round_off
 
-__all__ = ["Coming", "Impact", "encounter_text", "ship_reference"]
+__all__ = ["CONTACT_LAW", "Approach", "write_encounter"]
+
+CONTACT_LAW = {"friction": 0.3, "restitution": 0.0}
+"""The table [collision] of every generated encounter: steel on steel, plastic."""
 
 
-class Coming(NamedTuple):
-    """What leads to the impact: own and target, their tracks, how own touches, her closing speed [m/s]."""
+class Approach(NamedTuple):
+    """Both ships with their tracks to the impact, the contact in plan and the closing speed along its normal [m/s]."""
 
-    own: Mover
-    target: Mover
+    own: ApproachingShip
+    target: ApproachingShip
     own_track: list[Pose]
     target_track: list[Pose]
-    contact: Touch
+    contact: PlanContact
     closing_speed: float
 
 
-class Impact(NamedTuple):
-    """The impact seen from the target: its place, s, own's heading [rad], sections in plan by ship, their height."""
-
-    at: Place
-    s: float
-    heading: float
-    sections: dict[str, Array]
-    deck: float
-    ships: dict[str, Ship]
-
-
-def ship_reference(ship: str, directory: Path) -> str:
-    """How a scenario file in `directory` names a ship: a shipped name as it is, a path relative to the file."""
-    if ship.endswith(".toml") or "/" in ship or "\\" in ship:
-        return Path(os.path.relpath(Path(ship).resolve(), directory.resolve())).as_posix()
-    return ship
-
-
-def encounter_text(
-    wanted: Wanted, kind: Kind, impact: Impact, steps: int, current: tuple[float, float], coming: Coming,
+def write_encounter(
+    request: Request, kind: Kind, impact: PlannedImpact, steps: int, current: tuple[float, float], approach: Approach,
     sailed: bool, directory: Path,
 ) -> str:  # fmt: skip
-    """The scenario file of an encounter for a directory."""
-    T, end = steps * wanted.step, (steps + whole_steps(wanted.after, wanted.step)) * wanted.step
+    """The text of the scenario file, in which paths of ships are relative to `directory`."""
+    T, end = steps * request.step, (steps + count_steps(request.after, request.step)) * request.step
     s, angle = impact.s, f"{degrees(abs(impact.heading)):g}"
-    where = "at her stem" if s == 0.5 else "at her stern" if s == -0.5 else f"on her {wanted.side} side, s = {s:g}"
+    where = (
+        "target's stem" if s == 0.5 else "target's stern" if s == -0.5 else f"target's {request.side} side, s = {s:g}"
+    )
     comment = [
-        f"Made by `shipcollision encounter {wanted.kind}`, backwards from the impact.",
-        *_sentence(kind, wanted).splitlines(),
-        f"Impact wanted: at {T:g} s at n's origin, {where}, {angle} deg between the headings,",
-        f"closing at {coming.closing_speed:.3g} m/s along the normal of the target's hull.",
+        f"Made by `shipcollision encounter {request.kind}`, backwards from the impact.",
+        *_describe_approach(kind, request),
+        f"Impact: at {T:g} s at n's origin, at {where}, {angle} deg between the headings,",
+        f"closing at {approach.closing_speed:.3g} m/s along the normal of the target's hull.",
     ]
     tables: dict[str, dict[str, Any]] = {
         "scenario": {
-            "name": wanted.name or f"{wanted.kind}-{angle}".replace("-", "_").replace(".", "_"),
-            "description": f"own {kind.words}: {angle} deg, {where}.",
+            "name": request.name or f"{request.kind}-{angle}".replace("-", "_").replace(".", "_"),
+            "description": f"own {kind.words}: {angle} deg, at {where}.",
             "duration": round(end, 9),
-            "step": wanted.step,
+            "step": request.step,
         },
-        "ships.own": _ship_table(coming.own, coming.own_track[0], wanted, sailed, directory),
-        "ships.target": _ship_table(coming.target, coming.target_track[0], wanted, sailed, directory),
-        "collision": {"friction": 0.3, "restitution": 0.0},
+        "ships.own": _ship_table(approach.own, approach.own_track[0], request.step, sailed, directory),
+        "ships.target": _ship_table(approach.target, approach.target_track[0], request.step, sailed, directory),
+        "collision": CONTACT_LAW,
     }
     if any(current):
         tables["environment"] = {"current": [*current]}
     return scenario_text(comment, tables)
 
 
-def _ship_table(mover: Mover, pose: Pose, wanted: Wanted, sailed: bool, directory: Path) -> dict[str, Any]:
-    ahead = abs(pose.sway) < 1e-12
-    orders = None
-    if mover.orders is not None:
-        orders = [
-            {"time": round(order.k * wanted.step, 9), "rudder_deg": order.rudder_deg, "rev_per_s": order.rev_per_s}
-            for order in mover.orders
-        ]
-    return {
-        "ship": ship_reference(mover.file, directory),
-        "position": [_rounded(pose.north, 5), _rounded(pose.east, 5)],
-        "heading_deg": _rounded(degrees(pose.heading), 7) % 360.0,
-        "speed": _rounded(pose.surge, 9) if ahead else None,
-        "surge": None if ahead else _rounded(pose.surge, 9),
-        "sway": None if ahead else _rounded(pose.sway, 9),
-        "hydrodynamics": sailed or None,
-        "degrees_of_freedom": mover.degrees_of_freedom,
-        "orders": orders,
-    }
+def _ship_table(ship: ApproachingShip, start: Pose, step: float, sailed: bool, directory: Path) -> dict[str, Any]:
+    return build_ship_table(
+        refer_to_ship(ship.file, directory),
+        (round_off(start.north, 5), round_off(start.east, 5)),
+        round_off(degrees(start.heading), 7) % 360.0,
+        round_off(start.surge, 9),
+        round_off(start.sway, 9),
+        hydrodynamics=sailed or None,
+        degrees_of_freedom=ship.degrees_of_freedom,
+        orders=None if ship.orders is None else [
+            {"time": round(order.k * step, 9), "rudder_deg": order.rudder_deg, "rev_per_s": order.rev_per_s}
+            for order in ship.orders
+        ],
+    )  # fmt: skip
 
 
-def _sentence(kind: Kind, wanted: Wanted) -> str:
-    helm = ""
+def _describe_approach(kind: Kind, request: Request) -> list[str]:
+    lines = [f"Own {kind.words}."]
     if kind.helm:
-        before, rudder = either(wanted.before, kind.before), either(wanted.rudder_deg, kind.rudder_deg)
-        helm = f"\nHer rudder is ordered to {rudder:g} deg {before:g} s before the impact."
-    return f"Own {kind.words}.{helm}"
-
-
-def _rounded(value: float, digits: int) -> float:
-    return round(float(value), digits) + 0.0  # no -0.0
+        before = value_or_default(request.before, kind.before)
+        rudder_deg = value_or_default(request.rudder_deg, kind.rudder_deg)
+        lines.append(f"Its rudder is ordered to {rudder_deg:g} deg {before:g} s before the impact.")
+    return lines

@@ -1,14 +1,14 @@
-"""The 22 cases of Imazu's problem: own ship and one to three targets, all bound for one point at one time.
+"""imazu(): the 22 cases of Imazu's problem, own ship and one to three targets bound for one point at one time.
 
     own       heading 000, from 6 NM south of the point, 12 kn, there after 30 min
-    targets   each in a straight line to the same point, there at the same time: their courses say where they come from
+    targets   each in a straight line to the same point, there at the same time: the course gives the start
               12 kn; the first target of the cases in SLOW 8.4 kn, for own to overtake
 
 H. Imazu (1987), Research on collision avoidance manoeuvre, PhD thesis, University of Tokyo (in Japanese), as tabulated
 by R. Sawada, K. Sato, T. Majima (2021), Automatic ship collision avoidance using deep reinforcement learning with LSTM
 in continuous action spaces, J. Mar. Sci. Technol. 26:509-524, doi 10.1007/s00773-020-00755-0, table 4. The table was
-read in three public transcriptions, which agree but for case 2: one has its course as 090, which would lead away from
-the point, the others 270. In the table cases 5 and 8 are the same, and so are 15 and 22; case 12 has two targets.
+read in three public transcriptions, which agree except in case 2. One gives the course as 090, which would lead away
+from the point; the others give 270. In the table case 5 equals 8, and 15 equals 22; case 12 has two targets.
 """
 
 from __future__ import annotations
@@ -23,14 +23,14 @@ from ..errors import ScenarioError
 from ..manoeuvring.trials.steady_course import self_propulsion
 from ..scenario.scenario import Scenario, scenario_of
 from ..scenario.toml_writer import scenario_text
-from ..ship.loading.library import load_ship
-from .encounter_file import ship_reference
-from .request import FASTEST, whole_steps
+from .encounter_file import CONTACT_LAW
+from .request import FASTEST, LONGEST, count_steps
+from .ship_table import build_ship_table, refer_to_ship, require_manoeuvring, round_off
 
-__all__ = ["COURSES", "KNOT", "SLOW", "Imazu", "imazu", "imazu_with"]
+__all__ = ["COURSES", "KNOT", "SLOW", "Imazu", "imazu", "imazu_from_options"]
 
 KNOT = 1852.0 / 3600.0
-"""[m/s]"""
+"""[m/s], exact by definition."""
 COURSES: dict[int, tuple[int, ...]] = {
     1: (180,), 2: (270,), 3: (0,), 4: (45,),
     5: (180, 270), 6: (350, 315), 7: (0, 315), 8: (180, 270), 9: (330, 270), 10: (270, 15), 11: (90, 330),
@@ -38,16 +38,16 @@ COURSES: dict[int, tuple[int, ...]] = {
     13: (180, 10, 45), 14: (350, 315, 270), 15: (0, 315, 270), 16: (45, 90, 270), 17: (0, 10, 315), 18: (225, 345, 330),
     19: (15, 345, 225), 20: (0, 345, 270), 21: (345, 15, 270), 22: (0, 315, 270),
 }  # fmt: skip
-"""Of the targets, by case [deg]; own steers 000."""
+"""Courses of the targets by case [deg]; own steers 000. As published; a change makes it another problem."""
 SLOW = frozenset({3, 7, 15, 16, 17, 20, 22})
-"""Cases whose first target is slower."""
+"""Cases whose first target is slower than own, to be overtaken. As published."""
 SLOW_RATIO = 0.7
-"""8.4 kn of 12 kn."""
+"""Speed of such a target as a fraction of own's: 8.4 kn of 12 kn."""
 
 
 @dataclass(frozen=True)
 class Imazu:
-    """A case: the file's text, the scenario, and the time at which all midships would be at n's origin [s]."""
+    """A case: the file's text, its scenario, and the time at which every midship would be at n's origin [s]."""
 
     text: str
     scenario: Scenario
@@ -67,19 +67,23 @@ def imazu(
     degrees_of_freedom: int | None = None,
     directory: str | Path = ".",
 ) -> Imazu:
-    """Case 1 to 22 as a scenario file for `directory`; `speed` is own's [m/s], `time` that to the meeting [s].
+    """Case 1 to 22 as a scenario file for `directory`.
 
-    Other speeds and times scale the ranges and keep the geometry. Raises ScenarioError and ShipError in one line.
+    speed   own's [m/s]; the targets' follow in proportion       time    from the start to the meeting [s]
+    after   from the meeting to the end [s]                      step    communication step [s]
+
+    Other speeds and times scale the ranges and keep the geometry. Raises ScenarioError for values out of range and for
+    ships that overlap at the start; ShipError for a ship that cannot be loaded.
     """
     if case not in COURSES:
         raise ScenarioError(f"Imazu case {case} does not exist: take 1 to 22")
     for name, value, least, most in (
-        ("own_speed", speed, 0.1, FASTEST), ("time", time, step, 7200.0), ("after", after, step, 7200.0),
+        ("own_speed", speed, 0.1, FASTEST), ("time", time, step, LONGEST), ("after", after, step, LONGEST),
         ("step", step, 1e-3, 10.0),
     ):  # fmt: skip
         if not (isfinite(value) and least <= value <= most):
             raise ScenarioError(f"Imazu case {case}: {name} = {value:g} must be {least:g} to {most:g}: give SI units")
-    steps = whole_steps(time, step)
+    steps = count_steps(time, step)
     T = steps * step
     courses = COURSES[case]
     names = ["target"] if len(courses) == 1 else [f"target_{i}" for i in range(1, len(courses) + 1)]
@@ -88,20 +92,20 @@ def imazu(
         "scenario": {
             "name": f"imazu_{case:02d}",
             "description": f"Imazu's case {case}: own and {len(courses)} target{'s' * (len(courses) > 1)}.",
-            "duration": round((steps + whole_steps(after, step)) * step, 9),
+            "duration": round((steps + count_steps(after, step)) * step, 9),
             "step": step,
         }
     }
     for name, course, ratio in zip(["own", *names], (0, *courses), (1.0, *ratios), strict=True):
         file = own if name == "own" else target
-        if hydrodynamics and load_ship(file).manoeuvring is None:
-            raise ScenarioError(f"ship {file!r} can only coast, she has no [manoeuvring]: leave out --hydrodynamics")
+        if hydrodynamics:
+            require_manoeuvring(file, "leave out --hydrodynamics")
         table = _ship_table(file, round(ratio * speed, 6), course, T, hydrodynamics, Path(directory))
         tables[f"ships.{name}"] = table | {"degrees_of_freedom": degrees_of_freedom}
-    tables["collision"] = {"friction": 0.3, "restitution": 0.0}
+    tables["collision"] = CONTACT_LAW
     comment = [
         f"Made by `shipcollision encounter imazu --case {case}`: Imazu's problem, case {case} of 22.",
-        f"On their courses all ships are at n's origin after {T:g} s; their hulls meet before.",
+        f"On their courses all ships are at n's origin after {T:g} s; their hulls touch before.",
         "Imazu (1987), as tabulated by Sawada, Sato and Majima (2021), J. Mar. Sci. Technol. 26:509-524, table 4.",
     ]
     text = scenario_text(comment, tables)
@@ -111,28 +115,29 @@ def imazu(
 def _ship_table(
     file: str, speed: float, course: int, time: float, hydrodynamics: bool, directory: Path
 ) -> dict[str, Any]:  # fmt: skip
-    """A ship that is at n's origin after `time` [s] on a course [deg]."""
-    orders = [{"time": 0.0, "rudder_deg": 0.0, "rev_per_s": self_propulsion(file, speed)}] if hydrodynamics else None
-    return {
-        "ship": ship_reference(file, directory),
-        "position": [round(-speed * time * f(radians(course)), 4) + 0.0 for f in (cos, sin)],
-        "heading_deg": float(course),
-        "speed": speed,
-        "hydrodynamics": hydrodynamics or None,
-        "orders": orders,
-    }
+    """The table of a ship that is at n's origin after `time` [s] on a course [deg]."""
+    distance, psi = speed * time, radians(course)
+    return build_ship_table(
+        refer_to_ship(file, directory),
+        (round_off(-distance * cos(psi), 4), round_off(-distance * sin(psi), 4)),
+        float(course),
+        speed,
+        hydrodynamics=hydrodynamics or None,
+        orders=[{"time": 0.0, "rudder_deg": 0.0, "rev_per_s": self_propulsion(file, speed)}] if hydrodynamics else None,
+    )
 
 
 _OPTIONS = {"own": "own", "target": "target", "own_speed": "speed", "time": "time", "after": "after", "step": "step",
             "hydrodynamics": "hydrodynamics", "degrees_of_freedom": "degrees_of_freedom"}  # fmt: skip
+"""Parameters of imazu() by the names that an encounter has for them."""
 
 
-def imazu_with(case: int | None, options: Mapping[str, Any], directory: str | Path) -> Imazu:
-    """From the options of an encounter by name, of which None stands for one that is not given."""
+def imazu_from_options(case: int | None, options: Mapping[str, Any], directory: str | Path) -> Imazu:
+    """The case, with the options of an encounter by name; an option of value None counts as not given."""
     if case is None:
         raise ScenarioError("which of Imazu's cases? give --case 1 to 22")
     given = {name: value for name, value in options.items() if value is not None}
-    given.pop("side", None)  # has a default
+    given.pop("side", None)  # the command line always gives it
     for name in given:
         if name not in _OPTIONS:
             raise ScenarioError(f"Imazu's cases have no {name}: take {', '.join(_OPTIONS)}")

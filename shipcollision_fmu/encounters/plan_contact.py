@@ -1,15 +1,14 @@
-"""Where two upright hulls touch, seen from above: horizontal sections as convex polygons.
+"""Positions in which two upright hulls touch at a given place, in plan.
 
-Upright hulls on one waterline that are widest at the deck (rake and flare lean outwards, the bilge inwards) touch first
-at the lower of the two decks, so contact is a question of two polygons: the sections at that height.
+Upright hulls on one waterline are widest at the deck: rake and flare lean outwards, the bilge inwards. They therefore
+touch first at the height of the lower deck, and contact is a question of two convex polygons, the sections there.
 
-    section   polygon (n, 2) of a hull at height z, in b: x forward, y starboard; corners in the order of rising angle
-    place     point of the boundary with its outward normals: one on an edge, two at a corner, and all between them
-    touch     where the other ship's CO must be so that she touches the place, with that normal which faces her bow most
-    touches   the same, and the other ways in which she can, at a corner
+    section        polygon (n, 2) of a hull at height z, in b: x forward, y starboard; corners by rising angle
+    place          point of the boundary with its outward normals: one on an edge, two at a corner, and all between them
+    plan contact   position of the other ship's CO in which it touches the place along one of these normals
 
 Coasting ships that keep their headings move on a straight line relative to each other. If they close along the normals
-there, they touch there first: the difference of two convex sets is convex and lies behind those normals.
+at the place, they touch there first: the difference of two convex sets is convex and lies behind those normals.
 """
 
 from __future__ import annotations
@@ -20,27 +19,33 @@ from typing import Literal
 
 import numpy as np
 
+from ..collision.geometry.clipping import convex_polygon
 from ..ship.frames import Array
 from ..ship.hull.solid import HullMesh
 
-__all__ = ["Place", "Side", "Touch", "common_deck", "gap", "moved", "place", "section", "touch", "touches"]
+__all__ = [
+    "Place", "PlanContact", "Side", "cut_section", "find_common_deck", "find_contacts", "locate_place", "measure_gap",
+    "move_polygon",
+]  # fmt: skip
 
 Side = Literal["port", "starboard"]
 
 NEAR = 1e-6
-"""[m] Distance within which a point is a corner of a section."""
+"""[m] Distance within which a point is a corner of a section, or on it. Rounding of coordinates is 1e-13 m; a larger
+value would join neighbouring corners of a fine mesh."""
 FLAT = 2e-3
-"""[m] Difference in reach of an edge's ends up to which it lies flat: contact is then along it, not at its corner."""
+"""[m] An edge whose ends differ in reach by less lies flat: contact is then along it. Smaller, and the place would be
+met by one of two corners, by rounding."""
 
 
 @dataclass(frozen=True)
 class Place:
-    """A point of a section (2,) [m] and the directions of the first and last outward normal there, rising [rad]."""
+    """A point of a section (2,) [m] and the directions of its first and last outward normal, rising [rad]."""
 
     point: Array
     normals: tuple[float, float]
 
-    def normal_towards(self, direction: float) -> float:
+    def nearest_normal(self, direction: float) -> float:
         """The outward normal nearest to a direction [rad]."""
         first, last = self.normals
         middle, half = 0.5 * (first + last), 0.5 * (last - first)
@@ -48,11 +53,13 @@ class Place:
 
 
 @dataclass(frozen=True)
-class Touch:
-    """The other ship's CO (2,) [m], the normals at which they touch (k, 2), and the point of her section (2,) [m].
+class PlanContact:
+    """A position in which the other ship touches the struck ship.
 
-    CO and normals, outwards, in the struck ship's b, the point in the other's. The first normal faces her bow most; the
-    others bound those that both hulls have in common there: ships meet when they close along all of them.
+    position   CO of the other ship (2,), in the struck ship's b [m]
+    normals    outward normals of the contact (k, 2), in the struck ship's b. The first is that along which they touch;
+               the others bound those that both hulls have there. Ships meet when they close along all of them.
+    point      the point of contact (2,), in the other ship's b [m]
     """
 
     position: Array
@@ -60,12 +67,12 @@ class Touch:
     point: Array
 
 
-def common_deck(a: HullMesh, b: HullMesh) -> float:
+def find_common_deck(a: HullMesh, b: HullMesh) -> float:
     """Height z (down) of the lower deck of two hulls [m]."""
     return float(max(a.vertices[:, 2].min(), b.vertices[:, 2].min()))
 
 
-def section(hull: HullMesh, z: float) -> Array:
+def cut_section(hull: HullMesh, z: float) -> Array:
     """Convex hull of the hull's section at height z (down) [m]; (n, 2) in b."""
     corners = hull.vertices[hull.triangles]
     points = [corners[np.abs(corners[..., 2] - z) <= NEAR][:, :2]]
@@ -75,77 +82,73 @@ def section(hull: HullMesh, z: float) -> Array:
         p, q = p[crossing], q[crossing]
         share = ((z - p[:, 2]) / (q[:, 2] - p[:, 2]))[:, None]
         points.append((p + share * (q - p))[:, :2])
-    return _convex_hull(np.vstack(points))
+    return np.array(convex_polygon((round(float(x), 9), round(float(y), 9)) for x, y in np.vstack(points)))
 
 
-def place(polygon: Array, x: float, side: Side) -> Place:
+def locate_place(section: Array, x: float, side: Side) -> Place:
     """The boundary's point at x forward of CO [m] on a side; beyond an end, the middle of that end."""
-    foremost, aftmost = float(polygon[:, 0].max()), float(polygon[:, 0].min())
+    foremost, aftmost = float(section[:, 0].max()), float(section[:, 0].min())
     if x >= foremost - NEAR or x <= aftmost + NEAR:
         end = foremost if x >= foremost - NEAR else aftmost
-        there = polygon[np.abs(polygon[:, 0] - end) <= NEAR]
-        return _place_at(polygon, np.array([end, 0.5 * (there[:, 1].min() + there[:, 1].max())]))
+        corners = section[np.abs(section[:, 0] - end) <= NEAR]
+        return _place_at(section, np.array([end, 0.5 * (corners[:, 1].min() + corners[:, 1].max())]))
     sign = 1.0 if side == "starboard" else -1.0
     best = -inf
-    for p, q in zip(polygon, np.roll(polygon, -1, axis=0), strict=True):
+    for p, q in zip(section, np.roll(section, -1, axis=0), strict=True):
         if min(p[0], q[0]) <= x <= max(p[0], q[0]) and abs(q[0] - p[0]) > NEAR:
             best = max(best, sign * float(p[1] + (x - p[0]) / (q[0] - p[0]) * (q[1] - p[1])))
-    return _place_at(polygon, np.array([x, sign * best]))
+    return _place_at(section, np.array([x, sign * best]))
 
 
-def touches(at: Place, other: Array, heading: float) -> list[Touch]:
-    """The ways in which another ship of section `other` and `heading` [rad], relative to the struck one, can be there.
+def find_contacts(place: Place, section: Array, heading: float) -> list[PlanContact]:
+    """Positions in which a ship of this section and heading [rad], relative to the struck ship, touches the place.
 
-    The first has her bow to the place. At a corner there are others, one for each corner of hers that fits on it.
+    In the first its bow faces the place most. At a corner of the struck ship there are others, one for each corner of
+    the other ship that fits on it.
     """
-    preferred = at.normal_towards(heading + pi)
+    preferred = place.nearest_normal(heading + pi)
     directions = [preferred]
-    width = at.normals[1] - at.normals[0]
-    for corner in other if width > 0.0 else ():
-        first, last = (at.normals[0] + remainder(n + heading + pi - at.normals[0], 2.0 * pi)
-                       for n in _place_at(other, corner).normals)  # fmt: skip
+    width = place.normals[1] - place.normals[0]
+    for corner in section if width > 0.0 else ():
+        first, last = (place.normals[0] + remainder(n + heading + pi - place.normals[0], 2.0 * pi)
+                       for n in _place_at(section, corner).normals)  # fmt: skip
         if last < first:
             last += 2.0 * pi
-        low, high = max(first, at.normals[0]), min(last, at.normals[1])
+        low, high = max(first, place.normals[0]), min(last, place.normals[1])
         if high > low:
             directions.append(0.5 * (low + high))
-    return [_touch_along(at, other, heading, n) for n in sorted(directions, key=lambda n: abs(n - preferred))]
+    return [_touch_along(place, section, heading, n) for n in sorted(directions, key=lambda n: abs(n - preferred))]
 
 
-def touch(at: Place, other: Array, heading: float) -> Touch:
-    """The other ship, of section `other` and `heading` [rad] relative to the struck one, with her bow at a place."""
-    return touches(at, other, heading)[0]
-
-
-def _touch_along(at: Place, other: Array, heading: float, direction: float) -> Touch:
-    """With that normal of the place, a direction [rad], at which both touch."""
+def _touch_along(place: Place, section: Array, heading: float, direction: float) -> PlanContact:
+    """The contact whose normal at the place has a direction [rad]."""
     R = _rotation(heading)
     towards = R.T @ -_unit(direction)
-    reach = other @ towards
-    touching = other[reach >= reach.max() - FLAT]  # a corner, or the ends of an edge that lies flat
-    point = touching.mean(axis=0)
+    reach = section @ towards
+    foremost = section[reach >= reach.max() - FLAT]  # a corner, or the ends of an edge that lies flat
+    point = foremost.mean(axis=0)
     point = point + (reach.max() - float(point @ towards)) * towards
     bounds = [direction]
-    if len(touching) == 1:  # where the normals of two corners overlap
-        theirs = [n + heading + pi for n in _place_at(other, touching[0]).normals]
+    if len(foremost) == 1:  # where the normals of two corners overlap
+        theirs = [n + heading + pi for n in _place_at(section, foremost[0]).normals]
         first, last = (direction + remainder(n - direction, 2.0 * pi) for n in theirs)
-        bounds += [max(first, direction + remainder(at.normals[0] - direction, 2.0 * pi))]
-        bounds += [min(last, direction + remainder(at.normals[1] - direction, 2.0 * pi))]
-    return Touch(at.point - R @ point, np.array([_unit(n) for n in bounds]), point)
+        bounds += [max(first, direction + remainder(place.normals[0] - direction, 2.0 * pi))]
+        bounds += [min(last, direction + remainder(place.normals[1] - direction, 2.0 * pi))]
+    return PlanContact(place.point - R @ point, np.array([_unit(n) for n in bounds]), point)
 
 
-def moved(polygon: Array, position: Array, heading: float) -> Array:
+def move_polygon(polygon: Array, position: Array, heading: float) -> Array:
     """The polygon of a ship with CO at `position` (2,) and `heading` [rad], in n."""
     turned: Array = polygon @ _rotation(heading).T + position
     return turned
 
 
-def gap(a: Array, b: Array) -> float:
+def measure_gap(a: Array, b: Array) -> float:
     """Largest distance [m] along any edge's normal between two convex polygons: negative where they overlap."""
-    return max(_along_normals(a, b), _along_normals(b, a))
+    return max(_gap_along_normals(a, b), _gap_along_normals(b, a))
 
 
-def _along_normals(a: Array, b: Array) -> float:
+def _gap_along_normals(a: Array, b: Array) -> float:
     edges = np.roll(a, -1, axis=0) - a
     normals = np.column_stack([edges[:, 1], -edges[:, 0]]) / np.linalg.norm(edges, axis=1)[:, None]
     return float(((normals @ b.T).min(axis=1) - np.einsum("ij,ij->i", normals, a)).max())
@@ -161,7 +164,7 @@ def _rotation(heading: float) -> Array:
 
 
 def _place_at(polygon: Array, point: Array) -> Place:
-    """With the normals of the edge, or of both edges that meet there."""
+    """The point with the normals of its edge, or of both edges that meet in it."""
     edges = np.roll(polygon, -1, axis=0) - polygon
     directions = [atan2(-dx, dy) for dx, dy in edges]
     distances = np.linalg.norm(polygon - point, axis=1)
@@ -173,21 +176,3 @@ def _place_at(polygon: Array, point: Array) -> Place:
     feet = polygon + np.clip(along, 0.0, 1.0)[:, None] * edges
     k = int(np.linalg.norm(feet - point, axis=1).argmin())
     return Place(point, (directions[k], directions[k]))
-
-
-def _convex_hull(points: Array) -> Array:
-    """Andrew's monotone chain; corners in the order of rising angle from x to y."""
-    ordered = sorted({(round(float(x), 9), round(float(y), 9)) for x, y in points})
-
-    def chain(along: list[tuple[float, float]]) -> list[tuple[float, float]]:
-        kept: list[tuple[float, float]] = []
-        for x, y in along:
-            while len(kept) > 1:
-                (x_0, y_0), (x_1, y_1) = kept[-2:]
-                if (x_1 - x_0) * (y - y_0) - (y_1 - y_0) * (x - x_0) > 1e-9:
-                    break
-                kept.pop()
-            kept.append((x, y))
-        return kept[:-1]
-
-    return np.array(chain(ordered) + chain(ordered[::-1]))

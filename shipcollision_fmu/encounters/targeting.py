@@ -1,160 +1,138 @@
-"""Aiming: the two tracks brought to an impact at the wanted place and time, as the collision model itself finds it.
+"""Shifts own's track until the collision model finds the impact at the required place and time.
 
-The place of an impact is the middle of what touches first (impact.north ... of the FMU). Where a corner meets a side
-that is the corner. Where two sides meet nearly parallel, within some centimetres of each other over metres, it is the
-middle of the line, and a ship aimed with a corner of that line at the place would be found to strike beside it. A ship
-that heels meets with her deck edge elsewhere than an upright one. So the aim starts from the sections in plan
-(plan_contact.py), and is corrected by what the collision model finds when it is given the last steps before the impact.
+The place of an impact is the middle of the first contact (impact.north ... of the FMU). Where a corner meets a side, it
+is the corner. Two sides within some centimetres of parallel touch along a line of several metres, and the place is the
+middle of the line: a track that brings a corner to the place would then be recorded beside it. A heeled ship touches
+with its deck edge elsewhere than an upright ship. The search therefore starts from the sections in plan
+(plan_contact.py), runs the collision model over the last steps before the impact, and corrects what it finds.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from math import cos, hypot, sin
+from collections.abc import Sequence
+from math import cos, sin
 from typing import NamedTuple
 
 import numpy as np
 
 from ..collision.model import ShipCollision
-from ..errors import ScenarioError
 from ..ship.frames import Array, rotation, rotation_vector
-from .approach_track import BEYOND, Mover, Pose, nearer
-from .plan_contact import gap, moved
-from .request import FASTEST
+from .approach_track import POINTS_AFTER, Pose, shift_track
+from .approaching_ship import ApproachingShip
 
-__all__ = ["HALF_A_SUBSTEP", "OVERLAP", "Found", "Range", "aimed", "check_nothing_before"]
+__all__ = ["ACCEPTED", "Hit", "ImpactFinder", "aim_track"]
 
 OVERLAP = 0.012
-"""[m] of the sections at the wanted time: about what detection lets pass, so that it finds the contact then."""
+"""[m] Overlap of the sections at the impact. Detection ignores about as much, so with less the collision model finds
+the contact one substep later."""
 HALF_A_SUBSTEP = 0.005
-"""[s] by which the hulls touch before the wanted time for the same reason; of the collision model's usual substep."""
-DEEPEST = 0.03
-"""[m] of overlap before the impact that is not yet another contact."""
+"""[s] Half of the collision model's default substep, by which the hulls touch early so that the contact is found in the
+right step."""
 GOOD = 0.02
-"""[m] from the place: near enough not to be corrected any more."""
-BEST = 0.35
-"""[m] from the place that is accepted, of the half metre that is promised."""
+"""[m] Distance from the place below which no correction follows. Smaller costs corrections and gains nothing: the
+contact itself is known to about as much."""
+ACCEPTED = 0.35
+"""[m] Largest distance from the place that targeting accepts. The encounter promises 0.5 m; the rest is left for the
+rounding of the scenario file."""
 CORRECTIONS = 16
+"""Corrections of a track before the way of touching is given up."""
 NUDGES = (2e-4, -2e-4, 1e-5, -1e-5)
-"""[m] A scenario file rounds positions; the aim must not stand on the edge of that."""
-BEFORE = 3
-"""Communication steps before the wanted impact that the collision model is given."""
+"""[m] Shifts that must lead to the same impact. A scenario file rounds positions to 1e-5 m; without the nudges an
+impact that depends on this rounding would be accepted."""
+POINTS_BEFORE = 3
+"""Communication points before the impact at which the search starts the collision model."""
 
 
-class Found(NamedTuple):
-    """The first contact: in the target's b (2,) [m], and how long after the wanted time [s]."""
+class Hit(NamedTuple):
+    """The first contact: its point in the target's b (2,) [m] and its time less the required time [s]."""
 
     point: Array
-    late: float
+    time_error: float
 
 
-class Range:
-    """The two ships in a collision model, to be tried again and again. Close it after use."""
+class ImpactFinder:
+    """A collision model of both ships that finds the first contact of two tracks. Close it after use."""
 
-    def __init__(self, own: Mover, target: Mover, steps: int, h: float) -> None:
+    def __init__(self, own: ApproachingShip, target: ApproachingShip, steps: int, h: float) -> None:
         self._steps, self._h = steps, h
         self._model = ShipCollision(("own", "target"))
-        for parameters, mover in zip(self._model.parameters.ships, (own, target), strict=True):
-            parameters.ship, parameters.degrees_of_freedom = mover.file, mover.degrees_of_freedom
-        self._fresh: dict[str, object] | None = None
+        for parameters, ship in zip(self._model.parameters.ships, (own, target), strict=True):
+            parameters.ship, parameters.degrees_of_freedom = ship.file, ship.degrees_of_freedom
+        self._initial_state: dict[str, object] | None = None
 
-    def found(self, own: Sequence[Pose], target: Sequence[Pose]) -> Found | None:
-        """Where the collision model finds the first contact on these tracks; None within two steps after the time."""
+    def find_impact(self, own: Sequence[Pose], target: Sequence[Pose]) -> Hit | None:
+        """The first contact of these tracks; None when there is none until POINTS_AFTER the impact."""
         model, h = self._model, self._h
-        for k in range(max(0, self._steps - BEFORE), self._steps + BEYOND):
+        first = max(0, self._steps - POINTS_BEFORE)
+        for k in range(first, self._steps + POINTS_AFTER):
             for state, pose in zip(model.inputs.ships, (own[k], target[k]), strict=True):
                 state.position[:], state.attitude[:] = pose[0:3], pose[3:6]
                 state.velocity[:], state.rate[:] = pose[6:9], pose[9:12]
-            if self._fresh is None:
+            if self._initial_state is None:
                 model.initialise()
-                self._fresh = model.get_state()
-            elif k == max(0, self._steps - BEFORE):
-                model.set_state(self._fresh)
+                self._initial_state = model.get_state()
+            elif k == first:
+                model.set_state(self._initial_state)
             model.step(k * h, h)
             if model.outputs.impact_count:
-                return self._of_the_impact(target[k], k)
+                return self._convert_impact(target[k], k)
         return None
 
     def close(self) -> None:
-        """Leave the Bullet world."""
+        """Disconnect from Bullet."""
         self._model.close()
 
-    def _of_the_impact(self, target: Pose, k: int) -> Found:
+    def _convert_impact(self, target: Pose, k: int) -> Hit:
+        """The model's latest impact, found in the step from k, in the target's b."""
         time, point = self._model.outputs.impact[0], np.array(self._model.outputs.impact_point)
         since = time - k * self._h
         R_nb = rotation(target[3:6])
         x = np.array(target[0:3]) + R_nb @ np.array(target[6:9]) * since
         in_b = rotation_vector(np.array(target[9:12]) * -since) @ R_nb.T @ (point - x)
-        return Found(in_b[:2], time - self._steps * self._h)
+        return Hit(in_b[:2], time - self._steps * self._h)
 
 
-def aimed(
-    range_: Range, own: Sequence[Pose], target: Sequence[Pose], place: Array, normal: Array, closing_speed: float,
-    steps: int, h: float,
+def aim_track(
+    finder: ImpactFinder, own: Sequence[Pose], target: Sequence[Pose], place: Array, normal: Array,
+    closing_speed: float, steps: int, h: float,
 ) -> tuple[list[Pose], float]:  # fmt: skip
-    """Own's track, shifted until the collision model finds the impact at `place`, and how far from it it still is [m].
+    """Own's track shifted so that the impact is found at `place`, and the distance from it that remains [m].
 
-    place, normal (2,): in the target's b; closing_speed along the normal [m/s]. Infinity: they do not meet at all.
+    place, normal (2,) in the target's b; closing_speed along the normal [m/s]. The distance is infinite when no contact
+    was found at the required time.
     """
     psi = target[steps].heading
     R = np.array([[cos(psi), -sin(psi)], [sin(psi), cos(psi)]])
     outwards, along = R @ normal, np.array([-normal[1], normal[0]])
-    track = nearer(own, -outwards * (OVERLAP + HALF_A_SUBSTEP * closing_speed))
+    track = shift_track(own, -outwards * (OVERLAP + HALF_A_SUBSTEP * closing_speed))
     best: tuple[float, list[Pose]] = (float("inf"), list(track))
     for attempt in range(CORRECTIONS):
-        found = _found_nearby(range_, track, target, outwards)
-        if found is None:  # they pass within centimetres, or meet later
-            track = nearer(track, -outwards * max(OVERLAP, closing_speed * h))
+        hits = _find_impacts_nearby(finder, track, target, outwards)
+        if hits is None:  # they pass within centimetres, or meet later
+            track = shift_track(track, -outwards * max(OVERLAP, closing_speed * h))
             continue
-        misses = np.array([(place - one.point) @ along for one in found])
-        late, middle = float(np.median([one.late for one in found])), 0.5 * float(misses.max() + misses.min())
-        step = -closing_speed * late
-        if abs(late) <= h + 2.0 * HALF_A_SUBSTEP:
-            off = float(np.median([np.hypot(*(place - one.point)) for one in found]))
+        misses = np.array([(place - hit.point) @ along for hit in hits])
+        time_error = float(np.median([hit.time_error for hit in hits]))
+        middle = 0.5 * float(misses.max() + misses.min())
+        step = -closing_speed * time_error
+        if abs(time_error) <= h + 2.0 * HALF_A_SUBSTEP:
+            off = float(np.median([np.hypot(*(place - hit.point)) for hit in hits]))
             if off < best[0]:
                 best = (off, list(track))
-            if off <= GOOD or (off <= BEST and abs(middle) <= GOOD):
+            if off <= GOOD or (off <= ACCEPTED and abs(middle) <= GOOD):
                 break
-            # On the edge between two substeps, where the line of contact is longer or shorter: off that edge.
+            # Between two substeps the line of contact is longer in one than in the other: move away from there.
             step = -closing_speed * HALF_A_SUBSTEP * (-1.0) ** attempt if abs(middle) <= GOOD or attempt > 3 else 0.0
-        track = nearer(track, R @ (along * middle) + outwards * step)
+        track = shift_track(track, R @ (along * middle) + outwards * step)
     return best[1], best[0]
 
 
-def _found_nearby(
-    range_: Range, own: Sequence[Pose], target: Sequence[Pose], outwards: Array
-) -> list[Found] | None:  # fmt: skip
-    """The first contact on the track, and when own is a hair nearer or farther; None when they then do not meet.
+def _find_impacts_nearby(
+    finder: ImpactFinder, own: Sequence[Pose], target: Sequence[Pose], outwards: Array
+) -> list[Hit] | None:  # fmt: skip
+    """The impacts of the track and of the track shifted by each of NUDGES; None when one of them has no impact.
 
-    Along a line of contact the closest points are anywhere, and what decides between them is rounding.
+    Along a line of contact all points are equally near, and rounding decides which of them is reported.
     """
-    found = [range_.found(nearer(own, by * outwards), target) for by in (0.0, *NUDGES)]
-    return [one for one in found if one is not None] if None not in found else None
-
-
-def check_nothing_before(
-    own: Sequence[Pose], target: Sequence[Pose], sections: Mapping[str, Array], deck: float, steps: int, h: float
-) -> None:
-    """Raises ScenarioError unless the ships are apart at the start, and until the impact at `steps`.
-
-    sections in b, at the height `deck` (down) [m]: what a ship's heel moves them by does not count. Far apart, steps
-    are taken as wide as that allows.
-    """
-    k = 0
-    reach = sum(float(np.hypot(*polygon.T).max()) for polygon in sections.values())
-    while k < steps:
-        a, b = own[k], target[k]
-        apart = hypot(a.north - b.north, a.east - b.east) - reach
-        if apart <= 0.0:
-            polygons = [
-                moved(sections[name], np.array([pose.north, pose.east]), pose.heading)
-                for name, pose in (("own", a), ("target", b))
-            ]
-            apart = gap(*polygons)
-            deepest = DEEPEST + abs(deck) * (abs(sin(a.roll)) + abs(sin(b.roll)))
-            if apart < -deepest and (steps - k) * h > 2.0 * HALF_A_SUBSTEP + h:
-                raise ScenarioError(
-                    f"the ships touch elsewhere {(steps - k) * h:.1f} s before the impact that is wanted: change the "
-                    "angle, the place, the speeds or the rudder, or shorten the time before it"
-                )
-        k += max(1, int(apart / (4.0 * FASTEST * h)))
+    hits = [finder.find_impact(shift_track(own, shift * outwards), target) for shift in (0.0, *NUDGES)]
+    return [hit for hit in hits if hit is not None] if None not in hits else None

@@ -1,4 +1,4 @@
-"""Every generated encounter collides at the time, place and angle that were wanted; what cannot is refused.
+"""Every generated encounter collides at the time, place and angle of its request; what cannot meet is refused.
 
 The place is where the first contact is recorded, on the struck ship: of hulls that meet along a line, its middle. Half
 a metre is the tolerance, everywhere.
@@ -17,7 +17,7 @@ import pytest
 
 from shipcollision_fmu import load_scenario, simulate
 from shipcollision_fmu.encounters.encounter import Encounter, encounter
-from shipcollision_fmu.encounters.request import KINDS, Wanted
+from shipcollision_fmu.encounters.request import KINDS, Request
 from shipcollision_fmu.errors import ScenarioError, ShipError
 
 TOLERANCE = 0.5
@@ -25,7 +25,7 @@ STEP = 0.05
 
 
 def check(made: Encounter) -> None:
-    """Run it and compare time, angle and place of the first contact with what was wanted."""
+    """Run it and compare time, angle and place of the first contact with the request."""
     run = simulate(made.scenario, in_process=True)
     (first, *_) = run.events["collisions"]
     assert first["start"] == pytest.approx(made.time, abs=1.5 * STEP)
@@ -37,16 +37,16 @@ def check(made: Encounter) -> None:
 
 @pytest.mark.parametrize("hydrodynamics", [None, True])
 @pytest.mark.parametrize("kind", list(KINDS))
-def test_every_kind_collides_as_wanted(kind: str, hydrodynamics: bool | None) -> None:
+def test_every_kind_collides_as_requested(kind: str, hydrodynamics: bool | None) -> None:
     check(
         encounter(
-            Wanted(kind, time=45.0, after=0.5, hydrodynamics=hydrodynamics, before=30.0 if KINDS[kind].helm else None)
+            Request(kind, time=45.0, after=0.5, hydrodynamics=hydrodynamics, before=30.0 if KINDS[kind].helm else None)
         )
     )
 
 
 @pytest.mark.parametrize("free", [4, 6])
-def test_a_ship_that_heels_in_her_turn_collides_as_wanted(free: int) -> None:
+def test_a_ship_that_heels_in_its_turn_collides_as_requested(free: int) -> None:
     """Own's deck edge leans half a metre outwards at the impact."""
     made = encounter("late-evasive", time=45.0, before=30.0, after=0.5, degrees_of_freedom=free)
     assert [ship.free for ship in made.scenario.ships.values()] == [free, free]
@@ -59,16 +59,16 @@ def test_coasting_ships_have_the_degrees_of_freedom_that_are_asked_for() -> None
     assert "degrees_of_freedom = 3" in usual.text
 
 
-def grid(angles: range, places: tuple[float, ...], speeds: tuple[tuple[float, float], ...]) -> Iterator[Wanted]:
+def grid(angles: range, places: tuple[float, ...], speeds: tuple[tuple[float, float], ...]) -> Iterator[Request]:
     for angle, s, side, (own, target) in product(angles, places, ("starboard", "port"), speeds):
-        yield Wanted("crossing", angle_deg=float(angle), at=s, side=side, own_speed=own, target_speed=target,
+        yield Request("crossing", angle_deg=float(angle), at=s, side=side, own_speed=own, target_speed=target,
                      time=3.0, after=0.2)  # type: ignore[arg-type]  # fmt: skip
 
 
-def sweep(own: str, target: str, wanted: Iterator[Wanted]) -> tuple[int, int]:
-    """How many were made and how many refused, because they open or graze there; every one made collides as wanted."""
+def sweep(own: str, target: str, requests: Iterator[Request]) -> tuple[int, int]:
+    """How many were made and how many refused, because they open or graze there; every one made collides so."""
     made, refused = 0, 0
-    for one in wanted:
+    for one in requests:
         try:
             found = encounter(replace(one, own=own, target=target))
         except ScenarioError as error:
@@ -81,7 +81,7 @@ def sweep(own: str, target: str, wanted: Iterator[Wanted]) -> tuple[int, int]:
     return made, refused
 
 
-def test_a_coarse_grid_collides_as_wanted() -> None:
+def test_a_coarse_grid_collides_as_requested() -> None:
     made, refused = sweep("kvlcc2", "kvlcc2", grid(range(0, 181, 45), (-0.5, 0.2, 0.5), ((6.0, 3.0),)))
     assert made + refused == 30
     assert made >= 16
@@ -99,7 +99,7 @@ def test_a_coarse_grid_collides_as_wanted() -> None:
 def test_hulls_that_meet_nearly_parallel_meet_with_the_middle_of_the_line(
     own: str, target: str, angle: float, at: float
 ) -> None:
-    check(encounter(Wanted("crossing", own=own, target=target, angle_deg=angle, at=at, time=3.0, after=0.2)))
+    check(encounter(Request("crossing", own=own, target=target, angle_deg=angle, at=at, time=3.0, after=0.2)))
 
 
 SPEEDS = ((5.0, 5.0), (6.0, 0.0), (4.0, 7.0))
@@ -113,31 +113,31 @@ SPEEDS = ((5.0, 5.0), (6.0, 0.0), (4.0, 7.0))
         ("guan2014_own", "guan2014_target"), ("guan2014_target", "guan2014_own"), ("kcs", "kvlcc2"),
     ],
 )  # fmt: skip
-def test_the_whole_grid_collides_as_wanted(own: str, target: str) -> None:
+def test_the_whole_grid_collides_as_requested(own: str, target: str) -> None:
     made, refused = sweep(own, target, grid(range(0, 181, 15), (-0.5, -0.4, 0.0, 0.3, 0.5), SPEEDS))
     assert made + refused == 390
     assert made > 240
 
 
 @pytest.mark.slow
-def test_a_part_of_the_grid_collides_as_wanted() -> None:
+def test_a_part_of_the_grid_collides_as_requested() -> None:
     made, _ = sweep("guan2014_target", "guan2014_own", grid(range(15, 181, 45), (-0.4, 0.3, 0.5), SPEEDS[:2]))
     assert made > 20
 
 
 @pytest.mark.soak
-def test_the_grid_under_way_collides_as_wanted() -> None:
+def test_the_grid_under_way_collides_as_requested() -> None:
     """With the manoeuvring model: rudder over before the impact, either way, and a drifting target."""
     for angle, s, rudder, before in product((45.0, 75.0, 100.0), (-0.2, 0.3), (-35.0, 20.0), (20.0, 60.0)):
-        check(encounter(Wanted("late-evasive", angle_deg=angle, at=s, rudder_deg=rudder, before=before, after=0.5)))
+        check(encounter(Request("late-evasive", angle_deg=angle, at=s, rudder_deg=rudder, before=before, after=0.5)))
     for freedom, angle in product((4, 6), (50.0, 90.0)):
-        check(encounter(Wanted("late-evasive", angle_deg=angle, degrees_of_freedom=freedom, after=0.5)))
+        check(encounter(Request("late-evasive", angle_deg=angle, degrees_of_freedom=freedom, after=0.5)))
     for angle, s, side in product((60.0, 90.0, 120.0), (-0.3, 0.2), ("port", "starboard")):
-        check(encounter(Wanted("drifting-target", angle_deg=angle, at=s, side=side, hydrodynamics=True, after=0.5)))  # type: ignore[arg-type]
+        check(encounter(Request("drifting-target", angle_deg=angle, at=s, side=side, hydrodynamics=True, after=0.5)))  # type: ignore[arg-type]
 
 
 def test_port_is_the_mirror_of_starboard() -> None:
-    starboard, port = (encounter(Wanted("glancing", side=side)) for side in ("starboard", "port"))  # type: ignore[arg-type]
+    starboard, port = (encounter(Request("glancing", side=side)) for side in ("starboard", "port"))  # type: ignore[arg-type]
     a, b = (made.scenario.ships["own"].start for made in (starboard, port))
     assert a.position == pytest.approx([b.position[0], -b.position[1], 0.0])
     assert a.attitude[2] + b.attitude[2] == pytest.approx(2 * np.pi)
@@ -145,13 +145,13 @@ def test_port_is_the_mirror_of_starboard() -> None:
 
 
 def test_the_heading_turns_the_whole_encounter() -> None:
-    north, turned = (encounter(Wanted("t-bone", heading_deg=h)).scenario.ships["own"].start for h in (0.0, 30.0))
+    north, turned = (encounter(Request("t-bone", heading_deg=h)).scenario.ships["own"].start for h in (0.0, 30.0))
     assert hypot(*north.position) == pytest.approx(hypot(*turned.position), abs=1e-4)
     assert turned.attitude[2] - north.attitude[2] == pytest.approx(np.radians(30))
 
 
 def test_the_file_is_an_ordinary_scenario(tmp_path: Path) -> None:
-    made = encounter(Wanted("late-evasive", name="mine"), tmp_path)
+    made = encounter(Request("late-evasive", name="mine"), tmp_path)
     path = tmp_path / "mine.toml"
     path.write_text(made.text, encoding="utf-8")
     loaded = load_scenario(path)
@@ -166,44 +166,44 @@ def test_a_ship_given_by_path_is_found_from_the_file(tmp_path: Path) -> None:
     ship = tmp_path / "ships" / "mine.toml"
     ship.parent.mkdir()
     ship.write_text('extends = "kvlcc2"\n', encoding="utf-8")
-    made = encounter(Wanted("t-bone", own=str(ship)), tmp_path / "scenarios")
+    made = encounter(Request("t-bone", own=str(ship)), tmp_path / "scenarios")
     assert 'ship = "../ships/mine.toml"' in made.text
 
 
 @pytest.mark.parametrize(
-    ("wanted", "line"),
+    ("request_", "line"),
     [
-        (Wanted("tbone"), r"unknown encounter 'tbone': did you mean t-bone\? known: head-on, crossing"),
-        (Wanted("glancing", angle_deg=0.0), r"glancing: at 0 deg KVLCC2 does not meet KVLCC2 at s = 0.1 of her "
+        (Request("tbone"), r"unknown encounter 'tbone': did you mean t-bone\? known: head-on, crossing"),
+        (Request("glancing", angle_deg=0.0), r"glancing: at 0 deg KVLCC2 does not meet KVLCC2 at s = 0.1 of its "
          r"starboard side: there they close at -?0.00 m/s, at least 0.05 is needed; change the angle"),
-        (Wanted("overtaking", own_speed=3.0, target_speed=7.0), r"s = -0.5 of her end: there they close at -4.00 m/s"),
-        (Wanted("crossing", angle_deg=15.0, own_speed=2.0, target_speed=10.0, at=-0.5), r"they close at -8.\d\d m/s"),
-        (Wanted("t-bone", own_speed=0.0), r"there they close at -?0.00 m/s"),
-        (Wanted("crossing", angle_deg=190.0), r"angle_deg = 190 must be 0 to 180: 0 is overtaking, 180 head-on"),
-        (Wanted("crossing", at=20.0), r"at = 20 must be -0.5 to 0.5: -0.5 is the target's stern, 0.5 her stem"),
-        (Wanted("crossing", own_speed=float("nan")), r"own_speed = nan must be 0 to 50: give metres per second"),
-        (Wanted("crossing", own_speed=-5.0), r"own_speed = -5 must be 0 to 50: give metres per second"),
-        (Wanted("crossing", time=0.0), r"time = 0 must be 0.05 to 7200: give seconds from the start to the impact"),
-        (Wanted("crossing", side="left"), r"side = 'left' must be port or starboard"),  # type: ignore[arg-type]
-        (Wanted("crossing", degrees_of_freedom=5), r"degrees_of_freedom = 5 must be 3 \(surge, sway, yaw\), 4 \(and"),
-        (Wanted("crossing", before=20.0), r"encounter crossing has no before: leave it out, or take another type"),
-        (Wanted("t-bone", drift_speed=2.0), r"encounter t-bone has no drift_speed: leave it out"),
-        (Wanted("drifting-target", target_speed=2.0), r"the target drifts: give drift_speed, not target_speed"),
-        (Wanted("late-evasive", hydrodynamics=False), r"late-evasive needs ships that steer: leave out --coasting"),
-        (Wanted("late-evasive", time=30.0, before=60.0), r"before = 60 must be 0 to 30: it is within the time to the"),
-        (Wanted("late-evasive", own="guan2014_own"), r"ship 'guan2014_own' can only coast, she has no \[manoeuvring\]"),
-        (Wanted("crossing", own_speed=12.0, hydrodynamics=True), r"'kvlcc2' needs 1.846 rev/s for 12 m/s; must"),
+        (Request("overtaking", own_speed=3.0, target_speed=7.0), r"s = -0.5 of its end: there they close at -4.00 m/s"),
+        (Request("crossing", angle_deg=15.0, own_speed=2.0, target_speed=10.0, at=-0.5), r"they close at -8.\d\d m/s"),
+        (Request("t-bone", own_speed=0.0), r"there they close at -?0.00 m/s"),
+        (Request("crossing", angle_deg=190.0), r"angle_deg = 190 must be 0 to 180: 0 is overtaking, 180 head-on"),
+        (Request("crossing", at=20.0), r"at = 20 must be -0.5 to 0.5: -0.5 is the target's stern, 0.5 its stem"),
+        (Request("crossing", own_speed=float("nan")), r"own_speed = nan must be 0 to 50: give metres per second"),
+        (Request("crossing", own_speed=-5.0), r"own_speed = -5 must be 0 to 50: give metres per second"),
+        (Request("crossing", time=0.0), r"time = 0 must be 0.05 to 7200: give seconds from the start to the impact"),
+        (Request("crossing", side="left"), r"side = 'left' must be port or starboard"),  # type: ignore[arg-type]
+        (Request("crossing", degrees_of_freedom=5), r"degrees_of_freedom = 5 must be 3 \(surge, sway, yaw\), 4 \(and"),
+        (Request("crossing", before=20.0), r"encounter crossing has no before: leave it out, or take another type"),
+        (Request("t-bone", drift_speed=2.0), r"encounter t-bone has no drift_speed: leave it out"),
+        (Request("drifting-target", target_speed=2.0), r"the target drifts: give drift_speed, not target_speed"),
+        (Request("late-evasive", hydrodynamics=False), r"late-evasive needs ships that steer: leave out --coasting"),
+        (Request("late-evasive", time=30.0, before=60.0), r"before = 60 must be 0 to 30: the order is given within"),
+        (Request("late-evasive", own="guan2014_own"), r"ship 'guan2014_own' can only coast, it has no \[manoeuvring\]"),
+        (Request("crossing", own_speed=12.0, hydrodynamics=True), r"'kvlcc2' needs 1.846 rev/s for 12 m/s; must"),
     ],
 )  # fmt: skip
-def test_what_cannot_be_is_refused_in_one_line(wanted: Wanted, line: str) -> None:
+def test_what_cannot_be_is_refused_in_one_line(request_: Request, line: str) -> None:
     with pytest.raises(ScenarioError, match=line) as refused:
-        encounter(wanted)
+        encounter(request_)
     assert "\n" not in str(refused.value)
 
 
 def test_an_unknown_ship_is_refused() -> None:
     with pytest.raises(ShipError, match=r"unknown ship 'kvlc2': did you mean kvlcc2\?"):
-        encounter(Wanted("t-bone", own="kvlc2"))
+        encounter(Request("t-bone", own="kvlc2"))
 
 
 @pytest.mark.slow
@@ -212,4 +212,4 @@ def test_ships_that_touch_before_are_refused() -> None:
     with pytest.raises(
         ScenarioError, match=r"the ships touch elsewhere \d+.\d s before the impact that is wanted: change"
     ):
-        encounter(Wanted("loss-of-steering", target_speed=0.0, before=2400.0, time=2400.0, rudder_deg=35.0, step=0.5))
+        encounter(Request("loss-of-steering", target_speed=0.0, before=2400.0, time=2400.0, rudder_deg=35.0, step=0.5))

@@ -1,9 +1,9 @@
-"""What a traffic situation in JSON may say, as far as a scenario needs it: one class per object.
+"""The members of a traffic situation in JSON that a scenario needs, one class per object.
 
-Schema (MIT): https://github.com/dnv-opensource/maritime-schema, schemas/traffic_situation.json, version 0.2.0, in which
-wind [m/s, deg] comes from and current flows towards. Files are made by
+Schema (MIT): https://github.com/dnv-opensource/maritime-schema, schemas/traffic_situation.json, version 0.2.0. Wind
+[m/s, deg] comes from its direction, current flows towards its direction. Files are made by
 https://github.com/dnv-opensource/ship-traffic-generator. Version 0.1 gives `initial`, and length and width in `static`;
-0.2 puts them in `static.dimensions`, and `initial`, or position, sog and cog in it, may be missing.
+version 0.2 puts them in `static.dimensions`, and `initial`, or position, sog and cog in it, may be missing.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from ...ship.loading.messages import one_line
 
 __all__ = [
     "Dimensions", "Environment", "Initial", "Leg", "Position", "Situation", "Static", "TrafficShip", "Waypoint",
-    "situation",
+    "read_situation",
 ]  # fmt: skip
 
 Knots = Annotated[float | None, Field(ge=0, le=60, description="the speed over ground in knots")]
@@ -28,7 +28,7 @@ Metres = Annotated[float | None, Field(gt=0, le=500, description="a length in me
 
 
 class Part(BaseModel):
-    """Of the JSON: what is not needed is left alone."""
+    """An object of the JSON; members that are not declared here are ignored."""
 
     model_config = ConfigDict(extra="ignore", frozen=True, allow_inf_nan=False, strict=True)
 
@@ -48,7 +48,7 @@ class Leg(Part):
 
     @property
     def planned_sog(self) -> float | None:
-        """leg.data.sog takes priority over leg.sog."""
+        """Speed over ground planned for the leg [kn]: leg.data.sog, else leg.sog."""
         point = (self.data or {}).get("sog")
         return self.sog if point is None or point.value is None else point.value
 
@@ -106,8 +106,11 @@ class Situation(Part):
     environment: Environment | None = None
 
 
-def situation(path: Path) -> Situation:
-    """The file's content, or what the member trafficSituation of a larger document holds."""
+def read_situation(path: Path) -> Situation:
+    """The traffic situation in a file, or in the member trafficSituation of a larger document.
+
+    Raises ScenarioError, in one line, for a file that cannot be read, or that is no traffic situation.
+    """
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
     except OSError as error:

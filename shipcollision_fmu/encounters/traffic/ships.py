@@ -1,9 +1,10 @@
-"""The ships of a traffic situation: where each is at the start, where she is bound, and a ship file of her size.
+"""Start, route and ship file of each ship of a traffic situation.
 
-lat, lon              to north, east on the tangent plane at own ship's position (tangent_plane.py)
-sog [kn], cog [deg]   to a velocity over ground; heading [deg] to the heading, the course where there is none
-a, b, c, d            where the position is aboard (bow, stern, port, starboard): CO is amidships
-length, width         to a ship file; what is missing is estimated
+lat, lon              become north, east on the tangent plane at own ship's position (tangent_plane.py)
+sog [kn], cog [deg]   become the velocity over ground
+heading [deg]         becomes the heading; without it the heading is the course
+a, b, c, d            distances of the position from bow, stern, port and starboard: the start is moved to midship
+length, width         become a ship file; missing values are estimated
 """
 
 from __future__ import annotations
@@ -21,19 +22,24 @@ from ..imazu import KNOT
 from .schema import Dimensions, Initial, Position, Static, TrafficShip
 from .tangent_plane import TangentPlane
 
-__all__ = ["State", "ship_file_text", "states_of"]
+__all__ = ["TrafficStart", "locate_ships", "write_ship_file"]
 
 WIDEST = 100e3
-"""[m] between own ship and a target: further apart, a plane is no map, and the positions are probably mistaken."""
+"""[m] Limit of the distance between own ship and a target. Beyond it the tangent plane is 4 m short, and a position is
+probably mistaken."""
 BLOCK_COEFFICIENTS = {"tanker": 0.82, "cargo": 0.75, "passenger": 0.62}
-"""C_b by the first word of shipType; 0.65 for the others. Typical values."""
+"""C_b by the first word of shipType, typical values; they set the mass of a ship made from its dimensions."""
+OTHER_BLOCK_COEFFICIENT = 0.65
+"""C_b of the other types."""
 BREADTH_TO_DRAUGHT = 3.0
 """B/T of a ship whose draught is not given."""
 
 
-class State(NamedTuple):
-    """CO in n [m], heading and course [rad], speed over ground [m/s], the waypoints to come [m], and the planned
-    speed [m/s] on the leg to each."""
+class TrafficStart(NamedTuple):
+    """A ship at the start: CO in n [m], heading and course [rad], speed over ground [m/s].
+
+    route: the waypoints to come, north and east [m]; speeds: the planned speed on the leg to each [m/s].
+    """
 
     north: float
     east: float
@@ -45,42 +51,47 @@ class State(NamedTuple):
 
     @property
     def lengths(self) -> list[float]:
-        """Of the legs of the route [m]."""
+        """Lengths of the legs of the route [m]."""
         starts = [[self.north, self.east], *self.route]
         return [hypot(b[0] - a[0], b[1] - a[1]) for a, b in zip(starts, self.route, strict=False)]
 
 
-def states_of(roles: Mapping[str, TrafficShip], path: Path) -> dict[str, State]:
-    first = _fix(roles["own"], path, "own")
+def locate_ships(roles: Mapping[str, TrafficShip], path: Path) -> dict[str, TrafficStart]:
+    """The starts of the ships by role, in n with its origin at own ship's position.
+
+    Raises ScenarioError for a ship without position, course or speed, or farther than WIDEST from own ship.
+    """
+    first = _read_position(roles["own"], path, "own")
     plane = TangentPlane(first.lat, first.lon)
-    states = {role: _state(role, one, plane, path) for role, one in roles.items()}
-    for role, state in states.items():
-        apart = hypot(state.north - states["own"].north, state.east - states["own"].east)
-        if apart > WIDEST:
+    starts = {role: _locate_ship(role, ship, plane, path) for role, ship in roles.items()}
+    for role, start in starts.items():
+        distance = hypot(start.north - starts["own"].north, start.east - starts["own"].east)
+        if distance > WIDEST:
             raise ScenarioError(
-                f"{path.name}: {role} is {apart / 1e3:.0f} km from own ship, at most {WIDEST / 1e3:.0f}: check lat, lon"
+                f"{path.name}: {role} is {distance / 1e3:.0f} km from own ship, at most {WIDEST / 1e3:.0f}: "
+                "check lat, lon"
             )
-    return states
+    return starts
 
 
-def _fix(ship: TrafficShip, path: Path, role: str) -> Position:
-    """Where a ship is at the start."""
+def _read_position(ship: TrafficShip, path: Path, role: str) -> Position:
+    """Latitude and longitude of a ship at the start."""
     if ship.initial is not None and ship.initial.position is not None:
         return ship.initial.position
     if ship.waypoints:
         return ship.waypoints[0].position
-    raise ScenarioError(f"{path.name}: {role} is nowhere: give initial.position or waypoints")
+    raise ScenarioError(f"{path.name}: {role} has no position: give initial.position or waypoints")
 
 
-def _state(role: str, ship: TrafficShip, plane: TangentPlane, path: Path) -> State:
-    fix = _fix(ship, path, role)
+def _locate_ship(role: str, ship: TrafficShip, plane: TangentPlane, path: Path) -> TrafficStart:
+    fix = _read_position(ship, path, role)
     north, east = plane.position(fix.lat, fix.lon)
     marks = [list(plane.position(w.position.lat, w.position.lon)) for w in ship.waypoints or []]
-    heading, course = _directions(role, ship, marks, plane, path)
-    speed = _sog(role, ship, path) * KNOT
+    heading, course = _read_directions(role, ship, marks, plane, path)
+    speed = _read_sog(role, ship, path) * KNOT
     if ship.static is not None and ship.static.initDelay:
         raise ScenarioError(f"{path.name}: {role} initDelay = {ship.static.initDelay:g} s is not offered: set it to 0")
-    d = _dimensions(ship)
+    d = _read_dimensions(ship)
     if d.a is not None and d.b is not None:
         ahead, aside = 0.5 * (d.a - d.b), 0.5 * (d.d - d.c) if d.c is not None and d.d is not None else 0.0
         north += ahead * cos(heading) - aside * sin(heading)
@@ -90,19 +101,19 @@ def _state(role: str, ship: TrafficShip, plane: TangentPlane, path: Path) -> Sta
     planned = speed
     for mark, waypoint in zip(marks[1:], (ship.waypoints or [])[1:], strict=True):
         sog = None if waypoint.leg is None else waypoint.leg.planned_sog
-        planned = planned if sog is None else _believable(sog, role, path) * KNOT
+        planned = planned if sog is None else _check_sog(sog, role, path) * KNOT
         last = route[-1] if route else [north, east]
         if hypot(mark[0] - last[0], mark[1] - last[1]) > 10.0 * SHORTEST_LEG:
             route.append([round(x, 3) + 0.0 for x in mark])
             speeds.append(planned)
-    return State(north, east, heading, course, speed, route, speeds)
+    return TrafficStart(north, east, heading, course, speed, route, speeds)
 
 
-def _directions(
+def _read_directions(
     role: str, ship: TrafficShip, marks: list[list[float]], plane: TangentPlane, path: Path
 ) -> tuple[float, float]:  # fmt: skip
     """Heading and course at the start [rad]."""
-    fix, initial = _fix(ship, path, role), ship.initial or Initial()
+    fix, initial = _read_position(ship, path, role), ship.initial or Initial()
     if initial.cog is not None:
         course = plane.direction(fix.lat, fix.lon, radians(initial.cog))
     elif len(marks) > 1:
@@ -116,7 +127,7 @@ def _directions(
     return plane.direction(fix.lat, fix.lon, radians(initial.heading)), course
 
 
-def _sog(role: str, ship: TrafficShip, path: Path) -> float:
+def _read_sog(role: str, ship: TrafficShip, path: Path) -> float:
     """Speed over ground at the start [kn]."""
     sog = ship.initial.sog if ship.initial is not None else None
     for waypoint in (ship.waypoints or [])[1:2]:  # the first leg is described in its end
@@ -124,25 +135,29 @@ def _sog(role: str, ship: TrafficShip, path: Path) -> float:
             sog = waypoint.leg.planned_sog
     if sog is None:
         raise ScenarioError(
-            f"{path.name}: {role} has no speed: give initial.sog, or sog in the leg of her second waypoint"
+            f"{path.name}: {role} has no speed: give initial.sog, or sog in the leg of its second waypoint"
         )
-    return _believable(sog, role, path)
+    return _check_sog(sog, role, path)
 
 
-def _believable(sog: float, role: str, path: Path) -> float:
+def _check_sog(sog: float, role: str, path: Path) -> float:
+    """The speed over ground [kn]; ScenarioError when no ship has it."""
     if not 0.0 <= sog <= 60.0:
         raise ScenarioError(f"{path.name}: {role} sog = {sog:g} must be 0 to 60: it is the speed over ground in knots")
     return sog
 
 
-def _dimensions(ship: TrafficShip) -> Dimensions:
+def _read_dimensions(ship: TrafficShip) -> Dimensions:
     static = ship.static or Static()
     return static.dimensions or static
 
 
-def ship_file_text(role: str, ship: TrafficShip, path: Path) -> str:
-    """A ship that coasts, of the dimensions given."""
-    d, static = _dimensions(ship), ship.static or Static()
+def write_ship_file(role: str, ship: TrafficShip, path: Path) -> str:
+    """The text of a ship file for a coasting ship of the dimensions given.
+
+    Raises ScenarioError when length or width is missing, or the ship is wider than long.
+    """
+    d, static = _read_dimensions(ship), ship.static or Static()
     if d.length is None or d.width is None:
         raise ScenarioError(f"{path.name}: {role} has no length and width in static: name a ship with --ship")
     L, B = d.length, d.width
@@ -150,16 +165,16 @@ def ship_file_text(role: str, ship: TrafficShip, path: Path) -> str:
         raise ScenarioError(f"{path.name}: {role} is wider than long, width = {B:g} m and length = {L:g} m: check them")
     T = round(B / BREADTH_TO_DRAUGHT, 3) if d.draught is None else d.draught
     kind = str(static.shipType or "unknown")
-    C_b = BLOCK_COEFFICIENTS.get(kind.split()[0].split("/")[0].lower(), 0.65)
-    drawn = f"T = B/{BREADTH_TO_DRAUGHT:g}" if d.draught is None else "draught from the same file"
+    C_b = BLOCK_COEFFICIENTS.get(kind.split()[0].split("/")[0].lower(), OTHER_BLOCK_COEFFICIENT)
+    draught = f"T = B/{BREADTH_TO_DRAUGHT:g}" if d.draught is None else "draught from the same file"
     return scenario_text(
         [f"Made by `shipcollision import {path.name}`: {role}."],
         {
             "ship": {
                 "name": static.name or role,
                 "kind": kind,
-                "source": f"Length and width: {path.name}. Estimated: {drawn}; mass from C_b = {C_b:g}, typical of her "
-                "type; depth 1.5 T; the shape of the hull.",
+                "source": f"Length and width: {path.name}. Estimated: {draught}; mass from C_b = {C_b:g}, typical of "
+                "its type; depth 1.5 T; the shape of the hull.",
             },
             "particulars": {"L_pp": L, "L_oa": L, "B": B, "T": T, "mass": round(RHO_SEA * C_b * L * B * T, 1)},
             "hull": {

@@ -1,19 +1,19 @@
-"""Traffic situations of DNV's trafficgen and maritime-schema (JSON), made into a scenario file.
+"""traffic_scenario(): a traffic situation in JSON as a scenario file.
 
-    ships                 to position, heading and velocity (ships.py)
-    length, width         to a ship file of that size when no ship is named
-    waypoints             the route of a ship that sails with hydrodynamics
-    sog of the legs       orders of revolutions to her engine, at the times at which the legs begin as planned
-    current, wind         the scenario's, for ships that sail with hydrodynamics
+    ships                 become position, heading and velocity (ships.py)
+    length, width         become a ship file of that size when no ship is named
+    waypoints             become the route of a ship that sails with hydrodynamics
+    sog of the legs       becomes orders of revolutions, at the times at which the legs begin as planned
+    current, wind         become the scenario's, for ships that sail with hydrodynamics
 
-A ship that coasts keeps her course and speed. What is not carried over is said in the file and in `notes`.
+A coasting ship keeps its course and speed. The file's comment and `notes` name what is not carried over.
 """
 
 from __future__ import annotations
 
 import re
 import tempfile
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import cos, degrees, inf, isclose, sin
 from pathlib import Path
@@ -23,23 +23,22 @@ from ...errors import ScenarioError
 from ...manoeuvring.trials.steady_course import self_propulsion
 from ...scenario.scenario import load_scenario
 from ...scenario.toml_writer import scenario_text
-from ...ship.loading.library import load_ship
-from ..encounter_file import ship_reference
-from ..request import whole_steps
-from .schema import Environment, Situation, TrafficShip, situation
-from .ships import State, ship_file_text, states_of
+from ..request import count_steps
+from ..ship_table import build_ship_table, refer_to_ship, require_manoeuvring, round_off
+from .schema import Environment, Situation, TrafficShip, read_situation
+from .ships import TrafficStart, locate_ships, write_ship_file
 
-__all__ = ["Imported", "traffic_scenario"]
+__all__ = ["TrafficScenario", "traffic_scenario"]
 
 LONGEST_DEFAULT = 3600.0
-"""[s] A situation is run for as long as own ship's route takes, and no longer than this."""
+"""[s] Limit of the default duration, which is the time that own ship's route takes."""
 USUAL_DURATION = 600.0
-"""[s] Where own ship has no route to sail."""
+"""[s] Default duration where own ship has no route."""
 
 
 @dataclass(frozen=True)
-class Imported:
-    """A scenario file's text, the texts of the ship files that go beside it, by their names, and what was left out."""
+class TrafficScenario:
+    """A scenario file's text, the texts of the ship files beside it by name, and notes on what is not carried over."""
 
     text: str
     ship_files: dict[str, str]
@@ -47,12 +46,12 @@ class Imported:
 
 
 class _Plan(NamedTuple):
-    """What the scenario is made from: file and content, states and ships by role, texts of the ship files made."""
+    """What the scenario is made from: file and content; starts and ships by role; texts of the generated ship files."""
 
     path: Path
     out: Path
     situation: Situation
-    states: dict[str, State]
+    starts: dict[str, TrafficStart]
     ships: dict[str, str]
     files: dict[str, str]
     steps: int
@@ -69,42 +68,43 @@ def traffic_scenario(
     duration: float | None = None,
     step: float = 0.05,
     hydrodynamics: bool = False,
-) -> Imported:
+) -> TrafficScenario:
     """The traffic situation in a JSON file as a scenario file that will be stored as `out`.
 
-    `ship` names the ship that every role is played by, `own` own ship's; without them each gets a ship file of her
-    dimensions. Raises ScenarioError, in one line, for what is no traffic situation or cannot be run.
+    `ship` names the ship of every role, `own` that of own ship. Without them each role gets a ship file of the
+    dimensions in the JSON. Raises ScenarioError, in one line, for a file that is no traffic situation, or that does not
+    make a scenario.
     """
     path, out = Path(path), Path(out)
-    content = situation(path)
-    roles = _roles(content, path)
-    states = states_of(roles, path)
-    ships, files = _cast(roles, ship, own, hydrodynamics, path, out)
-    steps = whole_steps(_duration(states["own"]) if duration is None else duration, step)
-    plan = _Plan(path, out, content, states, ships, files, steps, step, hydrodynamics)
-    _check_it_loads(plan)
-    return Imported(_text(plan, out.parent), files, tuple(_notes(plan)))
+    content = read_situation(path)
+    roles = _name_ships(content, path)
+    starts = locate_ships(roles, path)
+    ships, files = _choose_ships(roles, ship, own, hydrodynamics, path, out)
+    steps = count_steps(_plan_duration(starts["own"]) if duration is None else duration, step)
+    plan = _Plan(path, out, content, starts, ships, files, steps, step, hydrodynamics)
+    _check_loading(plan)
+    return TrafficScenario(_write(plan, out.parent), files, tuple(_list_omissions(plan)))
 
 
-def _roles(content: Situation, path: Path) -> dict[str, TrafficShip]:
-    """Ships by their names in the scenario."""
+def _name_ships(content: Situation, path: Path) -> dict[str, TrafficShip]:
+    """The ships by role, which is the name in the scenario."""
     if not content.targetShips:
         raise ScenarioError(f"{path.name}: targetShips is empty: a collision needs a target, add one")
     several = len(content.targetShips) > 1
-    targets = {f"target_{i}" if several else "target": one for i, one in enumerate(content.targetShips, start=1)}
+    targets = {f"target_{i}" if several else "target": ship for i, ship in enumerate(content.targetShips, start=1)}
     return {"own": content.ownShip, **targets}
 
 
-def _cast(
+def _choose_ships(
     roles: Mapping[str, TrafficShip], ship: str | None, own: str | None, hydrodynamics: bool, path: Path, out: Path
 ) -> tuple[dict[str, str], dict[str, str]]:  # fmt: skip
-    """Which ship plays each role, and the texts of the ship files that are made for it."""
+    """The ship of each role, and the texts of the ship files generated for it by name."""
     ships, files = {}, {}
-    for role, one in roles.items():
+    for role, traffic_ship in roles.items():
         named = own if role == "own" and own is not None else ship
         if named is None:
             ships[role] = f"{out.stem}-{role}.toml"
-            files[ships[role]] = ship_file_text(role, one, path)
+            files[ships[role]] = write_ship_file(role, traffic_ship, path)
             if hydrodynamics:
                 raise ScenarioError(
                     f"{path.name}: {role} has dimensions only and can but coast: name a ship with --ship, or leave out "
@@ -112,48 +112,46 @@ def _cast(
                 )
         else:
             ships[role] = named
-            if load_ship(named).manoeuvring is None and hydrodynamics:
-                raise ScenarioError(
-                    f"ship {named!r} can only coast, she has no [manoeuvring]: leave out --hydrodynamics"
-                )
+            if hydrodynamics:
+                require_manoeuvring(named, "leave out --hydrodynamics")
     return ships, files
 
 
-def _check_it_loads(plan: _Plan) -> None:
-    """Refuse before anything is written."""
+def _check_loading(plan: _Plan) -> None:
+    """Raise ScenarioError, before any file is stored, when the scenario cannot be loaded."""
     with tempfile.TemporaryDirectory(prefix="shipcollision-") as aside:
         for name, content in plan.files.items():
             Path(aside, name).write_text(content, encoding="utf-8")
         trial = Path(aside, plan.out.name)
-        trial.write_text(_text(plan, Path(aside)), encoding="utf-8")
+        trial.write_text(_write(plan, Path(aside)), encoding="utf-8")
         try:
             load_scenario(trial)
         except ScenarioError as error:
             raise ScenarioError(f"{plan.path.name}: does not make a scenario: {error}") from None
 
 
-def _duration(own: State) -> float:
-    """Until own ship has sailed her waypoints, as planned."""
+def _plan_duration(own: TrafficStart) -> float:
+    """Time [s] in which own ship sails its waypoints as planned, at most LONGEST_DEFAULT."""
     times = [length / speed if speed > 0.0 else inf for length, speed in zip(own.lengths, own.speeds, strict=True)]
     return min(LONGEST_DEFAULT, sum(times)) if times else USUAL_DURATION
 
 
-def _notes(plan: _Plan) -> list[str]:
-    """What of the file is not carried over, or only in part."""
+def _list_omissions(plan: _Plan) -> list[str]:
+    """Sentences on the contents of the file that are not carried over, or only in part."""
     notes, around = [], plan.situation.environment or Environment()
-    states = plan.states.values()
-    faster = any(not isclose(speed, state.speed) for state in states for speed in state.speeds)
+    starts = plan.starts.values()
+    faster = any(not isclose(speed, start.speed) for start in starts for speed in start.speeds)
     if plan.hydrodynamics:
         if faster:
-            notes.append("Speeds of later legs: the engine is ordered when the leg should begin; no gradual change.")
-        if any(waypoint.turnRadius for ship in _roles(plan.situation, plan.path).values()
+            notes.append("Speeds of later legs: revolutions are ordered when the leg should begin, at once.")
+        if any(waypoint.turnRadius for ship in _name_ships(plan.situation, plan.path).values()
                for waypoint in ship.waypoints or []):  # fmt: skip
-            notes.append("turnRadius is not carried over: the ships turn as their autopilots do.")
+            notes.append("turnRadius is not carried over: the autopilots choose the turns.")
     else:
-        if any(len(state.route) > 1 for state in states):
+        if any(len(start.route) > 1 for start in starts):
             notes.append("The ships coast and keep their courses: bends of their routes are left out.")
         if faster:
-            notes.append("The ships coast and keep their speeds: those of later legs are left out.")
+            notes.append("The ships coast and keep their speeds: the speeds of later legs are left out.")
         for what, value in (("wind", around.windSpeed), ("current", around.currentSpeed)):
             if value:
                 notes.append(f"The file's {what} is not carried over: the ships coast.")
@@ -162,12 +160,12 @@ def _notes(plan: _Plan) -> list[str]:
     return notes
 
 
-def _text(plan: _Plan, directory: Path) -> str:
+def _write(plan: _Plan, directory: Path) -> str:
     version = plan.situation.version or "not given, 0.1 or older"
     comment = [
         f"Made by `shipcollision import {plan.path.name}` (traffic situation, schema version {version}).",
         "n's origin is own ship's position in that file; positions here are of midship.",
-        *_notes(plan),
+        *_list_omissions(plan),
     ]
     described = plan.situation.description or plan.situation.title or plan.path.stem
     tables: dict[str, Mapping[str, Any]] = {
@@ -178,51 +176,50 @@ def _text(plan: _Plan, directory: Path) -> str:
             "step": plan.step,
         }
     }
-    for role, state in plan.states.items():
-        tables[f"ships.{role}"] = _ship_table(state, plan.ships[role], plan.files, directory, plan)
+    for role, start in plan.starts.items():
+        tables[f"ships.{role}"] = _ship_table(start, plan.ships[role], directory, plan)
     if plan.hydrodynamics and plan.situation.environment is not None:
-        around = _environment(plan.situation.environment)
+        around = _environment_table(plan.situation.environment)
         if around:
             tables["environment"] = around
     return scenario_text(comment, tables)
 
 
-def _ship_table(state: State, ship: str, made: Collection[str], directory: Path, plan: _Plan) -> dict[str, Any]:
-    drift = state.course - state.heading
-    straight = isclose(cos(drift), 1.0, abs_tol=1e-12)
-    return {
-        "ship": ship if ship in made else ship_reference(ship, directory),
-        "position": [round(state.north, 3) + 0.0, round(state.east, 3) + 0.0],
-        "heading_deg": round(degrees(state.heading), 6) % 360.0,
-        "speed": round(state.speed, 6) if straight else None,
-        "surge": None if straight else round(state.speed * cos(drift), 6),
-        "sway": None if straight else round(state.speed * sin(drift), 6),
-        "hydrodynamics": plan.hydrodynamics or None,
-        "orders": (_orders(state, ship, plan.steps * plan.step) or None) if plan.hydrodynamics else None,
-        "route": {"waypoints": state.route} if plan.hydrodynamics and state.route else None,
-    }
+def _ship_table(start: TrafficStart, ship: str, directory: Path, plan: _Plan) -> dict[str, Any]:
+    drift = start.course - start.heading
+    return build_ship_table(
+        ship if ship in plan.files else refer_to_ship(ship, directory),
+        (round_off(start.north, 3), round_off(start.east, 3)),
+        round(degrees(start.heading), 6) % 360.0,
+        round_off(start.speed * cos(drift), 6),
+        round_off(start.speed * sin(drift), 6),
+        hydrodynamics=plan.hydrodynamics or None,
+        orders=(_list_orders(start, ship, plan.steps * plan.step) or None) if plan.hydrodynamics else None,
+        route={"waypoints": start.route} if plan.hydrodynamics and start.route else None,
+    )
 
 
-def _orders(state: State, ship: str, duration: float) -> list[dict[str, float]]:
-    """Revolutions for the speed at the start, and for that of each leg from when it should begin."""
-    orders, now, time = [{"time": 0.0, "rev_per_s": _revolutions(ship, state.speed)}], state.speed, 0.0
-    for i, (length, speed) in enumerate(zip(state.lengths, state.speeds, strict=True)):
+def _list_orders(start: TrafficStart, ship: str, duration: float) -> list[dict[str, float]]:
+    """Orders of revolutions for the speed at the start and, from the planned beginning of each leg, for its speed."""
+    orders, now, time = [{"time": 0.0, "rev_per_s": _find_revolutions(ship, start.speed)}], start.speed, 0.0
+    for i, (length, speed) in enumerate(zip(start.lengths, start.speeds, strict=True)):
         if i and not isclose(speed, now):
-            orders.append({"time": round(time, 3), "rev_per_s": _revolutions(ship, speed)})
-        # The first leg is sailed at the speed of the start, which initial.sog may give other than the leg does.
-        now = speed if i else state.speed
+            orders.append({"time": round(time, 3), "rev_per_s": _find_revolutions(ship, speed)})
+        # initial.sog may differ from the speed planned for the first leg, which is sailed at initial.sog.
+        now = speed if i else start.speed
         time += length / now if now > 0.0 else inf
         if time >= duration:
             break
     return orders if any(order["rev_per_s"] for order in orders) else []
 
 
-def _revolutions(ship: str, speed: float) -> float:
+def _find_revolutions(ship: str, speed: float) -> float:
+    """Revolutions [1/s] that keep a speed [m/s]; zero for a ship at rest."""
     return self_propulsion(ship, speed) if speed > 0.0 else 0.0
 
 
-def _environment(around: Environment) -> dict[str, Any]:
-    """The table [environment]; empty when there is neither current nor wind."""
+def _environment_table(around: Environment) -> dict[str, Any]:
+    """The table [environment]; empty without current and wind."""
     tables: dict[str, Any] = {}
     if around.currentSpeed:
         tables["current"] = {"speed": around.currentSpeed, "towards_deg": around.currentDirection or 0.0}

@@ -13,7 +13,7 @@ import pytest
 
 from shipcollision_fmu import load_scenario, simulate
 from shipcollision_fmu.encounters.imazu import KNOT
-from shipcollision_fmu.encounters.traffic.situation import Imported, traffic_scenario
+from shipcollision_fmu.encounters.traffic.situation import TrafficScenario, traffic_scenario
 from shipcollision_fmu.encounters.traffic.tangent_plane import TangentPlane
 from shipcollision_fmu.errors import ScenarioError
 from shipcollision_fmu.scenario.scenario import Scenario
@@ -22,7 +22,7 @@ HERE = Path(__file__).parent / "situations"
 OLD, NEW = HERE / "version_0_1.json", HERE / "version_0_2.json"
 
 
-def stored(made: Imported, out: Path) -> Scenario:
+def stored(made: TrafficScenario, out: Path) -> Scenario:
     for name, text in {**made.ship_files, out.name: made.text}.items():
         (out.parent / name).write_text(text, encoding="utf-8")
     return load_scenario(out)
@@ -84,11 +84,11 @@ def test_version_0_2(tmp_path: Path) -> None:
     assert own.start.position[:2] == pytest.approx([50.0, 4.0], abs=0.01)  # midship is 50 m ahead of a = 140, b = 40
     assert hypot(*target.start.velocity) == pytest.approx(6.0 * KNOT, rel=1e-6)
     assert degrees(target.start.attitude[2]) == pytest.approx(340.0, abs=0.02)
-    assert target.start.velocity[1] > 0.0  # the first leg leads 346 deg, to starboard of her heading
+    assert target.start.velocity[1] > 0.0  # the first leg leads 346 deg, to starboard of its heading
     text = (tmp_path / "new.toml").read_text(encoding="utf-8")
     assert "bends of their routes are left out" in text
     assert "wind is not carried over" in text
-    assert "keep their speeds: those of later legs are left out" in text
+    assert "keep their speeds: the speeds of later legs are left out" in text
 
 
 def test_what_is_left_out_is_told(tmp_path: Path) -> None:
@@ -150,7 +150,7 @@ Spoil = Callable[[dict[str, Any]], Any]
         (lambda d: d["ownShip"]["initial"].update(cog=1234), r"cog = 1234 must be .* 360: it is clockwise"),
         (lambda d: d["ownShip"]["initial"]["position"].update(latitude=5876), r"5876 must be less than or equal to 85"),
         (lambda d: d["ownShip"]["initial"].pop("position"), None),  # the first waypoint will do
-        (lambda d: d["targetShips"][1]["initial"].pop("position"), r"target_2 is nowhere: give initial.position or"),
+        (lambda d: d["targetShips"][1]["initial"].pop("position"), r"target_2 has no position: give initial.position"),
         (lambda d: d["targetShips"][1]["initial"].pop("cog"), r"target_2 has no course: give initial.cog, or two wayp"),
         (lambda d: d["targetShips"][1]["static"].pop("width"), r"target_2 has no length and width in static: name"),
         (lambda d: d["targetShips"][1]["static"].update(initDelay=15.0), r"target_2 initDelay = 15 s is not offered"),
@@ -202,6 +202,6 @@ def test_dimensions_alone_do_not_sail(tmp_path: Path) -> None:
     with pytest.raises(ScenarioError, match=r"own has dimensions only and can but coast: name a ship with --ship"):
         traffic_scenario(OLD, out=tmp_path / "x.toml", hydrodynamics=True)
     with pytest.raises(
-        ScenarioError, match=r"ship 'guan2014_own' can only coast, she has no \[manoeuvring\]: leave out"
+        ScenarioError, match=r"ship 'guan2014_own' can only coast, it has no \[manoeuvring\]: leave out"
     ):
         traffic_scenario(OLD, out=tmp_path / "x.toml", ship="guan2014_own", hydrodynamics=True)
