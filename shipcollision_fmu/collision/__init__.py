@@ -3,13 +3,13 @@
 model           a step, readable as its stages; README.md has the equations
 
 what it is of   ports, checks, bodies, obstacles
-where to        shadow, drift, ledger: poses and twists within a step, and what ships were given
+where to        state, ahead, drift, ledger: poses and twists within a step, and what ships were given
 who is near     neighbours, broad_phase
 where           detection: engine (the one module that knows pybullet), level, manifold, clipping, joined, axes, contact
 how much        responses, which chooses: delassus, then
                 pgs         coulomb, extrapolation, newton, sliding_speed, warm_start, restitution
                 closed_form slip_path, slip_curve, resultant; four_dof is its oracle
-                passive: no answer adds energy
+                enforce_passivity: no answer adds energy
 besides         fenders, fender_books; energy; damage
-told            slots, episodes
+told            slots, collisions
 """

@@ -15,21 +15,21 @@ from ..ship.frames import Array, skew
 from ..ship.hull.hull import build_hull
 from ..ship.hull.solid import HullMesh
 from ..ship.loading.library import Ship, load_ship
-from .dynamics.body_state import Shadow
-from .fender import Fender, fender_of
+from .dynamics.body_state import BodyState
+from .fender import Fender, build_fender
 from .geometry.broad_phase import Rectangle
 from .geometry.bullet import BulletBody
 from .interface import CollisionParameters, ShipParameters
-from .obstacles import Obstacle, obstacles_from
+from .obstacles import Obstacle, read_obstacles
 
-__all__ = ["Body", "apart", "prepared"]
+__all__ = ["Body", "apart", "prepare_bodies"]
 
 
 @dataclass(frozen=True, eq=False)
 class Body:
     """A ship or an obstacle.
 
-    reach: no point of the hull is farther from CO [m]; free: degrees of freedom, 0 of an obstacle; wall: the shadow of
+    reach: no point of the hull is farther from CO [m]; free: degrees of freedom, 0 of an obstacle; wall: the state of
     an obstacle; rectangle: where an obstacle stands.
     """
 
@@ -40,7 +40,7 @@ class Body:
     upright_inverse: Array  # (6, 6), see inverse_at
     bullet: BulletBody
     fender: Fender | None
-    wall: Shadow | None = None
+    wall: BodyState | None = None
     rectangle: Rectangle = (0.0, 0.0, 0.0, 0.0)
 
     def inverse_at(self, attitude: Sequence[float]) -> Array:
@@ -53,13 +53,13 @@ class Body:
         return self.fender.thickness if self.fender else 0.0
 
 
-def prepared(names: Sequence[str], parameters: CollisionParameters, directory: Path | None = None) -> list[Body]:
+def prepare_bodies(names: Sequence[str], parameters: CollisionParameters, directory: Path | None = None) -> list[Body]:
     """The bodies that the parameters ask for; ship files are looked for in `directory` first. Raises InputError."""
     ships = [load_ship(p.ship, directory) for p in parameters.ships]
     if parameters.response == "bullet":
         _refuse_what_bullet_lacks(names, ships, parameters.ships)
     bodies = [_ship(name, ship, p) for name, ship, p in zip(names, ships, parameters.ships, strict=True)]
-    for obstacle in obstacles_from(parameters.obstacles):
+    for obstacle in read_obstacles(parameters.obstacles):
         if obstacle.name in names:
             raise InputError(f"obstacles: {obstacle.name!r} is the name of a ship: give the obstacle another name")
         bodies.append(_wall(obstacle))
@@ -74,12 +74,12 @@ def _ship(name: str, ship: Ship, parameters: ShipParameters) -> Body:
         name, hull, float(np.linalg.norm(hull.vertices, axis=1).max()),
         parameters.degrees_of_freedom, free_inverse(ship.M, parameters.degrees_of_freedom),
         BulletBody(ship.mass, inertia_g, np.array(ship.r_bg)),
-        fender_of(f"{name}.fender", parameters.fender),
+        build_fender(f"{name}.fender", parameters.fender),
     )  # fmt: skip
 
 
 def _wall(obstacle: Obstacle) -> Body:
-    wall = Shadow.wall(obstacle.position, obstacle.heading)
+    wall = BodyState.wall(obstacle.position, obstacle.heading)
     corners = wall.x + obstacle.solid.vertices @ wall.R.T
     (n_0, e_0, _), (n_1, e_1, _) = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()
     return Body(

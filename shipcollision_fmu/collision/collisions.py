@@ -15,10 +15,10 @@ from typing import Any
 import numpy as np
 
 from ..ship.frames import Array
-from .dynamics.body_state import Shadow
+from .dynamics.body_state import BodyState
 from .dynamics.contact import Contact, contact_velocity
 
-__all__ = ["SCRATCH_PAUSE", "Episodes", "Impact", "heading_angle"]
+__all__ = ["SCRATCH_PAUSE", "Collisions", "Impact", "heading_angle"]
 
 SCRATCH_PAUSE = 0.5
 """Pause of contact [s] that a scratch survives: ships that slide along each other touch and part at every substep."""
@@ -44,7 +44,7 @@ class _Pair:
     last_contact: float = 0.0
 
 
-class Episodes:
+class Collisions:
     """Opens, numbers and closes the collisions and scratches of every pair."""
 
     def __init__(self, minimum_separation_time: float) -> None:
@@ -62,17 +62,17 @@ class Episodes:
             if pair.impact and t - pair.last_contact >= self._separation:
                 pair.impact = 0
 
-    def touch(self, t: float, contacts: Sequence[Contact], shadows: Sequence[Shadow]) -> None:
-        """Take the contacts of one pair at time t [s], before their impulses change the shadows' velocities."""
+    def touch(self, t: float, contacts: Sequence[Contact], states: Sequence[BodyState]) -> None:
+        """Take the contacts of one pair at time t [s], before their impulses change the states' velocities."""
         a, b = contacts[0].a, contacts[0].b
         pair = self._pairs.setdefault((a, b), _Pair())
         if not pair.impact:
             self.impacts += 1
             pair.impact = self.impacts
             point = sum((c.point for c in contacts), np.zeros(3)) / len(contacts)
-            closing = max(-float(contact_velocity(c, shadows) @ c.normal) for c in contacts)
+            closing = max(-float(contact_velocity(c, states) @ c.normal) for c in contacts)
             self.latest = Impact(
-                t, point.tolist(), max(closing, 0.0), heading_angle(shadows[a].R, shadows[b].R), a + 1, b + 1
+                t, point.tolist(), max(closing, 0.0), heading_angle(states[a].R, states[b].R), a + 1, b + 1
             )
         if not pair.scratch:
             self.scratches += 1

@@ -32,7 +32,7 @@ import numpy as np
 from ..errors import InputError
 from ..ship.frames import Array
 
-__all__ = ["Fender", "Squeeze", "fender_of", "friction_impulse", "in_series", "squeezed"]
+__all__ = ["Compression", "Fender", "build_fender", "combine_in_series", "compress_fender", "solve_friction"]
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ class Fender:
 
 
 @dataclass(frozen=True)
-class Squeeze:
+class Compression:
     """A fender over one substep: normal impulse P [N s], energy stored after it [J], energy dissipated in it [J]."""
 
     P: float
@@ -53,7 +53,7 @@ class Squeeze:
     dissipated: float
 
 
-def fender_of(name: str, values: list[float]) -> Fender | None:
+def build_fender(name: str, values: list[float]) -> Fender | None:
     """From (stiffness, damping, thickness), all zero for none. Raises InputError on values that are no fender."""
     if not any(values):
         return None
@@ -66,7 +66,7 @@ def fender_of(name: str, values: list[float]) -> Fender | None:
     return Fender(stiffness, damping, thickness)
 
 
-def in_series(one: Fender | None, other: Fender | None) -> Fender | None:
+def combine_in_series(one: Fender | None, other: Fender | None) -> Fender | None:
     """The fender between two bodies that may have one each."""
     if one is None or other is None:
         return one or other
@@ -79,13 +79,15 @@ def in_series(one: Fender | None, other: Fender | None) -> Fender | None:
     )
 
 
-def squeezed(fender: Fender, compression: float, rate: float, W_nn: float, stored: float, h: float) -> Squeeze:
+def compress_fender(
+    fender: Fender, compression: float, rate: float, W_nn: float, stored: float, h: float
+) -> Compression:
     """One substep of h [s] of a fender compressed by `compression` [m] at `rate` [m/s].
 
     W_nn [1/kg] is what a unit of impulse does to the rate; stored [J] what the ships have put into the spring so far.
     """
     if W_nn <= 0.0:
-        return Squeeze(0.0, stored, 0.0)
+        return Compression(0.0, stored, 0.0)
     k, c = min(fender.stiffness, 1.0 / (W_nn * h * h)), fender.damping
     P = max(0.0, h * (k * compression + c * rate) / (1.0 + W_nn * h * c))
     after = rate - W_nn * P
@@ -97,10 +99,10 @@ def squeezed(fender: Fender, compression: float, rate: float, W_nn: float, store
         after = rate - W_nn * P
         taken, damped = P * (rate - 0.5 * W_nn * P), 0.0
     kept = max(0.0, min(stored + taken - damped, 0.5 * k * compression * max(0.0, compression + h * after)))
-    return Squeeze(P, kept, stored + taken - kept)
+    return Compression(P, kept, stored + taken - kept)
 
 
-def friction_impulse(W: Array, slip: Array, mu: float, P_n: float) -> Array:
+def solve_friction(W: Array, slip: Array, mu: float, P_n: float) -> Array:
     """Tangential impulse (2,) [N s] that takes the slip (2,) [m/s], or as much of it as mu P_n allows.
 
     W (2, 2) [1/kg] in the tangents' axes. Never adds energy: the loss is s (1 - s/2) slip' W^-1 slip, 0 <= s <= 1.

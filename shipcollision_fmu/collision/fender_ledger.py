@@ -9,17 +9,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from .contact_points import Slot
-from .dynamics.body_state import Shadow
+from .contact_points import ContactPoint
+from .dynamics.body_state import BodyState
 from .dynamics.contact import Contact, Impulse, actual_velocity, book
 from .dynamics.contact_frame import contact_axes
 from .dynamics.delassus import mobility
-from .fender import Fender, friction_impulse, squeezed
+from .fender import Fender, compress_fender, solve_friction
 
-__all__ = ["FenderBooks"]
+__all__ = ["FenderLedger"]
 
 
-class FenderBooks:
+class FenderLedger:
     """Energy in fenders: stored now, by pair of bodies, and dissipated so far [J]."""
 
     def __init__(self) -> None:
@@ -36,8 +36,8 @@ class FenderBooks:
         self._dissipated += self._stored.pop(pair, 0.0)
 
     def press(
-        self, fender: Fender, contact: Contact, shadows: Sequence[Shadow], friction: float, h: float
-    ) -> Slot | None:
+        self, fender: Fender, contact: Contact, states: Sequence[BodyState], friction: float, h: float
+    ) -> ContactPoint | None:
         """One substep of h [s] of the fender that acts at a contact, whose gap is that of the hulls: its impulse booked
         with both bodies, its energy kept. None, and released, where it is not compressed."""
         pair, compression = (contact.a, contact.b), fender.thickness - contact.gap
@@ -45,18 +45,18 @@ class FenderBooks:
             self.release(pair)
             return None
         axes = contact_axes(contact.normal)
-        W = axes @ mobility(contact, shadows) @ axes.T
-        before = actual_velocity(contact, shadows)
+        W = axes @ mobility(contact, states) @ axes.T
+        before = actual_velocity(contact, states)
         v, stored = axes @ before, self._stored.get(pair, 0.0)
-        squeeze = squeezed(fender, compression, -float(v[0]), float(W[0, 0]), stored, h)
-        P = squeeze.P * contact.normal
-        rubbed = friction_impulse(W[1:, 1:], v[1:] + squeeze.P * W[1:, 0], friction, squeeze.P)
+        compressed = compress_fender(fender, compression, -float(v[0]), float(W[0, 0]), stored, h)
+        P = compressed.P * contact.normal
+        rubbed = solve_friction(W[1:, 1:], v[1:] + compressed.P * W[1:, 0], friction, compressed.P)
         P = P + rubbed @ axes[1:]
-        book(Impulse(contact, P), shadows)
-        lost = float(-P @ (before + actual_velocity(contact, shadows)) * 0.5)
-        self._stored[pair] = squeeze.stored
-        self._dissipated += lost - (squeeze.stored - stored)
-        return Slot.of(contact, P, lost, 0, 0)
+        book(Impulse(contact, P), states)
+        lost = float(-P @ (before + actual_velocity(contact, states)) * 0.5)
+        self._stored[pair] = compressed.stored
+        self._dissipated += lost - (compressed.stored - stored)
+        return ContactPoint.of(contact, P, lost, 0, 0)
 
     def get_state(self) -> dict[str, Any]:
         """All of it as plain data."""

@@ -8,8 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 __all__ = [
-    "CollisionInputs", "CollisionOutputs", "CollisionParameters", "ContactSlot", "ShipParameters", "ShipPost",
-    "ShipState", "contact_slots",
+    "CollisionInputs", "CollisionOutputs", "CollisionParameters", "ContactOutput", "ShipParameters", "ShipPost",
+    "ShipState", "contact_point_count",
 ]  # fmt: skip
 
 LEAST_SLOTS, SLOTS_PER_SHIP, MOST_SLOTS = 8, 4, 64
@@ -20,7 +20,7 @@ def zeros(n: int) -> list[float]:
     return [0.0] * n
 
 
-def contact_slots(ships: int) -> int:
+def contact_point_count(ships: int) -> int:
     """Contact points that are output per communication step, for so many ships."""
     return min(max(LEAST_SLOTS, SLOTS_PER_SHIP * ships), MOST_SLOTS)
 
@@ -103,7 +103,7 @@ class ShipPost:
 
 
 @dataclass
-class ContactSlot:
+class ContactOutput:
     """A contact point of the step. point, normal in n; r_a, r_b its places in the ships' b [m]; impulse (3) on ship_b
     in n [N s]; values: gap [m], normal and tangential impulse [N s], energy dissipated [J]. Ships from 1, 0: unused;
     ship_b beyond the number of ships is an obstacle, the first one being the number of ships plus 1."""
@@ -129,7 +129,7 @@ class CollisionOutputs:
     so far missed it by more than 1e-9, or had to be scaled back so as not to add energy."""
 
     ships: list[ShipPost]
-    contacts: list[ContactSlot] = field(default_factory=list)
+    contacts: list[ContactOutput] = field(default_factory=list)
     contact_active: bool = False
     contact_count: int = 0
     impact_count: int = 0
@@ -149,4 +149,4 @@ class CollisionOutputs:
     solver_scaled: int = 0
 
     def __post_init__(self) -> None:
-        self.contacts = self.contacts or [ContactSlot() for _ in range(contact_slots(len(self.ships)))]
+        self.contacts = self.contacts or [ContactOutput() for _ in range(contact_point_count(len(self.ships)))]

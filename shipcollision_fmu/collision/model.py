@@ -2,13 +2,13 @@
 
 A communication step [t, t + H]:
 
-    read          check what came in; the books say what is pending (impulse_ledger.py); shadows of the ships
+    read          check what came in; the ledgers say what is pending (impulse_ledger.py); states of the ships
     find near     pairs whose hulls could touch within the step (proximity.py); far pairs are never looked at
     for each substep of fixed length h:
         press     fenders that are compressed (fender_ledger.py), booked one by one
-        advance   the predicted poses of the shadows that are near another
+        advance   the predicted poses of the states that are near another
         respond   contacts there, answered by one of the rival responses
-        book      impulses into twists and ledger, energy lost, contact points, episodes
+        book      impulses into twists and ledger, energy lost, contact points, collisions
     publish       poses, twists, impulses, mean forces, contacts, events
 
 Bodies are the ships in the order of the build, then the obstacles (obstacles.py), which are bodies with zero inverse
@@ -34,19 +34,19 @@ import numpy as np
 from ..errors import StepError
 from ..ship.coasting import coast
 from ..ship.frames import attitude_from_rotation, attitude_unwrapped
-from .bodies import Body, prepared
+from .bodies import Body, prepare_bodies
 from .checks import check_parameters, check_states, check_step
-from .collisions import Episodes
-from .contact_points import Slot, fitted, merged
-from .dynamics.body_state import Shadow
+from .collisions import Collisions
+from .contact_points import ContactPoint, fit_contact_points, merge_contact_point
+from .dynamics.body_state import BodyState
 from .dynamics.contact import Impulse, actual_velocity, book
 from .dynamics.energy import energy_lost
-from .dynamics.impulse_ledger import Books, Reading
-from .dynamics.other_forces import Seen, drift
-from .dynamics.passivity import passive
-from .fender import Fender, in_series
-from .fender_ledger import FenderBooks
-from .geometry.detection import Detector, KeptNormals
+from .dynamics.impulse_ledger import ImpulseLedger, Reading
+from .dynamics.other_forces import ReceivedState, drift
+from .dynamics.passivity import enforce_passivity
+from .fender import Fender, combine_in_series
+from .fender_ledger import FenderLedger
+from .geometry.detection import Detector, LastNormals
 from .interface import (
     CollisionInputs,
     CollisionOutputs,
@@ -55,8 +55,8 @@ from .interface import (
     ShipPost,
     ShipState,
 )
-from .proximity import Neighbours, Pair, room
-from .responses import RESPONSES, Encounter
+from .proximity import Pair, Proximity, room
+from .responses import RESPONSES, ContactProblem
 from .solvers.warm_start import WarmStarts
 
 __all__ = ["ShipCollision"]
@@ -68,7 +68,7 @@ MAXIMUM_SUBSTEPS = 10_000
 """Of one communication step in which hulls are near each other: 100 s at 0.01 s. More is a mistake in a unit."""
 
 _NO_FORCE = (0.0,) * 6
-_ABSENT = Shadow.wall(np.zeros(3), 0.0)  # stands for a ship that is far from all others
+_ABSENT = BodyState.wall(np.zeros(3), 0.0)  # stands for a ship that is far from all others
 
 
 class ShipCollision:
@@ -90,31 +90,31 @@ class ShipCollision:
         """Read the parameters, load ships and obstacles, set the outputs of the start. Raises InputError on a bad
         parameter, StepError on a state that is not finite or absurd."""
         check_parameters(self.parameters)
-        bodies = prepared(self.names, self.parameters, self.directory)
+        bodies = prepare_bodies(self.names, self.parameters, self.directory)
         check_states(0.0, bodies, self.inputs.ships)
         self.close()
         self._detector = Detector([body.hull for body in bodies])
         self._bodies, n = bodies, len(self.names)
-        self._neighbours = Neighbours(bodies, n, self._detector, self.parameters.clearance_range)
+        self._proximity = Proximity(bodies, n, self._detector, self.parameters.clearance_range)
         self._bullets = [body.bullet for body in bodies]
         self._centres = [body.bullet.r_bg.tolist() for body in bodies]
         self._walls = [body.wall for body in bodies if body.wall is not None]
         for i, wall in enumerate(self._walls, start=n):
             self._detector.place(i, wall)
-        self._books = [Books() for _ in range(n)]
-        self._seen: list[Seen | None] = [None] * n
+        self._ledgers = [ImpulseLedger() for _ in range(n)]
+        self._last_received: list[ReceivedState | None] = [None] * n
         self._energy = np.zeros(3)
-        self._fenders = FenderBooks()
-        self._kept: KeptNormals = {}
+        self._fenders = FenderLedger()
+        self._last_normals: LastNormals = {}
         self._warm: WarmStarts = {}
-        self._episodes = Episodes(self.parameters.minimum_separation_time)
+        self._collisions = Collisions(self.parameters.minimum_separation_time)
         self._unconverged = self._scaled = 0
         self._residual, self._sweeps = 0.0, 0
         self._readings: dict[int, Reading] = {}
-        self._late = False  # whether ships apply impulses late, as far as is known: one that was never hit may, too
-        shadows = [self._received(i, 0.0, 0.0) for i in range(n)] + self._walls
-        candidates = self._neighbours.candidates(shadows, self.inputs.ships, 0.0)
-        self._publish(0.0, 0.0, shadows, [], candidates)
+        self._one_step_delay = False  # of any ship: assumed of those that were never hit
+        states = [self._received(i, 0.0, 0.0) for i in range(n)] + self._walls
+        candidates = self._proximity.candidates(states, self.inputs.ships, 0.0)
+        self._publish(0.0, 0.0, states, [], candidates)
 
     @property
     def obstacles(self) -> tuple[str, ...]:
@@ -124,7 +124,7 @@ class ShipCollision:
     def close(self) -> None:
         """Leave the Bullet world."""
         if self._detector is not None:
-            self._detector.engine.close()
+            self._detector.bullet.close()
             self._detector = None
 
     # -- a step -------------------------------------------------------------------------------------
@@ -135,17 +135,17 @@ class ShipCollision:
         check_step(t, H, self._bodies, self.inputs.ships)
         self.warning = ""
         self._readings.clear()
-        shadows, candidates = self._read(t, H)
-        near = self._neighbours.near(candidates, shadows, H)
+        states, candidates = self._read(t, H)
+        near = self._proximity.near(candidates, states, H)
         self._residual, self._sweeps = 0.0, 0
         if not near:
-            self._episodes.close_old(t)
-            self._advance(shadows, H)
-            self._publish(t + H, H, shadows, [], candidates)
+            self._collisions.close_old(t)
+            self._advance(states, H)
+            self._publish(t + H, H, states, [], candidates)
             return
         before = self.get_state()
         try:
-            slots = self._collide(t, H, near, shadows)
+            points = self._collide(t, H, near, states)
         except Exception:
             self.set_state(before)
             raise
@@ -154,109 +154,111 @@ class ShipCollision:
                 f"contact was not solved to {CONVERGED:g} of the approach {missed} times in the step from t = {t:g} s "
                 f"by {H:g} s, at worst to {self._residual:.2g}: its impulses are less exact (solver.residual)"
             )
-        self._publish(t + H, H, shadows, slots, candidates)
+        self._publish(t + H, H, states, points, candidates)
 
-    def _read(self, t: float, H: float) -> tuple[list[Shadow], list[Pair]]:
+    def _read(self, t: float, H: float) -> tuple[list[BodyState], list[Pair]]:
         """Shadows of the bodies, of a ship that is quiet and far from all others a mere placeholder; candidates."""
         ships, feedback = self.inputs.ships, self.parameters.feedback
-        self._late = any(books.late for books in self._books)
+        self._one_step_delay = any(ledger.one_step_delay for ledger in self._ledgers)
         known = [
             None
-            if self._seen[i] is None and self._books[i].is_quiet(feedback, state.impulse_applied)
+            if self._last_received[i] is None and self._ledgers[i].is_quiet(feedback, received.impulse_applied)
             else self._received(i, t, H)
-            for i, state in enumerate(ships)
+            for i, received in enumerate(ships)
         ]
-        candidates = self._neighbours.candidates(known, ships, H)
+        candidates = self._proximity.candidates(known, ships, H)
         met = {i for pair in candidates for i in pair}
-        shadows = [
-            shadow if shadow is not None else self._received(i, t, H) if i in met else _ABSENT
-            for i, shadow in enumerate(known)
+        states = [
+            state if state is not None else self._received(i, t, H) if i in met else _ABSENT
+            for i, state in enumerate(known)
         ]
-        return shadows + self._walls, candidates
+        return states + self._walls, candidates
 
-    def _received(self, i: int, t: float, H: float) -> Shadow:
-        """Shadow of a ship as received, with what is pending, and expected of other forces, in its twist; booked where
-        she will take impulses."""
-        state, body, feedback = self.inputs.ships[i], self._bodies[i], self.parameters.feedback
-        nu, x = np.array(state.velocity + state.rate), np.array(state.position)
-        M_inverse = body.inverse_at(state.attitude)
-        shadow = Shadow.at(x, np.array(state.attitude), nu, M_inverse, body.bullet.r_bg)
-        applied = np.array(state.impulse_applied)
-        reading = self._books[i].read(feedback, x, shadow.R, nu, applied, M_inverse, body.reach, H)
-        shadow.nu = reading.nu + M_inverse @ reading.owed if reading.owed.any() else reading.nu
-        if (before := self._seen[i]) is not None and feedback == "ledger":
-            found = drift(before, _seen(t, 0.0, state), body.inverse_at(before.attitude), body.bullet.r_bg, body.reach)
+    def _received(self, i: int, t: float, H: float) -> BodyState:
+        """State of a ship as received, with what is pending, and expected of other forces, in its twist; placed where
+        it will take impulses."""
+        received, body, feedback = self.inputs.ships[i], self._bodies[i], self.parameters.feedback
+        nu, x = np.array(received.velocity + received.rate), np.array(received.position)
+        M_inverse = body.inverse_at(received.attitude)
+        state = BodyState.at(x, np.array(received.attitude), nu, M_inverse, body.bullet.r_bg)
+        applied = np.array(received.impulse_applied)
+        reading = self._ledgers[i].read(feedback, x, state.R, nu, applied, M_inverse, body.reach, H)
+        state.nu = reading.nu + M_inverse @ reading.deficit if reading.deficit.any() else reading.nu
+        if (before := self._last_received[i]) is not None and feedback == "ledger":
+            found = drift(
+                before, _as_received(t, 0.0, received), body.inverse_at(before.attitude), body.bullet.r_bg, body.reach
+            )
             if found is not None:
-                shadow.drift, shadow.off_centre = found.mean, found.off_centre
+                state.drift, state.scheme_error = found.mean, found.scheme_error
                 if reading.pending.any():  # a parallel master: what is issued now is applied to a ship that has gone on
-                    shadow.nu = shadow.nu + found.gain
-        if self._late if reading.late is None else reading.late:
-            x_then, R_then = shadow.ahead(reading.nu, H)
-            shadow.apply_at(x_then, R_then, body.inverse_at(attitude_from_rotation(R_then).tolist()))
-        shadow.nu_received = shadow.nu
+                    state.nu = state.nu + found.gain
+        if self._one_step_delay if reading.one_step_delay is None else reading.one_step_delay:
+            x_then, R_then = state.coast(reading.nu, H)
+            state.apply_at(x_then, R_then, body.inverse_at(attitude_from_rotation(R_then).tolist()))
+        state.nu_received = state.nu
         self._readings[i] = reading
-        return shadow
+        return state
 
-    def _advance(self, shadows: Sequence[Shadow], H: float, but: Container[int] = ()) -> None:
-        """Move on by H [s] the shadows that there are, but for some."""
-        for i, shadow in enumerate(shadows):
-            if not shadow.fixed and i not in but:
-                shadow.advance(H)
+    def _advance(self, states: Sequence[BodyState], H: float, but: Container[int] = ()) -> None:
+        """Move on by H [s] the states that there are, but for some."""
+        for i, state in enumerate(states):
+            if not state.fixed and i not in but:
+                state.advance(H)
 
-    def _collide(self, t: float, H: float, near: dict[Pair, float], shadows: list[Shadow]) -> list[Slot]:
-        """Take the shadows through the step; the contact points they went through.
+    def _collide(self, t: float, H: float, near: dict[Pair, float], states: list[BodyState]) -> list[ContactPoint]:
+        """Take the states through the step; the contact points they went through.
 
         near: pairs and their gaps. A gap lasts some substeps at the speeds that the hulls have: a pair is looked at
         again when it could have closed.
         """
-        self._episodes.close_old(t)
-        moving = {i for pair in near for i in pair if not shadows[i].fixed}
-        self._advance(shadows, H, moving)
+        self._collisions.close_old(t)
+        moving = {i for pair in near for i in pair if not states[i].fixed}
+        self._advance(states, H, moving)
         fenders = {pair: fender for pair in near if (fender := self._fender(pair)) is not None}
-        slots = list[Slot]()
+        points = list[ContactPoint]()
         n, h = _substeps(H, self.parameters.substep)
-        due = {pair: 0 if pair in fenders else self._lasts(pair, gap, h, shadows) for pair, gap in near.items()}
-        late = 0  # substeps that the poses are behind
+        due = {pair: 0 if pair in fenders else self._lasts(pair, gap, h, states) for pair, gap in near.items()}
+        pending_substeps = 0  # by which the predicted poses lag
         for j in range(n):
             now = [pair for pair in near if due[pair] <= j]
-            late += 1
+            pending_substeps += 1
             if not now:
                 continue
             for pair, fender in fenders.items():
-                slots = self._press(pair, fender, h, shadows, slots)
+                points = self._press(pair, fender, h, states, points)
             for i in moving:
-                for _ in range(late):
-                    shadows[i].advance(h)
-                self._ready().place(i, shadows[i])
-            late = 0
-            impulses = self._respond(t + (j + 1) * h, h, now, shadows)
-            slots = self._book(impulses, shadows, slots)
+                for _ in range(pending_substeps):
+                    states[i].advance(h)
+                self._ready().place(i, states[i])
+            pending_substeps = 0
+            impulses = self._respond(t + (j + 1) * h, h, now, states)
+            points = self._book(impulses, states, points)
             if impulses:
                 due = dict.fromkeys(near, j + 1)
             elif not fenders:
                 left = (n - 1 - j) * h
                 for pair in now:
-                    gap = self._ready().clearance(*pair, self._approach(pair, left, shadows))
-                    due[pair] = j + 1 + self._lasts(pair, gap, h, shadows)
+                    gap = self._ready().clearance(*pair, self._approach(pair, left, states))
+                    due[pair] = j + 1 + self._lasts(pair, gap, h, states)
         for i in moving:
-            if late == n:
-                shadows[i].advance(H)
+            if pending_substeps == n:
+                states[i].advance(H)
             else:
-                for _ in range(late):
-                    shadows[i].advance(h)
-        return slots
+                for _ in range(pending_substeps):
+                    states[i].advance(h)
+        return points
 
-    def _lasts(self, pair: Pair, gap: float, h: float, shadows: Sequence[Shadow]) -> int:
+    def _lasts(self, pair: Pair, gap: float, h: float, states: Sequence[BodyState]) -> int:
         """Substeps of h [s] in which a gap [m] cannot close."""
         if gap <= 0.0:
             return 0
-        self._kept.pop(pair, None)
-        approach = self._approach(pair, h, shadows)
+        self._last_normals.pop(pair, None)
+        approach = self._approach(pair, h, states)
         return int(min(gap / approach, 1e9)) if approach > 0.0 else 10**9
 
-    def _approach(self, pair: Pair, h: float, shadows: Sequence[Shadow]) -> float:
+    def _approach(self, pair: Pair, h: float, states: Sequence[BodyState]) -> float:
         """How much nearer two hulls may come in h [s], at most [m]."""
-        return sum(room(self._bodies[i], shadows[i], h) - self._bodies[i].around for i in pair)
+        return sum(room(self._bodies[i], states[i], h) - self._bodies[i].around for i in pair)
 
     def _ready(self) -> Detector:
         if self._detector is None:
@@ -266,119 +268,121 @@ class ShipCollision:
     # -- contact --------------------------------------------------------------------------------------
 
     def _fender(self, pair: Pair) -> Fender | None:
-        return in_series(self._bodies[pair[0]].fender, self._bodies[pair[1]].fender)
+        return combine_in_series(self._bodies[pair[0]].fender, self._bodies[pair[1]].fender)
 
-    def _press(self, pair: Pair, fender: Fender, h: float, shadows: list[Shadow], slots: list[Slot]) -> list[Slot]:
+    def _press(
+        self, pair: Pair, fender: Fender, h: float, states: list[BodyState], points: list[ContactPoint]
+    ) -> list[ContactPoint]:
         """One substep of the fender between two bodies."""
-        contact = self._ready().facing(*pair, fender.thickness, shadows, self._kept)
+        contact = self._ready().facing(*pair, fender.thickness, states, self._last_normals)
         if contact is None:
             self._fenders.release(pair)
-            return slots
-        pressed = self._fenders.press(fender, contact, shadows, self.parameters.friction, h)
-        return slots if pressed is None else merged(slots, pressed)
+            return points
+        pressed = self._fenders.press(fender, contact, states, self.parameters.friction, h)
+        return points if pressed is None else merge_contact_point(points, pressed)
 
-    def _respond(self, t: float, h: float, near: list[Pair], shadows: list[Shadow]) -> list[Impulse]:
+    def _respond(self, t: float, h: float, near: list[Pair], states: list[BodyState]) -> list[Impulse]:
         """Contacts at the predicted poses and their impulses; collisions and scratches are opened here."""
         detector, parameters = self._ready(), self.parameters
         answered = near
         if parameters.feedback == "none":  # one impact per collision: what follows is watched, not answered
-            answered = [pair for pair in near if not self._episodes.is_open(*pair)]
+            answered = [pair for pair in near if not self._collisions.is_open(*pair)]
             for a, b in set(near) - set(answered):
-                if watched := detector.contacts(a, b, shadows, self._kept):
-                    self._episodes.touch(t, watched, shadows)
+                if watched := detector.contacts(a, b, states, self._last_normals):
+                    self._collisions.touch(t, watched, states)
         answer = RESPONSES[parameters.response](
-            Encounter(
-                answered, shadows, detector, self._kept, self._warm, self._bullets, parameters.friction,
+            ContactProblem(
+                answered, states, detector, self._last_normals, self._warm, self._bullets, parameters.friction,
                 parameters.restitution, h,
             )
         )  # fmt: skip
         for pair in answered:
             contacts = [i.contact for i in answer.impulses if (i.contact.a, i.contact.b) == pair]
             if contacts:
-                self._episodes.touch(t, contacts, shadows)
+                self._collisions.touch(t, contacts, states)
         self._residual, self._sweeps = max(self._residual, answer.residual), max(self._sweeps, answer.sweeps)
         self._unconverged += answer.residual > CONVERGED
-        impulses, scaled = passive(answer.impulses, shadows)
+        impulses, scaled = enforce_passivity(answer.impulses, states)
         self._scaled += scaled
         return impulses
 
-    def _book(self, impulses: list[Impulse], shadows: list[Shadow], slots: list[Slot]) -> list[Slot]:
-        """Impulses into both ships' twists and ledgers, the energy they cost, and the contact slots of the step."""
-        before = [actual_velocity(i.contact, shadows) for i in impulses]
+    def _book(self, impulses: list[Impulse], states: list[BodyState], points: list[ContactPoint]) -> list[ContactPoint]:
+        """Impulses into both ships' twists and ledgers, the energy they cost, and the contact points of the step."""
+        before = [actual_velocity(i.contact, states) for i in impulses]
         for impulse in impulses:
-            book(impulse, shadows)
+            book(impulse, states)
         for impulse, v_before in zip(impulses, before, strict=True):
             c = impulse.contact
-            along, across = energy_lost(impulse.P, c.normal, v_before, actual_velocity(c, shadows))
+            along, across = energy_lost(impulse.P, c.normal, v_before, actual_velocity(c, states))
             self._energy = self._energy + [along + across, along, across]
-            collision, scratch = self._episodes.numbers(c.a, c.b)
-            slots = merged(slots, Slot.of(c, impulse.P, along + across, collision, scratch))
-        return slots
+            collision, scratch = self._collisions.numbers(c.a, c.b)
+            points = merge_contact_point(points, ContactPoint.of(c, impulse.P, along + across, collision, scratch))
+        return points
 
     # -- outputs ------------------------------------------------------------------------------------
 
     def _publish(
-        self, t: float, H: float, shadows: list[Shadow], slots: list[Slot], candidates: Sequence[Pair]
+        self, t: float, H: float, states: list[BodyState], points: list[ContactPoint], candidates: Sequence[Pair]
     ) -> None:
-        colliding = self._episodes.open_ships()
-        for i, shadow in enumerate(shadows[: len(self.names)]):
-            out, state = self.outputs.ships[i], self.inputs.ships[i]
-            if shadow is _ABSENT:
+        colliding = self._collisions.open_ships()
+        for i, state in enumerate(states[: len(self.names)]):
+            out, received = self.outputs.ships[i], self.inputs.ships[i]
+            if state is _ABSENT:
                 out.position[:], out.attitude[:], out.velocity[:] = coast(
-                    state.position, state.attitude, state.velocity, state.rate, self._centres[i], H
+                    received.position, received.attitude, received.velocity, received.rate, self._centres[i], H
                 )
-                out.rate[:] = state.rate
+                out.rate[:] = received.rate
                 out.force[:] = _NO_FORCE
                 continue
-            books, reading = self._books[i], self._readings[i]
-            books.close(reading, shadow.issued, shadow.nu_received, shadow.x_applied, shadow.R_applied)
-            out.impulse[:] = books.issued.tolist()
-            out.force[:] = (shadow.issued / H).tolist() if shadow.issued.any() else _NO_FORCE
-            self._seen[i] = _seen(t - H, H, state) if i in colliding else None
-            nu = shadow.nu_predicted.tolist()
-            out.position[:] = shadow.x.tolist()
-            out.attitude[:] = attitude_unwrapped(attitude_from_rotation(shadow.R), state.attitude[2]).tolist()
+            ledger, reading = self._ledgers[i], self._readings[i]
+            ledger.close(reading, state.issued, state.nu_received, state.x_applied, state.R_applied)
+            out.impulse[:] = ledger.issued.tolist()
+            out.force[:] = (state.issued / H).tolist() if state.issued.any() else _NO_FORCE
+            self._last_received[i] = _as_received(t - H, H, received) if i in colliding else None
+            nu = state.predicted_twist.tolist()
+            out.position[:] = state.x.tolist()
+            out.attitude[:] = attitude_unwrapped(attitude_from_rotation(state.R), received.attitude[2]).tolist()
             out.velocity[:], out.rate[:] = nu[:3], nu[3:]
-        self._publish_contacts(t, slots)
+        self._publish_contacts(t, points)
         self.outputs.energy[:] = self._energy.tolist()
         self.outputs.fender[:] = self._fenders.energy
-        self.outputs.clearance[0], nearest = self._neighbours.clearance(candidates, shadows)
+        self.outputs.clearance[0], nearest = self._proximity.clearance(candidates, states)
         self.outputs.nearest_ship_a, self.outputs.nearest_ship_b = nearest
         self.outputs.solver[0], self.outputs.solver_sweeps = self._residual, self._sweeps
         self.outputs.solver_unconverged, self.outputs.solver_scaled = self._unconverged, self._scaled
 
-    def _publish_contacts(self, t: float, slots: list[Slot]) -> None:
-        out, latest = self.outputs, self._episodes.latest
-        if not slots and not out.contact_count and out.impact_count == self._episodes.impacts:
+    def _publish_contacts(self, t: float, points: list[ContactPoint]) -> None:
+        out, latest = self.outputs, self._collisions.latest
+        if not points and not out.contact_count and out.impact_count == self._collisions.impacts:
             return  # nothing to show, and nothing shown: most steps
-        slots = fitted(slots, len(out.contacts))
+        points = fit_contact_points(points, len(out.contacts))
         for k, place in enumerate(out.contacts):
-            if k < len(slots):
-                slots[k].fill(place)
+            if k < len(points):
+                points[k].fill(place)
             elif place.ship_a:
-                Slot.unused().fill(place)
-        out.contact_active, out.contact_count = any(s.impact for s in slots), len(slots)
-        out.scratch_id = max((s.scratch for s in slots), default=0)
-        out.impact_count, out.impact_ship_a, out.impact_ship_b = self._episodes.impacts, latest.ship_a, latest.ship_b
+                ContactPoint.unused().fill(place)
+        out.contact_active, out.contact_count = any(s.impact for s in points), len(points)
+        out.scratch_id = max((s.scratch for s in points), default=0)
+        out.impact_count, out.impact_ship_a, out.impact_ship_b = self._collisions.impacts, latest.ship_a, latest.ship_b
         out.impact[:] = [latest.time, latest.closing_speed, latest.angle]
         out.impact_point[:] = latest.point
 
     # -- state --------------------------------------------------------------------------------------
 
     def get_state(self) -> dict[str, Any]:
-        """What the outputs do not show: the ships' books, energy in fenders, kept normals, warm starts, episodes. Empty
-        before initialise()."""
+        """What the outputs do not show: the ships' ledger, energy in fenders, last normals, warm starts, collisions.
+        Empty before initialise()."""
         if self._detector is None:
             return {}
         return {
-            "books": [books.get_state() for books in self._books],
+            "ledgers": [ledger.get_state() for ledger in self._ledgers],
             "energy": self._energy.tolist(),
-            "seen": [None if s is None else list(s) for s in self._seen],
+            "last_received": [None if s is None else list(s) for s in self._last_received],
             "fenders": self._fenders.get_state(),
-            "kept": [[a, b, carrier, list(normal)] for (a, b), (carrier, normal) in self._kept.items()],
-            "warm": [[a, b, [[*row] for row in rows]] for (a, b), rows in self._warm.items()],
+            "last_normals": [[a, b, carrier, list(normal)] for (a, b), (carrier, normal) in self._last_normals.items()],
+            "warm_starts": [[a, b, [[*row] for row in rows]] for (a, b), rows in self._warm.items()],
             "solver": [self._unconverged, self._scaled],
-            "episodes": self._episodes.get_state(),
+            "collisions": self._collisions.get_state(),
         }
 
     def set_state(self, state: dict[str, Any]) -> None:
@@ -386,15 +390,15 @@ class ShipCollision:
         if not state:
             self.close()
             return
-        for books, saved in zip(self._books, state["books"], strict=True):
-            books.set_state(saved)
+        for ledger, saved in zip(self._ledgers, state["ledgers"], strict=True):
+            ledger.set_state(saved)
         self._energy = np.array(state["energy"])
-        self._seen = [None if s is None else Seen(*s) for s in state["seen"]]
+        self._last_received = [None if s is None else ReceivedState(*s) for s in state["last_received"]]
         self._fenders.set_state(state["fenders"])
-        self._kept = {(a, b): (carrier, list(normal)) for a, b, carrier, normal in state["kept"]}
-        self._warm = {(a, b): [(place, impulse) for place, impulse in rows] for a, b, rows in state["warm"]}
+        self._last_normals = {(a, b): (carrier, list(normal)) for a, b, carrier, normal in state["last_normals"]}
+        self._warm = {(a, b): [(place, impulse) for place, impulse in rows] for a, b, rows in state["warm_starts"]}
         self._unconverged, self._scaled = state["solver"]
-        self._episodes.set_state(state["episodes"])
+        self._collisions.set_state(state["collisions"])
 
 
 def _substeps(H: float, substep: float) -> tuple[int, float]:
@@ -414,7 +418,7 @@ def _substeps(H: float, substep: float) -> tuple[int, float]:
     return n, H / n
 
 
-def _seen(t: float, H: float, state: ShipState) -> Seen:
-    return Seen(
+def _as_received(t: float, H: float, state: ShipState) -> ReceivedState:
+    return ReceivedState(
         t, H, list(state.position), list(state.attitude), state.velocity + state.rate, list(state.impulse_applied)
     )

@@ -38,7 +38,7 @@ from ..ship.loading.toml import parsed, read_toml
 from .fender import Fender
 from .geometry.clipping import convex_polygon
 
-__all__ = ["CYLINDER_SIDES", "FenderTable", "Obstacle", "ObstacleTable", "obstacle", "obstacles_from", "obstacles_toml"]
+__all__ = ["CYLINDER_SIDES", "FenderTable", "Obstacle", "ObstacleTable", "obstacle", "obstacles_toml", "read_obstacles"]
 
 CYLINDER_SIDES = 32
 """Sides of the polygon that stands for a circle: 5 cm inside it on a pier of 20 m."""
@@ -170,7 +170,7 @@ def obstacle(name: str, table: ObstacleTable) -> Obstacle:
     )  # fmt: skip
 
 
-def obstacles_from(text: str) -> list[Obstacle]:
+def read_obstacles(text: str) -> list[Obstacle]:
     """Obstacles in the order of `text`: TOML text, one table per obstacle, or the path of such a file; empty: none.
 
     One line that ends in .toml is a path. Raises InputError, in one line.
@@ -194,7 +194,7 @@ def obstacles_from(text: str) -> list[Obstacle]:
 
 
 def obstacles_toml(tables: Mapping[str, ObstacleTable]) -> str:
-    """TOML text from which obstacles_from makes the same obstacles, to the bit."""
+    """TOML text from which read_obstacles makes the same obstacles, to the bit."""
     lines = []
     for name, table in tables.items():
         lines.append(f"[{name}]")

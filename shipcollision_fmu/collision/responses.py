@@ -1,6 +1,6 @@
 """The rival responses: how two ships answer a contact. One signature, one table.
 
-    respond(encounter) -> answer          what ship b takes at each contact point in this substep, in n
+    respond(problem) -> answer          what ship b takes at each contact point in this substep, in n
 
 pgs          Projected Gauss-Seidel on the 6x6 masses: cleaned contacts, friction cone, iterated to a residual
 closed_form  one resultant contact per pair, its impact followed along the slip: Keller, Stronge (impact_process.py)
@@ -15,18 +15,18 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..ship.frames import Array
-from .dynamics.body_state import Shadow
+from .dynamics.body_state import BodyState
 from .dynamics.contact import Contact, Impulse, contact_velocity, make_contact
 from .dynamics.contact_frame import contact_axes
 from .dynamics.delassus import contact_jacobian, delassus
 from .geometry.bullet import BulletBody
-from .geometry.detection import Detector, KeptNormals
+from .geometry.detection import Detector, LastNormals
 from .solvers.impact_process import solve_slip_path
 from .solvers.poisson_restitution import solve_impact
 from .solvers.resultant_contact import resultant_contact
 from .solvers.warm_start import WarmStarts, expected, remember
 
-__all__ = ["RESPONSES", "Answer", "Encounter", "respond_bullet", "respond_closed_form", "respond_pgs"]
+__all__ = ["RESPONSES", "Answer", "ContactProblem", "respond_bullet", "respond_closed_form", "respond_pgs"]
 
 
 AT_REST = 1e-12
@@ -35,18 +35,18 @@ impact."""
 
 
 @dataclass(frozen=True)
-class Encounter:
+class ContactProblem:
     """What a response is given: ships within reach of each other, at one substep.
 
-    pairs: indices (a, b) of ships near each other; shadows: of all ships, hulls already placed there; kept: normals of
-    the last shallow contacts; warm: impulses of the substep before; bodies: the ships as Bullet knows them; friction,
+    pairs: indices (a, b) of ships near each other; states: of all ships, hulls already placed there; last_normals: of
+    shallow contacts; warm: impulses of the substep before; bodies: the ships as Bullet knows them; friction,
     restitution: of every pair; h: length of the substep [s].
     """
 
     pairs: Sequence[tuple[int, int]]
-    shadows: Sequence[Shadow]
+    states: Sequence[BodyState]
     detector: Detector
-    kept: KeptNormals
+    last_normals: LastNormals
     warm: WarmStarts
     bodies: Sequence[BulletBody]
     friction: float
@@ -63,85 +63,85 @@ class Answer:
     sweeps: int = 0
 
 
-def respond_pgs(encounter: Encounter) -> Answer:
+def respond_pgs(problem: ContactProblem) -> Answer:
     """All contacts of all pairs solved together by block Projected Gauss-Seidel (gauss_seidel.py)."""
-    shadows = encounter.shadows
-    contacts = [c for a, b in encounter.pairs for c in encounter.detector.contacts(a, b, shadows, encounter.kept)]
+    states = problem.states
+    contacts = [c for a, b in problem.pairs for c in problem.detector.contacts(a, b, states, problem.last_normals)]
     if not contacts:
-        remember(encounter.pairs, [], encounter.warm)
+        remember(problem.pairs, [], problem.warm)
         return Answer([])
     G, ships = contact_jacobian(contacts)
     axes = [contact_axes(c.normal) for c in contacts]
-    velocity = np.concatenate([axis @ contact_velocity(c, shadows) for axis, c in zip(axes, contacts, strict=True)])
+    velocity = np.concatenate([axis @ contact_velocity(c, states) for axis, c in zip(axes, contacts, strict=True)])
     if velocity[0::3].min() >= -AT_REST:  # touching, but parting, or stopped in the substep before
         return Answer([Impulse(c, np.zeros(3)) for c in contacts])
     local = np.vstack([axis @ G[3 * i : 3 * i + 3] for i, axis in enumerate(axes)])
     solution = solve_impact(
-        delassus(local, ships, shadows), velocity, encounter.friction, encounter.restitution,
-        expected(contacts, axes, encounter.warm),
+        delassus(local, ships, states), velocity, problem.friction, problem.restitution,
+        expected(contacts, axes, problem.warm),
     )  # fmt: skip
     impulses = [Impulse(c, axis.T @ P) for c, axis, P in zip(contacts, axes, solution.P, strict=True)]
-    remember(encounter.pairs, impulses, encounter.warm)
+    remember(problem.pairs, impulses, problem.warm)
     return Answer(impulses, solution.residual, solution.sweeps)
 
 
-def respond_closed_form(encounter: Encounter) -> Answer:
+def respond_closed_form(problem: ContactProblem) -> Answer:
     """One pair after the other, each as one impact at its resultant contact (resultant_contact.py, impact_process.py).
 
     A pair sees what the pairs before it did to its ships. What is not answered exactly in a substep, contacts that the
     resultant's friction or another pair closes, is met again in the next.
     """
-    shadows, impulses = list(encounter.shadows), []
-    for a, b in encounter.pairs:
-        contacts = encounter.detector.contacts(a, b, shadows, encounter.kept)
-        contact = resultant_contact(contacts, shadows) if contacts else None
+    states, impulses = list(problem.states), []
+    for a, b in problem.pairs:
+        contacts = problem.detector.contacts(a, b, states, problem.last_normals)
+        contact = resultant_contact(contacts, states) if contacts else None
         if contact is None:  # apart, or touching but parting
             impulses += [Impulse(c, np.zeros(3)) for c in contacts]
             continue
         axis = contact_axes(contact.normal)
         G, ships = contact_jacobian([contact])
-        W = delassus(axis @ G, ships, shadows)
-        path = solve_slip_path(W, axis @ contact_velocity(contact, shadows), encounter.friction, encounter.restitution)
+        W = delassus(axis @ G, ships, states)
+        path = solve_slip_path(W, axis @ contact_velocity(contact, states), problem.friction, problem.restitution)
         P = axis.T @ path.P
-        _felt(contact, P, shadows)
+        _apply_to_states(contact, P, states)
         impulses.append(Impulse(contact, P))
     return Answer(impulses)
 
 
-def _felt(contact: Contact, P: Array, shadows: list[Shadow]) -> None:
-    """What the next pair meets: both ships with the impulse P (in n) taken. Places in the list change, not shadows."""
+def _apply_to_states(contact: Contact, P: Array, states: list[BodyState]) -> None:
+    """What the next pair meets: both ships with the impulse P (in n) taken. Places in the list change, not states."""
     for i, taken in ((contact.a, -(P @ contact.G_a)), (contact.b, P @ contact.G_b)):
-        shadows[i] = replace(shadows[i], nu=shadows[i].nu + shadows[i].M_inverse @ taken)
+        states[i] = replace(states[i], nu=states[i].nu + states[i].M_inverse @ taken)
 
 
-def respond_bullet(encounter: Encounter) -> Answer:
+def respond_bullet(problem: ContactProblem) -> Answer:
     """One step of Bullet's own dynamics for every pair that touches; its contact impulses are taken over as they are.
 
     A pair sees what the pairs before it did to its ships, as with closed_form: they are not solved together.
 
     Bullet would act one step before touch, and so lose the restitution or not, by chance of the step: hence the wait.
     """
-    shadows, impulses = list(encounter.shadows), list[Impulse]()
-    for a, b in encounter.pairs:
-        if not encounter.detector.touching(a, b):
+    states, impulses = list(problem.states), list[Impulse]()
+    for a, b in problem.pairs:
+        if not problem.detector.touching(a, b):
             continue
-        rows = encounter.detector.engine.dynamic_step(
+        rows = problem.detector.bullet.dynamic_step(
             (a, b),
-            (encounter.bodies[a], encounter.bodies[b]),
-            ((shadows[a].x, shadows[a].R), (shadows[b].x, shadows[b].R)),
-            (shadows[a].nu, shadows[b].nu),
-            encounter.h,
-            encounter.friction,
-            encounter.restitution,
+            (problem.bodies[a], problem.bodies[b]),
+            ((states[a].x, states[a].R), (states[b].x, states[b].R)),
+            (states[a].nu, states[b].nu),
+            problem.h,
+            problem.friction,
+            problem.restitution,
         )
         for on_a, on_b, normal, gap, P in rows:
-            contact = make_contact(a, b, shadows, 0.5 * (on_a + on_b), normal, gap)
+            contact = make_contact(a, b, states, 0.5 * (on_a + on_b), normal, gap)
             impulses.append(Impulse(contact, P))
-            _felt(contact, P, shadows)
+            _apply_to_states(contact, P, states)
     return Answer(impulses)
 
 
-RESPONSES: dict[str, Callable[[Encounter], Answer]] = {
+RESPONSES: dict[str, Callable[[ContactProblem], Answer]] = {
     "pgs": respond_pgs,
     "closed_form": respond_closed_form,
     "bullet": respond_bullet,

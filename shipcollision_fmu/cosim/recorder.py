@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..collision.interface import contact_slots
+from ..collision.interface import contact_point_count
 from ..fmi.names import IMPULSE, STATE, named
 from ..fmi.variables import NED
 from ..results.record import CONTACT_COLUMNS, SIGNALS, Impact, Record
@@ -45,7 +45,7 @@ class Recorder:
         self._states = np.zeros((steps + 1, 1 + len(names) * len(STATE)))
         self._buffers = [np.ctypeslib.as_array(wire.outputs.values) for wire in system.states]
         collision = system.collision
-        slots = [f"contact[{i}]" for i in range(1, contact_slots(len(names)) + 1)]
+        slots = [f"contact[{i}]" for i in range(1, contact_point_count(len(names)) + 1)]
         self._counts = collision.integers(["contact.count", "impact.count", "nearest.ship_a", "nearest.ship_b"])
         self._reals = collision.reals([variable for slot in slots for variable in named(slot, CONTACT_COLUMNS)])
         self._numbers = collision.integers([variable for slot in slots for variable in named(slot, _CONTACT_NUMBERS)])

@@ -10,7 +10,7 @@ from math import pi
 
 from ..collision.checks import MAXIMUM_FRICTION
 from ..collision.dynamics.impulse_ledger import FEEDBACKS
-from ..collision.interface import contact_slots
+from ..collision.interface import contact_point_count
 from ..collision.model import ShipCollision
 from ..collision.responses import RESPONSES
 from .interface import SHIPS, Interface
@@ -41,7 +41,7 @@ def table(ships: tuple[str, ...] = SHIPS) -> Table:
     """The variables, in the order of their value references."""
     return (
         *(line for i, name in enumerate(ships) for line in _ship(i, name)),
-        *_contacts(contact_slots(len(ships))),
+        *_contacts(contact_point_count(len(ships))),
         *_impact(),
         *_energy(),
         *_solver(),

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from typing import Literal
 from xml.etree.ElementTree import Element, SubElement
 
-from ..collision.interface import contact_slots
+from ..collision.interface import contact_point_count
 from ..fmi.names import IMPULSE, ORDERS, SURROUNDINGS, named
 from ..fmi.ship_collision import INTERFACE as COLLISION_INTERFACE
 from ..fmi.ship_manoeuvring import INTERFACE as SHIP_INTERFACE
@@ -67,7 +67,7 @@ def ship_groups() -> list[Group]:
 def collision_groups(ships: Sequence[str]) -> list[Group]:
     """Of ShipCollision, built for these ships."""
     groups = [Group("LinearDisplacement", "impact", named("impact", NED))]
-    for k in range(1, contact_slots(len(ships)) + 1):
+    for k in range(1, contact_point_count(len(ships)) + 1):
         groups.append(Group("LinearDisplacement", f"contact[{k}]", named(f"contact[{k}]", NED)))
     for s in ships:
         groups += [

@@ -11,7 +11,7 @@ from math import hypot
 
 import numpy as np
 
-from ..collision.dynamics.body_state import Shadow
+from ..collision.dynamics.body_state import BodyState
 from ..collision.geometry.detection import SHALLOW, Detector
 from ..collision.geometry.plan_overlap import least_overlap
 from ..collision.obstacles import ObstacleTable, obstacle
@@ -32,19 +32,19 @@ def refuse_overlap(
     Less is taken for contact: ships that start alongside. `source` names the scenario in the message.
     """
     hulls: list[HullMesh] = []
-    shadows: list[Shadow] = []
+    states: list[BodyState] = []
     for name, ship in ships.items():
         start = starts[name].start
         hulls.append(build_hull(ship.L_oa, ship.B, ship.T, ship.hull))
-        shadows.append(Shadow.at(np.array(start.position), np.array(start.attitude), np.zeros(6), np.zeros((6, 6))))
+        states.append(BodyState.at(np.array(start.position), np.array(start.attitude), np.zeros(6), np.zeros((6, 6))))
     for name, table in obstacles.items():
         solid = obstacle(name, table)
         hulls.append(solid.solid)
-        shadows.append(Shadow.wall(solid.position, solid.heading))
+        states.append(BodyState.wall(solid.position, solid.heading))
     labels = [f"[ships.{name}]" for name in ships] + [f"[obstacles.{name}]" for name in obstacles]
     for a in range(len(ships)):
         for b in range(a + 1, len(hulls)):
-            depth = _overlap((hulls[a], hulls[b]), (shadows[a], shadows[b]))
+            depth = _overlap((hulls[a], hulls[b]), (states[a], states[b]))
             if depth > SHALLOW:
                 raise ScenarioError(
                     f"{source}: {labels[a]} and {labels[b]} overlap by {depth:.3g} m at the start, more than "
@@ -52,17 +52,17 @@ def refuse_overlap(
                 )
 
 
-def _overlap(hulls: tuple[HullMesh, HullMesh], shadows: tuple[Shadow, Shadow]) -> float:
+def _overlap(hulls: tuple[HullMesh, HullMesh], states: tuple[BodyState, BodyState]) -> float:
     """Least way [m] that parts two solids; 0 where they are apart."""
     reach = sum(float(np.linalg.norm(hull.vertices, axis=1).max()) for hull in hulls)
-    (n_a, e_a, _), (n_b, e_b, _) = shadows[0].x.tolist(), shadows[1].x.tolist()
+    (n_a, e_a, _), (n_b, e_b, _) = states[0].x.tolist(), states[1].x.tolist()
     if hypot(n_b - n_a, e_b - e_a) > reach:
         return 0.0
-    placed = [shadow.x + hull.vertices @ shadow.R.T for hull, shadow in zip(hulls, shadows, strict=True)]
+    placed = [state.x + hull.vertices @ state.R.T for hull, state in zip(hulls, states, strict=True)]
     if least_overlap(*placed)[0] <= SHALLOW:
         return 0.0
     detector = Detector(hulls)
-    with closing(detector.engine):
-        for i, shadow in enumerate(shadows):
-            detector.place(i, shadow)
+    with closing(detector.bullet):
+        for i, state in enumerate(states):
+            detector.place(i, state)
         return max(0.0, -detector.clearance(0, 1, 0.0))

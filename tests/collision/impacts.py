@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from hypothesis import strategies as st
 
-from shipcollision_fmu.collision.dynamics.body_state import Shadow, point_jacobian
+from shipcollision_fmu.collision.dynamics.body_state import BodyState, point_jacobian
 from shipcollision_fmu.collision.dynamics.contact import make_contact
 from shipcollision_fmu.collision.dynamics.contact_frame import contact_axes
 from shipcollision_fmu.ship.degrees_of_freedom import FREE, free_inverse, level_axes, tilted_inverse
@@ -45,11 +45,11 @@ class Ship:
         """The ship after the impulse P (in n) at `point`."""
         return replace(self, nu=self.nu + self.M_inverse @ self.jacobian(point).T @ P)
 
-    def shadow(self) -> Shadow:
+    def state(self) -> BodyState:
         """The same as the collision model knows her, from her position, attitude, twist and inertia alone."""
         attitude = attitude_from_rotation(self.R)
         inverse = tilted_inverse(free_inverse(self.M, self.free), self.free, attitude)
-        return Shadow.at(self.x, attitude, self.nu, inverse)
+        return BodyState.at(self.x, attitude, self.nu, inverse)
 
     @property
     def motion(self) -> Array:
@@ -125,19 +125,19 @@ class Impact:
 
 
 def check_momentum(impact: Impact, P: Array) -> None:
-    """P (in contact axes), booked by the collision model's own shadows, changes M nu of both ships by equal and
+    """P (in contact axes), booked by the collision model's own states, changes M nu of both ships by equal and
     opposite impulses at one point: -P on a and P on b in each of their free motions, and no moment about any fixed
     point. To 1e-10 of the impulse and of its moment, but for the rounding of what the ships had before.
     """
-    shadows = [impact.a.shadow(), impact.b.shadow()]
-    contact = make_contact(0, 1, shadows, impact.point, impact.normal, 0.0)
+    states = [impact.a.state(), impact.b.state()]
+    contact = make_contact(0, 1, states, impact.point, impact.normal, 0.0)
     P_n = impact.axes.T @ P
-    for shadow, G, sign in zip(shadows, (contact.G_a, contact.G_b), (-1.0, 1.0), strict=True):
-        shadow.book(sign * P_n @ G)
+    for state, G, sign in zip(states, (contact.G_a, contact.G_b), (-1.0, 1.0), strict=True):
+        state.book(sign * P_n @ G)
     size = float(np.linalg.norm(P_n))
     wrenches, wrench_size = np.zeros((2, 3)), np.zeros((2, 3))
-    for ship, shadow, sign in zip((impact.a, impact.b), shadows, (-1.0, 1.0), strict=True):
-        before, after = (ship.M @ np.linalg.solve(ship.axes, nu) for nu in (ship.nu, shadow.nu))
+    for ship, state, sign in zip((impact.a, impact.b), states, (-1.0, 1.0), strict=True):
+        before, after = (ship.M @ np.linalg.solve(ship.axes, nu) for nu in (ship.nu, state.nu))
         had = np.abs(ship.M) @ np.abs(np.linalg.solve(ship.axes, ship.nu)) + np.abs(after)
         arm, free = impact.point - ship.x, list(FREE[ship.free])
         # Along and about which axes of n each motion is: roll is about the ship's own x, level or not.

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from shipcollision_fmu.collision.dynamics.body_state import Shadow
+from shipcollision_fmu.collision.dynamics.body_state import BodyState
 from shipcollision_fmu.collision.dynamics.contact import contact_velocity, make_contact
 from shipcollision_fmu.collision.solvers.resultant_contact import resultant_contact
 from shipcollision_fmu.ship.degrees_of_freedom import free_inverse
@@ -92,25 +92,25 @@ def test_three_ships_in_a_row_pass_the_push_on(make_ship: MakeShip, world: MakeW
 # -- the reduction to one contact -------------------------------------------------------------------------------------
 
 
-def box_against_box(nu_a: tuple[float, ...], nu_b: tuple[float, ...]) -> list[Shadow]:
+def box_against_box(nu_a: tuple[float, ...], nu_b: tuple[float, ...]) -> list[BodyState]:
     inverse = free_inverse(load_ship("kvlcc2").M, 3)
     return [
-        Shadow.at(np.array(x, dtype=float), np.zeros(3), np.array(nu, dtype=float), inverse)
+        BodyState.at(np.array(x, dtype=float), np.zeros(3), np.array(nu, dtype=float), inverse)
         for x, nu in (((0, 0, 0), nu_a), ((0, 60, 0), nu_b))
     ]
 
 
-def face(shadows: list[Shadow], ends: tuple[float, ...]) -> list:
+def face(states: list[BodyState], ends: tuple[float, ...]) -> list:
     """Contacts along a side, at x = ends, normal to starboard."""
     return [
-        make_contact(0, 1, shadows, np.array([x, 30.0, 1.0]), np.array([0.0, 1.0, 0.0]), -0.01 * i)
+        make_contact(0, 1, states, np.array([x, 30.0, 1.0]), np.array([0.0, 1.0, 0.0]), -0.01 * i)
         for i, x in enumerate(ends)
     ]
 
 
 def test_sides_that_meet_squarely_touch_in_the_middle() -> None:
-    shadows = box_against_box((0, 1, 0, 0, 0, 0), (0, 0, 0, 0, 0, 0))
-    contact = resultant_contact(face(shadows, (-100.0, 100.0)), shadows)
+    states = box_against_box((0, 1, 0, 0, 0, 0), (0, 0, 0, 0, 0, 0))
+    contact = resultant_contact(face(states, (-100.0, 100.0)), states)
     assert contact is not None
     r_g = load_ship("kvlcc2").M[1, 5] / load_ship("kvlcc2").M[1, 1]  # through both centres of sway inertia
     np.testing.assert_allclose(contact.point, [r_g, 30.0, 1.0], atol=1e-6)
@@ -119,8 +119,8 @@ def test_sides_that_meet_squarely_touch_in_the_middle() -> None:
 
 
 def test_a_turning_side_touches_at_its_end() -> None:
-    shadows = box_against_box((0, 0.1, 0, 0, 0, 0.02), (0, 0, 0, 0, 0, 0))
-    contact = resultant_contact(face(shadows, (-100.0, 20.0, 100.0)), shadows)
+    states = box_against_box((0, 0.1, 0, 0, 0, 0.02), (0, 0, 0, 0, 0, 0))
+    contact = resultant_contact(face(states, (-100.0, 20.0, 100.0)), states)
     assert contact is not None
     np.testing.assert_allclose(contact.point, [100.0, 30.0, 1.0], atol=1e-6)
 
@@ -129,19 +129,19 @@ def test_the_frictionless_resultant_leaves_no_contact_approaching() -> None:
     rng = np.random.default_rng(3)
     for _ in range(50):
         nus = [(rng.normal(), rng.normal(), 0, 0, 0, 0.02 * rng.normal()) for _ in range(2)]
-        shadows = box_against_box(*nus)
-        contacts = face(shadows, tuple(rng.uniform(-150.0, 150.0, size=3)))
-        contact = resultant_contact(contacts, shadows)
+        states = box_against_box(*nus)
+        contacts = face(states, tuple(rng.uniform(-150.0, 150.0, size=3)))
+        contact = resultant_contact(contacts, states)
         if contact is None:
-            assert min(contact_velocity(c, shadows)[1] for c in contacts) >= 0.0
+            assert min(contact_velocity(c, states)[1] for c in contacts) >= 0.0
             continue
         G_a, G_b = contact.G_a[1], contact.G_b[1]
-        W_nn = G_a @ shadows[0].M_inverse @ G_a + G_b @ shadows[1].M_inverse @ G_b
-        P = -contact_velocity(contact, shadows)[1] / W_nn
+        W_nn = G_a @ states[0].M_inverse @ G_a + G_b @ states[1].M_inverse @ G_b
+        P = -contact_velocity(contact, states)[1] / W_nn
         assert P > 0.0
-        shadows[0].book(-P * G_a)
-        shadows[1].book(P * G_b)
-        assert min(contact_velocity(c, shadows)[1] for c in contacts) >= -1e-9
+        states[0].book(-P * G_a)
+        states[1].book(P * G_b)
+        assert min(contact_velocity(c, states)[1] for c in contacts) >= -1e-9
 
 
 def test_no_approach_no_contact_and_one_contact_is_itself() -> None:

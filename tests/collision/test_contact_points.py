@@ -5,35 +5,37 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from shipcollision_fmu.collision.contact_points import Slot, fitted, merged
-from shipcollision_fmu.collision.dynamics.body_state import Shadow
+from shipcollision_fmu.collision.contact_points import ContactPoint, fit_contact_points, merge_contact_point
+from shipcollision_fmu.collision.dynamics.body_state import BodyState
 from shipcollision_fmu.collision.dynamics.contact import make_contact
-from shipcollision_fmu.collision.interface import ContactSlot, contact_slots
+from shipcollision_fmu.collision.interface import ContactOutput, contact_point_count
 
-SHADOWS = [Shadow.at(np.zeros(3), np.zeros(3), np.zeros(6), np.eye(6)) for _ in range(6)]
+STATES = [BodyState.at(np.zeros(3), np.zeros(3), np.zeros(6), np.eye(6)) for _ in range(6)]
 
 
-def slot(
+def point(
     a: int, b: int, place: float, P: list[float], normal: tuple[float, float] = (0.0, 1.0), impact: int = 1
-) -> Slot:
-    contact = make_contact(a, b, SHADOWS, np.array([place, 0.0, 0.0]), np.array([*normal, 0.0]), -0.01)
-    return Slot.of(contact, np.array(P), 10.0, impact, impact)
+) -> ContactPoint:
+    contact = make_contact(a, b, STATES, np.array([place, 0.0, 0.0]), np.array([*normal, 0.0]), -0.01)
+    return ContactPoint.of(contact, np.array(P), 10.0, impact, impact)
 
 
-def shown(of: Slot) -> ContactSlot:
-    place = ContactSlot()
+def shown(of: ContactPoint) -> ContactOutput:
+    place = ContactOutput()
     of.fill(place)
     return place
 
 
-@pytest.mark.parametrize(("ships", "slots"), [(2, 8), (3, 12), (20, 64), (500, 64)])
-def test_slots_grow_with_the_ships_of_the_build(ships: int, slots: int) -> None:
-    assert contact_slots(ships) == slots
+@pytest.mark.parametrize(("ships", "points"), [(2, 8), (3, 12), (20, 64), (500, 64)])
+def test_slots_grow_with_the_ships_of_the_build(ships: int, points: int) -> None:
+    assert contact_point_count(ships) == points
 
 
 def test_a_normal_that_turns_between_substeps_makes_no_friction() -> None:
     """Frictionless impulses of 3 and 4 N s along two normals: none of either is tangential."""
-    (joined,) = merged([slot(0, 1, 0.0, [0.0, 3.0, 0.0])], slot(0, 1, 0.1, [4.0, 0.0, 0.0], normal=(1.0, 0.0)))
+    (joined,) = merge_contact_point(
+        [point(0, 1, 0.0, [0.0, 3.0, 0.0])], point(0, 1, 0.1, [4.0, 0.0, 0.0], normal=(1.0, 0.0))
+    )
     values = shown(joined).values
     assert values[1] == 7.0
     assert values[2] == 0.0
@@ -42,11 +44,11 @@ def test_a_normal_that_turns_between_substeps_makes_no_friction() -> None:
 
 
 def test_too_many_points_are_joined_by_pair_and_kind() -> None:
-    slots = [slot(0, 1, 10.0 * k, [0.1, 1.0 + k, 0.0]) for k in range(4)]
-    slots += [slot(2, 3, 10.0 * k, [0.0, 20.0, 0.0]) for k in range(3)]
-    slots += [slot(0, 1, 50.0, [0.0, 5.0, 0.0], impact=0)]  # of a fender
-    assert fitted(slots, 8) == slots
-    joined = fitted(slots, 7)
+    points = [point(0, 1, 10.0 * k, [0.1, 1.0 + k, 0.0]) for k in range(4)]
+    points += [point(2, 3, 10.0 * k, [0.0, 20.0, 0.0]) for k in range(3)]
+    points += [point(0, 1, 50.0, [0.0, 5.0, 0.0], impact=0)]  # of a fender
+    assert fit_contact_points(points, 8) == points
+    joined = fit_contact_points(points, 7)
     assert [(s.contact.a, s.contact.b, s.impact > 0) for s in joined if s.contact] == [
         (2, 3, True), (0, 1, True), (0, 1, False),
     ]  # fmt: skip
@@ -54,4 +56,4 @@ def test_too_many_points_are_joined_by_pair_and_kind() -> None:
     assert [s.energy for s in joined] == [30.0, 40.0, 10.0]
     assert joined[1].contact is not None
     assert joined[1].contact.point[0] == 30.0  # of the largest impulse
-    assert len(fitted(slots, 2)) == 2
+    assert len(fit_contact_points(points, 2)) == 2

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from shipcollision_fmu.collision.fender import Fender, friction_impulse, in_series, squeezed
+from shipcollision_fmu.collision.fender import Fender, combine_in_series, compress_fender, solve_friction
 from shipcollision_fmu.collision.model import ShipCollision
 from shipcollision_fmu.errors import InputError
 from tests.collision.conftest import BOX, World
@@ -72,8 +72,8 @@ def test_the_speed_comes_back_to_second_order_in_the_substep() -> None:
         for _ in range(round(6.0 / h)):
             x += h * v
             if x > 0.0:
-                squeeze = squeezed(Fender(K, 0.0, 2.0), x, v, 1.0 / MASS, stored, h)
-                v, stored = v - squeeze.P / MASS, squeeze.stored
+                compressed = compress_fender(Fender(K, 0.0, 2.0), x, v, 1.0 / MASS, stored, h)
+                v, stored = v - compressed.P / MASS, compressed.stored
         assert x < 0.0
         assert -1e-12 <= 1.0 + v / V <= (OMEGA * h) ** 2 / 4
 
@@ -149,9 +149,9 @@ def test_no_step_delay_or_stiffness_gives_energy(
 
 
 def test_fenders_of_a_ship_and_of_a_quay_are_in_series(make_ship: Make, world: MakeWorld) -> None:
-    assert in_series(Fender(2.0, 3.0, 1.0), Fender(2.0, 6.0, 0.5)) == Fender(1.0, 2.0, 1.5)
-    assert in_series(None, Fender(2.0, 0.0, 1.0)) == Fender(2.0, 0.0, 1.0)
-    assert in_series(None, None) is None
+    assert combine_in_series(Fender(2.0, 3.0, 1.0), Fender(2.0, 6.0, 0.5)) == Fender(1.0, 2.0, 1.5)
+    assert combine_in_series(None, Fender(2.0, 0.0, 1.0)) == Fender(2.0, 0.0, 1.0)
+    assert combine_in_series(None, None) is None
     ship = make_ship("box", BOX)
     one = head_on(world, ship, wall()).run(6.0, H)
     both = head_on(world, ship, wall(2 * K, 0.0, 1.0).replace("position = [111.0", "position = [112.0"))
@@ -178,13 +178,13 @@ def test_what_is_no_fender_is_refused(make_ship: Make, values: list[float]) -> N
 def test_a_substep_returns_no_more_than_was_stored(
     k: float, c: float, x: float, rate: float, W: float, stored: float, h: float
 ) -> None:
-    squeeze = squeezed(Fender(k, c, 10.0), x, rate, W, stored, h)
-    taken = squeeze.P * (rate - 0.5 * W * squeeze.P)
-    scale = 1e-200 + stored + abs(squeeze.P * rate) + 0.5 * W * squeeze.P**2
-    assert squeeze.P >= 0.0
-    assert 0.0 <= squeeze.stored <= 0.5 * k * x * (x + h * abs(rate)) * (1 + 1e-9)
-    assert squeeze.dissipated >= -1e-9 * scale
-    assert taken + stored == pytest.approx(squeeze.stored + squeeze.dissipated, rel=1e-9, abs=1e-9 * scale)
+    compressed = compress_fender(Fender(k, c, 10.0), x, rate, W, stored, h)
+    taken = compressed.P * (rate - 0.5 * W * compressed.P)
+    scale = 1e-200 + stored + abs(compressed.P * rate) + 0.5 * W * compressed.P**2
+    assert compressed.P >= 0.0
+    assert 0.0 <= compressed.stored <= 0.5 * k * x * (x + h * abs(rate)) * (1 + 1e-9)
+    assert compressed.dissipated >= -1e-9 * scale
+    assert taken + stored == pytest.approx(compressed.stored + compressed.dissipated, rel=1e-9, abs=1e-9 * scale)
 
 
 @given(
@@ -196,6 +196,6 @@ def test_rubbing_stays_in_the_cone_and_loses_energy(
     a: float, b: float, share: float, s: tuple[float, float], limit: float
 ) -> None:
     W, slip = np.array([[a, share * sqrt(a * b)], [share * sqrt(a * b), b]]), np.array(s)
-    P = friction_impulse(W, slip, 0.5, limit)
+    P = solve_friction(W, slip, 0.5, limit)
     assert np.hypot(*P) <= 0.5 * limit * (1 + 1e-12) + 1e-300
     assert P @ (slip + 0.5 * W @ P) <= 1e-9 * abs(P @ slip)

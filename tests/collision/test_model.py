@@ -191,14 +191,14 @@ def test_ships_in_three_degrees_of_freedom_take_no_roll(make_ship: Make, world: 
         {**T_BONE[1], "position": [0.0, 0.0, 0.0], "attitude": (0, 0, pi / 2)},
     ]
     w = world(ships, flat, degrees_of_freedom=3).run(1.0, 0.05)
-    for shadow in w.model.outputs.ships:
-        assert shadow.velocity[2] == 0.0
-        assert shadow.rate[:2] == [0.0, 0.0]
+    for state in w.model.outputs.ships:
+        assert state.velocity[2] == 0.0
+        assert state.rate[:2] == [0.0, 0.0]
     assert w.model.outputs.impact_count == 1
     assert max(w.work) <= 1e-9 * abs(sum(w.work))
 
 
-def test_contact_slots_add_up_to_the_ledger(make_ship: Make, world: MakeWorld) -> None:
+def test_contact_points_add_up_to_the_ledger(make_ship: Make, world: MakeWorld) -> None:
     w = world([make_ship("a"), make_ship("b", mass=25e6)], T_BONE)
     P, energy = np.zeros(3), 0.0
     for _ in range(60):

@@ -16,8 +16,8 @@ from shipcollision_fmu.collision.obstacles import (
     CYLINDER_SIDES,
     ObstacleTable,
     obstacle,
-    obstacles_from,
     obstacles_toml,
+    read_obstacles,
 )
 from shipcollision_fmu.errors import InputError, StepError
 from shipcollision_fmu.ship.frames import attitude_from_rotation
@@ -47,7 +47,7 @@ STERN_ON = [{"position": [0.0, 0.0, 0.0], "nu": [2.0, 0, 0, 0, 0, 0]}]  # the st
 
 
 def read(text: str) -> ObstacleTable:
-    (found,) = obstacles_from(text)
+    (found,) = read_obstacles(text)
     assert found
     return ObstacleTable.model_validate(_content(text))
 
@@ -78,7 +78,7 @@ def is_closed(mesh: HullMesh) -> bool:
     ],
 )
 def test_a_prism_is_closed_and_has_its_volume(shape: str, area: float) -> None:
-    (found,) = obstacles_from(f'[it]\nkind = "x"\nposition = [1.0, 2.0]\ntop = 3.0\nbottom = 9.0\n{shape}')
+    (found,) = read_obstacles(f'[it]\nkind = "x"\nposition = [1.0, 2.0]\ntop = 3.0\nbottom = 9.0\n{shape}')
     assert found.solid.volume == pytest.approx(12.0 * area, rel=1e-12)
     assert is_closed(found.solid)
     assert found.solid.vertices[:, 2].min() == -3.0
@@ -86,7 +86,7 @@ def test_a_prism_is_closed_and_has_its_volume(shape: str, area: float) -> None:
 
 
 def test_height_counts_down_from_the_top() -> None:
-    (found,) = obstacles_from('[deck]\nkind = "bridge"\nshape = "box"\nlength = 9.0\nbreadth = 9.0\n'
+    (found,) = read_obstacles('[deck]\nkind = "bridge"\nshape = "box"\nlength = 9.0\nbreadth = 9.0\n'
                               "position = [0, 0]\ntop = 40.0\nheight = 10.0")  # fmt: skip
     assert found.solid.vertices[:, 2].max() == -30.0
 
@@ -94,12 +94,12 @@ def test_height_counts_down_from_the_top() -> None:
 def test_text_and_back_gives_the_same_obstacles(tmp_path: Path) -> None:
     text = WALL + "fender = {stiffness = 1e6, thickness = 0.7}\n" + PIER.replace("9.0", "0.1")
     tables = {o.name: ObstacleTable.model_validate(t) for o, t in zip(
-        obstacles_from(text), [_content(WALL + "fender = {stiffness = 1e6, thickness = 0.7}"),
+        read_obstacles(text), [_content(WALL + "fender = {stiffness = 1e6, thickness = 0.7}"),
                                _content(PIER.replace("9.0", "0.1"))], strict=True)}  # fmt: skip
-    again = obstacles_from(obstacles_toml(tables))
+    again = read_obstacles(obstacles_toml(tables))
     path = tmp_path / "walls.toml"
     path.write_text(text)
-    for one, two, three in zip(obstacles_from(text), again, obstacles_from(str(path)), strict=True):
+    for one, two, three in zip(read_obstacles(text), again, read_obstacles(str(path)), strict=True):
         assert (one.name, one.kind, one.heading, one.fender) == (two.name, two.kind, two.heading, two.fender)
         np.testing.assert_array_equal(one.solid.vertices, two.solid.vertices)
         np.testing.assert_array_equal(one.solid.vertices, three.solid.vertices)
@@ -108,7 +108,7 @@ def test_text_and_back_gives_the_same_obstacles(tmp_path: Path) -> None:
 
 def test_names_of_kinds_survive_any_character() -> None:
     table = ObstacleTable(kind='a "quay"\\\n\x7f', shape="cylinder", diameter=1.0, position=[0.0, 0.0])
-    assert obstacles_from(obstacles_toml({"q": table}))[0].kind == table.kind
+    assert read_obstacles(obstacles_toml({"q": table}))[0].kind == table.kind
     assert obstacle("q", table).kind == table.kind
 
 
@@ -134,7 +134,7 @@ def test_names_of_kinds_survive_any_character() -> None:
 )  # fmt: skip
 def test_what_is_no_obstacle_is_refused_in_one_line(text: str, message: str) -> None:
     with pytest.raises(InputError, match=message) as error:
-        obstacles_from(text)
+        read_obstacles(text)
     assert "\n" not in str(error.value)
 
 

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from shipcollision_fmu.collision.dynamics.body_state import Shadow
+from shipcollision_fmu.collision.dynamics.body_state import BodyState
 from shipcollision_fmu.ship.frames import rotation
 from tests.collision.conftest import BOX, NO_ADDED_MASS, World
 
@@ -25,16 +25,16 @@ def test_the_twist_is_that_of_the_pose_at_which_she_takes_impulses(
 ) -> None:
     """Velocity of CG and angular velocity constant in n; no matter where the hull is seen from."""
     r_bg = np.array([3.0, 0.0, 1.0])
-    shadow = Shadow.at(100.0 * pose[:3], pose[3:], nu, np.eye(6), r_bg)
-    x_0, R_0 = shadow.x_applied, shadow.R_applied
+    state = BodyState.at(100.0 * pose[:3], pose[3:], nu, np.eye(6), r_bg)
+    x_0, R_0 = state.x_applied, state.R_applied
     x, R = x_0 + way[:3], rotation(way[3:]) @ R_0
-    shadow.apply_at(x, R, 2.0 * np.eye(6))
+    state.apply_at(x, R, 2.0 * np.eye(6))
     omega, v_g = R_0 @ nu[3:], R_0 @ (nu[:3] + np.cross(nu[3:], r_bg))
-    np.testing.assert_allclose(shadow.nu[3:], R.T @ omega, atol=1e-12)
-    np.testing.assert_allclose(shadow.nu[:3], R.T @ (v_g - np.cross(omega, R @ r_bg)), atol=1e-12)
-    np.testing.assert_allclose(shadow.jacobian(x + R @ r_bg) @ shadow.nu, v_g, atol=1e-12)  # of CG, by then
-    assert shadow.x is x_0  # contact is looked for from where she is now
-    assert shadow.R is R_0
+    np.testing.assert_allclose(state.nu[3:], R.T @ omega, atol=1e-12)
+    np.testing.assert_allclose(state.nu[:3], R.T @ (v_g - np.cross(omega, R @ r_bg)), atol=1e-12)
+    np.testing.assert_allclose(state.jacobian(x + R @ r_bg) @ state.nu, v_g, atol=1e-12)  # of CG, by then
+    assert state.x is x_0  # contact is looked for from where she is now
+    assert state.R is R_0
 
 
 def late_impulse(world: MakeWorld, ship: str, V: tuple[float, float], e: float, H: float) -> tuple[World, np.ndarray]:
@@ -46,8 +46,8 @@ def late_impulse(world: MakeWorld, ship: str, V: tuple[float, float], e: float, 
         for x, y, psi, u, v, r in ((0.0, 0.0, 0.0, 0.0, 0.0, 0.01), (20.0, -125.0, 1.3, 0.5, 3.0, -0.012))
     ]  # fmt: skip
     w = world([ship, ship], start, algorithm="jacobi", degrees_of_freedom=3, friction=0.3, restitution=e, substep=0.05)
-    for books in w.model._books:
-        books.late = True
+    for ledger in w.model._ledgers:
+        ledger.one_step_delay = True
     while not (w.work and w.work[-1]):
         w.step(H)
         assert w.t < 20.0
@@ -78,7 +78,7 @@ def test_a_corner_that_meets_a_wall_late_has_stopped_there(make_ship: Make, worl
     quay = '[quay]\nkind = "quay"\nshape = "box"\nlength = 6000.0\nbreadth = 20.0\nposition = [0.0, 60.0]'
     w = world([box, box], start, algorithm="jacobi", degrees_of_freedom=3, friction=0.0, restitution=0.0,
               obstacles=quay, substep=0.05)  # fmt: skip
-    w.model._books[1].late = True  # of the other ship: so this one will be late, too
+    w.model._ledgers[1].one_step_delay = True  # of the other ship: so this one will be late, too
     corner = np.array([100.0, 15.0, 0.0])
     while not (w.work and w.work[-1]):
         R, nu = w.R[0], w.nu[0]

@@ -83,7 +83,7 @@ class Balance:
 
     def __init__(self, w: World) -> None:
         self.w, self.sum, self.size = w, np.zeros(6), np.zeros(2)
-        self.quiet, self.restless = 0, False
+        self.quiet, self.out_of_range = 0, False
 
     def look(self, H: float) -> None:
         """Take in the world's last step, of H [s]."""
@@ -97,11 +97,13 @@ class Balance:
         if self.w.algorithm == "gauss-seidel":  # step by step
             assert np.abs(step[:3]).max() <= 1e-10 * size[0]
             assert np.abs(step[3:]).max() <= 1e-10 * size[1]
-        elif self.quiet > 1 and not self.restless:  # a parallel one: once all is applied, of ships that do not go far
+        elif (
+            self.quiet > 1 and not self.out_of_range
+        ):  # a parallel one: once all is applied, of ships that do not go far
             assert np.abs(self.sum[:3]).max() <= 1e-10 * self.size[0]
             assert np.abs(self.sum[3:]).max() <= 1e-10 * self.size[1]
         for nu, body in zip(self.w.nu, self.w.model._bodies, strict=False):
-            self.restless |= H * (np.linalg.norm(nu[3:]) + np.linalg.norm(nu[:3]) / body.reach) > 0.1
+            self.out_of_range |= H * (np.linalg.norm(nu[3:]) + np.linalg.norm(nu[:3]) / body.reach) > 0.1
 
     def pending(self) -> list[np.ndarray]:
         return [np.array(o.impulse) - a for o, a in zip(self.w.model.outputs.ships, self.w.applied, strict=True)]
@@ -163,8 +165,8 @@ def test_a_parallel_master_that_is_known_gains_nothing_and_loses_what_the_model_
         if parameters["degrees_of_freedom"] == 4 or "fender" in parameters["obstacles"] or duration > 300.0 * H:
             continue
         w = world(names, starts, **{**parameters, "algorithm": "jacobi"})
-        for books in w.model._books:
-            books.late = True
+        for ledger in w.model._ledgers:
+            ledger.one_step_delay = True
         kinetic = w.energy(0) + w.energy(1)
         while w.t < duration:
             w.step(H)

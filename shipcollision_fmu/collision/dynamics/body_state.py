@@ -1,12 +1,12 @@
 """The collision model's own copy of a ship, for the length of one communication step.
 
-A shadow has two poses. The pose of *application* is where the ship model will apply the impulse, so there it is booked,
+A state has two poses. The pose of *application* is where the ship model will apply the impulse, so there it is booked,
 and momentum balances to rounding: the pose received at the start of the communication step, or for a ship that is late
 (under a parallel master, impulse_ledger.py) that which she will have one step on. The *predicted* pose moves on with
 the substeps and is where contact is looked for.
 
     nu      twist about CO in b of the pose of application, changed by impulses only
-    drift   what other forces are expected to add to it, in the mean over the step; off_centre: what it lacks to the
+    drift   what other forces are expected to add to it, in the mean over the step; scheme_error: what it lacks to the
             twist by which energy is reckoned (other_forces.py); None: nothing
     G       = [R, -R skew(r)]              velocity of the point r (in b) in n is G nu;  (3, 6)
     J       = G^T P                        impulse P (in n) at that point, as the ship books it, in b about CO
@@ -27,7 +27,7 @@ import numpy as np
 from ...ship.coasting import coast_pose
 from ...ship.frames import Array, rotation, skew
 
-__all__ = ["Shadow", "point_jacobian"]
+__all__ = ["BodyState", "point_jacobian"]
 
 
 def point_jacobian(R_nb: Array, r_b: Array) -> Array:
@@ -39,7 +39,7 @@ def point_jacobian(R_nb: Array, r_b: Array) -> Array:
 
 
 @dataclass
-class Shadow:
+class BodyState:
     """A ship during a communication step. Arrays: x (3,) in n [m], R (3, 3) = R_nb, nu (6,) in b about CO, r_bg (3,)
     CG in b [m].
 
@@ -56,21 +56,21 @@ class Shadow:
     r_bg: Array
     issued: Array  # (6,) impulse booked in this communication step, in b about CO at the pose of application
     drift: Array | None = None  # (6,)
-    off_centre: Array | None = None  # (6,)
+    scheme_error: Array | None = None  # (6,)
     fixed: bool = False  # an obstacle: M_inverse is zero, and it never moves
 
     @classmethod
-    def at(cls, position: Array, attitude: Array, nu: Array, M_inverse: Array, r_bg: Array | None = None) -> Shadow:
-        """Shadow at a pose (n [m], rad) with the twist nu (b about CO); CG is CO unless r_bg tells."""
+    def at(cls, position: Array, attitude: Array, nu: Array, M_inverse: Array, r_bg: Array | None = None) -> BodyState:
+        """BodyState at a pose (n [m], rad) with the twist nu (b about CO); CG is CO unless r_bg tells."""
         R = rotation(attitude)
         return cls(position, R, position, R, nu, nu, M_inverse, np.zeros(3) if r_bg is None else r_bg, np.zeros(6))
 
     @classmethod
-    def wall(cls, position: Array, heading: float) -> Shadow:
-        """Shadow of an obstacle: it has no twist and takes none."""
-        shadow = cls.at(position, np.array([0.0, 0.0, heading]), np.zeros(6), np.zeros((6, 6)))
-        shadow.fixed = True
-        return shadow
+    def wall(cls, position: Array, heading: float) -> BodyState:
+        """BodyState of an obstacle: it has no twist and takes none."""
+        state = cls.at(position, np.array([0.0, 0.0, heading]), np.zeros(6), np.zeros((6, 6)))
+        state.fixed = True
+        return state
 
     def advance(self, h: float) -> None:
         """Move the predicted pose on by h [s] with the twist expected over the step."""
@@ -81,12 +81,12 @@ class Shadow:
         v_g = self.R_applied @ (v + skew(omega) @ self.r_bg) if omega.any() else self.R_applied @ v
         return coast_pose(x, R, v_g, self.R_applied @ omega, self.r_bg, h)
 
-    def ahead(self, nu: Array, h: float) -> tuple[Array, Array]:
+    def coast(self, nu: Array, h: float) -> tuple[Array, Array]:
         """Pose (x, R) h [s] after that of application, with the twist nu (6,) there."""
         return self._moved(self.x_applied, self.R_applied, nu if self.drift is None else nu + self.drift, h)
 
     @property
-    def nu_predicted(self) -> Array:
+    def predicted_twist(self) -> Array:
         """The twist (6,) in b of the predicted pose."""
         return self._seen_from(self.R, self.nu)
 
@@ -94,7 +94,7 @@ class Shadow:
         """Let the ship take impulses at the pose x, R to which her motion leads, with M_inverse (6, 6) in b there."""
         self.nu = self._seen_from(R, self.nu)
         self.drift = None if self.drift is None else self._seen_from(R, self.drift)
-        self.off_centre = None if self.off_centre is None else self._seen_from(R, self.off_centre)
+        self.scheme_error = None if self.scheme_error is None else self._seen_from(R, self.scheme_error)
         self.x_applied, self.R_applied, self.M_inverse = x, R, M_inverse
 
     def _seen_from(self, R: Array, nu: Array) -> Array:
@@ -112,9 +112,9 @@ class Shadow:
         return self.nu if self.drift is None else self.nu + self.drift
 
     @property
-    def centred(self) -> Array:
+    def nu_energy(self) -> Array:
         """The twist (6,) by which energy is reckoned."""
-        return self.nu if self.off_centre is None else self.nu + self.off_centre
+        return self.nu if self.scheme_error is None else self.nu + self.scheme_error
 
     def point(self, r_b: Array) -> Array:
         """Where the point r_b [m] (in b) is at the predicted pose, in n; (3,)."""

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ...ship.frames import Array
-from .body_state import Shadow
+from .body_state import BodyState
 
 __all__ = ["Contact", "Impulse", "actual_velocity", "book", "contact_velocity", "make_contact"]
 
@@ -47,32 +47,32 @@ class Impulse:
     P: Array
 
 
-def make_contact(a: int, b: int, shadows: Sequence[Shadow], point: Array, normal: Array, gap: float) -> Contact:
+def make_contact(a: int, b: int, states: Sequence[BodyState], point: Array, normal: Array, gap: float) -> Contact:
     """Contact at `point` (in n, predicted poses) of ships a and b."""
-    one, other = shadows[a], shadows[b]
+    one, other = states[a], states[b]
     r_a, r_b = one.body(point), other.body(point)
     at = 0.5 * (one.point_applied(r_a) + other.point_applied(r_b))
     return Contact(a, b, point, normal, gap, r_a, r_b, at, one.jacobian(at), other.jacobian(at))
 
 
-def contact_velocity(contact: Contact, shadows: Sequence[Shadow]) -> Array:
+def contact_velocity(contact: Contact, states: Sequence[BodyState]) -> Array:
     """Velocity of b relative to a at a contact, in n [m/s]; (3,). Approaching when its normal part is negative.
 
     It is the mean expected over the step, which is what a response has to stop; the ships' own is actual_velocity.
     """
-    v: Array = contact.G_b @ shadows[contact.b].expected - contact.G_a @ shadows[contact.a].expected
+    v: Array = contact.G_b @ states[contact.b].expected - contact.G_a @ states[contact.a].expected
     return v
 
 
-def actual_velocity(contact: Contact, shadows: Sequence[Shadow]) -> Array:
+def actual_velocity(contact: Contact, states: Sequence[BodyState]) -> Array:
     """The same with the ships' twists as they are now, without what other forces may add; (3,)."""
-    v: Array = contact.G_b @ shadows[contact.b].centred - contact.G_a @ shadows[contact.a].centred
+    v: Array = contact.G_b @ states[contact.b].nu_energy - contact.G_a @ states[contact.a].nu_energy
     return v
 
 
-def book(impulse: Impulse, shadows: Sequence[Shadow]) -> None:
+def book(impulse: Impulse, states: Sequence[BodyState]) -> None:
     """The impulse into the twists and ledgers of both bodies; an obstacle has neither."""
     c, P = impulse.contact, impulse.P
     for i, G, sign in ((c.a, c.G_a, -1.0), (c.b, c.G_b, 1.0)):
-        if not shadows[i].fixed:
-            shadows[i].book(sign * P @ G)
+        if not states[i].fixed:
+            states[i].book(sign * P @ G)

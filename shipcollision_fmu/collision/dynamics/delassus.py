@@ -15,7 +15,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...ship.frames import Array
-from .body_state import Shadow
+from .body_state import BodyState
 from .contact import Contact
 
 __all__ = ["contact_jacobian", "delassus", "mobility"]
@@ -32,15 +32,15 @@ def contact_jacobian(contacts: Sequence[Contact]) -> tuple[Array, list[int]]:
     return G, ships
 
 
-def delassus(G: Array, ships: Sequence[int], shadows: Sequence[Shadow]) -> Array:
+def delassus(G: Array, ships: Sequence[int], states: Sequence[BodyState]) -> Array:
     """W = G M^-1 G^T; (3k, 3k) [1/kg]."""
-    GM = np.hstack([G[:, 6 * i : 6 * i + 6] @ shadows[ship].M_inverse for i, ship in enumerate(ships)])
+    GM = np.hstack([G[:, 6 * i : 6 * i + 6] @ states[ship].M_inverse for i, ship in enumerate(ships)])
     W: Array = GM @ G.T
     symmetric: Array = 0.5 * (W + W.T)
     return symmetric
 
 
-def mobility(c: Contact, shadows: Sequence[Shadow]) -> Array:
+def mobility(c: Contact, states: Sequence[BodyState]) -> Array:
     """W of one contact alone, in n: what a unit impulse does to its relative velocity; (3, 3) [1/kg]."""
-    W: Array = c.G_a @ shadows[c.a].M_inverse @ c.G_a.T + c.G_b @ shadows[c.b].M_inverse @ c.G_b.T
+    W: Array = c.G_a @ states[c.a].M_inverse @ c.G_a.T + c.G_b @ states[c.b].M_inverse @ c.G_b.T
     return W

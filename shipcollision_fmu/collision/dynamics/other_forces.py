@@ -20,7 +20,7 @@ Ships' models differ in what they move by under a constant force: the mean of th
 (exact), the one at its start (explicit Euler) or at its end (semi-implicit). Energy is reckoned with the velocity that
 an exact model would have, moving alike:
 
-    nu centred = nu + mean - gain/2                        exact: nu; explicit: nu - a H/2; semi-implicit: nu + a H/2
+    nu nu_energy = nu + mean - gain/2                        exact: nu; explicit: nu - a H/2; semi-implicit: nu + a H/2
 
 A scheme of n inner steps is 1/n as far off. Of an exact model mean - gain/2 is not nil either, but a twelfth of what
 the force grew by in the step: that moves no ship, and in an impact energy would be gained by it. Below EXACT of the
@@ -40,7 +40,7 @@ import numpy as np
 
 from ...ship.frames import Array, rotation, rotation_vector
 
-__all__ = ["Drift", "Seen", "drift"]
+__all__ = ["Drift", "ReceivedState", "drift"]
 
 MOST = 2.0
 """Acceleration [m/s2] above which the motion between two steps is not a ship's (it was put elsewhere): no drift."""
@@ -53,7 +53,7 @@ EXACT = 0.005
 """Share of the gain below which mean - gain/2 is not the mark of an Euler scheme (1/2, of n inner steps 1/(2 n))."""
 
 
-class Seen(NamedTuple):
+class ReceivedState(NamedTuple):
     """A ship as received at the start t [s] of a step of H [s]: pose, twist (6), impulse_applied (6); plain lists."""
 
     t: float
@@ -67,16 +67,16 @@ class Seen(NamedTuple):
 class Drift(NamedTuple):
     """What other forces did to a ship in a step, in the mean and by its end; (6,) each, in b at the step's start.
 
-    off_centre: by how much the received twist (6,) falls short of that of a model that moves alike and is exact; None
+    scheme_error: by how much the received twist (6,) falls short of that of a model that moves alike and is exact; None
     for one that is.
     """
 
     mean: Array
     gain: Array
-    off_centre: Array | None
+    scheme_error: Array | None
 
 
-def drift(before: Seen, now: Seen, M_inverse: Array, r_bg: Array, reach: float) -> Drift | None:
+def drift(before: ReceivedState, now: ReceivedState, M_inverse: Array, r_bg: Array, reach: float) -> Drift | None:
     """Of the step that `before` began and `now` ended, M_inverse at the attitude before; None where there is nothing to
     be seen."""
     H = before.H
@@ -95,8 +95,8 @@ def drift(before: Seen, now: Seen, M_inverse: Array, r_bg: Array, reach: float) 
     moved_on, sped_up = _speed(mean, reach), _speed(gain, reach)
     if moved_on > MOST * H or sped_up > MOST * H or max(moved_on, sped_up) <= LEAST:
         return None
-    off_centre = mean - 0.5 * gain
-    return Drift(mean, gain, off_centre if _speed(off_centre, reach) > EXACT * sped_up else None)
+    scheme_error = mean - 0.5 * gain
+    return Drift(mean, gain, scheme_error if _speed(scheme_error, reach) > EXACT * sped_up else None)
 
 
 def _speed(nu: Array, reach: float) -> float:

@@ -13,42 +13,42 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ...ship.frames import Array
-from .body_state import Shadow
+from .body_state import BodyState
 from .contact import Impulse, actual_velocity
 
-__all__ = ["passive"]
+__all__ = ["enforce_passivity"]
 
 ROUNDING = 1e-9
 """Gain, as a share of the work of the impulses, that is rounding."""
 
 
-def passive(impulses: Sequence[Impulse], shadows: Sequence[Shadow]) -> tuple[list[Impulse], bool]:
+def enforce_passivity(impulses: Sequence[Impulse], states: Sequence[BodyState]) -> tuple[list[Impulse], bool]:
     """The impulses, scaled where they would add energy; and whether any were."""
     answer: list[Impulse] = []
     scaled = False
-    for group in _groups(impulses, shadows) if impulses else ():
-        s = _scale(group, shadows)
+    for group in _groups(impulses, states) if impulses else ():
+        s = _scale(group, states)
         scaled |= s != 1.0
         answer += group if s == 1.0 else [Impulse(i.contact, s * i.P) for i in group]
     return answer, scaled
 
 
-def _scale(group: Sequence[Impulse], shadows: Sequence[Shadow]) -> float:
+def _scale(group: Sequence[Impulse], states: Sequence[BodyState]) -> float:
     work, J = 0.0, dict[int, Array]()
     for impulse in group:
         c, P = impulse.contact, impulse.P
         if not P.any():
             continue
-        work += float(P @ actual_velocity(c, shadows))
+        work += float(P @ actual_velocity(c, states))
         for ship, taken in ((c.a, -(P @ c.G_a)), (c.b, P @ c.G_b)):
             J[ship] = J[ship] + taken if ship in J else taken
-    quadratic = sum(float(taken @ shadows[ship].M_inverse @ taken) for ship, taken in J.items())
+    quadratic = sum(float(taken @ states[ship].M_inverse @ taken) for ship, taken in J.items())
     if quadratic <= 0.0 or work + 0.5 * quadratic <= ROUNDING * (abs(work) + quadratic):
         return 1.0
     return max(0.0, -2.0 * work / quadratic)
 
 
-def _groups(impulses: Sequence[Impulse], shadows: Sequence[Shadow]) -> list[list[Impulse]]:
+def _groups(impulses: Sequence[Impulse], states: Sequence[BodyState]) -> list[list[Impulse]]:
     """Impulses by the ships that they connect."""
     pairs = {(i.contact.a, i.contact.b) for i in impulses}
     if len(pairs) == 1:
@@ -61,10 +61,10 @@ def _groups(impulses: Sequence[Impulse], shadows: Sequence[Shadow]) -> list[list
         return ship
 
     for a, b in sorted(pairs):
-        if not (shadows[a].fixed or shadows[b].fixed):
+        if not (states[a].fixed or states[b].fixed):
             root[find(b)] = find(a)
     groups: dict[int, list[Impulse]] = {}
     for impulse in impulses:
         c = impulse.contact
-        groups.setdefault(find(c.b if shadows[c.a].fixed else c.a), []).append(impulse)
+        groups.setdefault(find(c.b if states[c.a].fixed else c.a), []).append(impulse)
     return list(groups.values())

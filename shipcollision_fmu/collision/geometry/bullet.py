@@ -23,7 +23,7 @@ from ...errors import HostError
 from ...ship.frames import SWAP, Array, quaternion_w, swapped
 from ...ship.hull.solid import HullMesh
 
-__all__ = ["MARGIN", "BulletBody", "Closest", "Engine", "bullet_module"]
+__all__ = ["MARGIN", "BulletAdapter", "BulletBody", "Closest", "bullet_module"]
 
 
 Place = tuple[float, float, float]
@@ -85,7 +85,7 @@ class BulletBody:
     r_bg: Array
 
 
-class Engine:
+class BulletAdapter:
     """A private Bullet world (DIRECT, no rendering) with the hulls' convex parts. Close it when done."""
 
     def __init__(self, hulls: Sequence[HullMesh]) -> None:

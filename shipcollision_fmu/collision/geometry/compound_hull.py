@@ -23,14 +23,14 @@ import numpy as np
 
 from ...ship.frames import Array
 from ...ship.hull.solid import HullMesh
-from ..dynamics.body_state import Shadow
+from ..dynamics.body_state import BodyState
 from ..dynamics.contact import Contact
 from ..dynamics.contact_frame import contact_axes
 from .bullet import Closest
 from .clipping import convex_polygon
 from .manifold import FEATURE_DEPTH, contact_manifold, foremost, spread
 
-__all__ = ["JoinedParts", "as_one", "on_the_outside"]
+__all__ = ["CompoundHull", "merge_coplanar", "select_supported"]
 
 FLAT = 1e-3
 """Angle [rad] within which a normal is that of a face, and two normals are one."""
@@ -44,7 +44,7 @@ DEEPEST = 1.0
 _SAME = 1.0 - 0.5 * FLAT**2
 
 
-class JoinedParts:
+class CompoundHull:
     """What the parts of one hull hide of each other."""
 
     def __init__(self, hull: HullMesh) -> None:
@@ -103,8 +103,8 @@ class JoinedParts:
         return np.array(normals).reshape(-1, 3)
 
 
-def on_the_outside(
-    touching: list[Closest], one: JoinedParts, other: JoinedParts, shadows: tuple[Shadow, Shadow]
+def select_supported(
+    touching: list[Closest], one: CompoundHull, other: CompoundHull, states: tuple[BodyState, BodyState]
 ) -> list[Closest]:
     """The answers for hulls a (`one`) and b (`other`) that the hulls as a whole support, deepest first.
 
@@ -112,17 +112,17 @@ def on_the_outside(
     """
     if one.whole and other.whole:
         return touching
-    found = [c for c in (_supported(c, one, other, shadows) for c in touching) if c is not None]
+    found = [c for c in (_supported(c, one, other, states) for c in touching) if c is not None]
     return sorted(found or touching, key=lambda c: c.gap)
 
 
 def _supported(
-    closest: Closest, one: JoinedParts, other: JoinedParts, shadows: tuple[Shadow, Shadow]
+    closest: Closest, one: CompoundHull, other: CompoundHull, states: tuple[BodyState, BodyState]
 ) -> Closest | None:
     """The answer itself if both hulls support it, else its replacement, else None."""
-    if _both_support(closest, one, other, shadows):
+    if _both_support(closest, one, other, states):
         return closest
-    a, b = shadows
+    a, b = states
     in_a = a.x + one.parts[closest.part_a] @ a.R.T
     in_b = b.x + other.parts[closest.part_b] @ b.R.T
     normals = np.vstack([one.outer_normals(closest.part_a) @ a.R.T, -(other.outer_normals(closest.part_b) @ b.R.T)])
@@ -134,19 +134,21 @@ def _supported(
         for point, gap in contact_manifold(foremost(in_a, normal), foremost(in_b, -normal), normal):
             half = 0.5 * gap * normal
             instead = replace(closest, on_a=point - half, on_b=point + half, normal=normal, gap=-float(depths[k]))
-            if gap <= 0.0 and _both_support(instead, one, other, shadows):
+            if gap <= 0.0 and _both_support(instead, one, other, states):
                 return instead
     return None
 
 
-def _both_support(closest: Closest, one: JoinedParts, other: JoinedParts, shadows: tuple[Shadow, Shadow]) -> bool:
-    a, b = shadows
+def _both_support(
+    closest: Closest, one: CompoundHull, other: CompoundHull, states: tuple[BodyState, BodyState]
+) -> bool:
+    a, b = states
     return one.supports(closest.part_a, a.body(closest.on_a), closest.normal @ a.R) and other.supports(
         closest.part_b, b.body(closest.on_b), -(closest.normal @ b.R)
     )
 
 
-def as_one(contacts: list[Contact]) -> list[Contact]:
+def merge_coplanar(contacts: list[Contact]) -> list[Contact]:
     """Contacts of joined parts: of those with one normal in one plane the corners of their common outline."""
     groups: list[list[Contact]] = []
     for contact in contacts:

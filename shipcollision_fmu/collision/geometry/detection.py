@@ -18,14 +18,14 @@ import numpy as np
 
 from ...ship.frames import Array
 from ...ship.hull.solid import HullMesh
-from ..dynamics.body_state import Shadow
+from ..dynamics.body_state import BodyState
 from ..dynamics.contact import Contact, make_contact
-from .bullet import MARGIN, Closest, Engine
-from .compound_hull import JoinedParts, as_one, on_the_outside
+from .bullet import MARGIN, BulletAdapter, Closest
+from .compound_hull import CompoundHull, merge_coplanar, select_supported
 from .manifold import FEATURE_DEPTH, contact_manifold, foremost
 from .plan_overlap import least_overlap
 
-__all__ = ["SHALLOW", "Detector", "KeptNormals"]
+__all__ = ["SHALLOW", "Detector", "LastNormals"]
 
 SHALLOW = 0.5
 """Overlap [m] down to which Bullet's normal is taken: some steps of a fast approach, far below a hull's breadth, beyond
@@ -40,53 +40,53 @@ FLUSH = 1e-6
 SMALL = 15.0
 """Least extent [m] of a hull below which SAME_POINT and FEATURE_DEPTH shrink with it: a boat is met like a ship."""
 
-KeptNormals = dict[tuple[int, int], tuple[int, list[float]]]
+LastNormals = dict[tuple[int, int], tuple[int, list[float]]]
 """Per pair of ships (a, b): which of them carries the last shallow normal, and that normal in its body frame."""
 
 
 class Detector:
-    """Contacts and clearance between hulls. Holds no state that matters: the kept normals belong to the caller."""
+    """Contacts and clearance between hulls. Holds no state that matters: the last normals belong to the caller."""
 
     def __init__(self, hulls: Sequence[HullMesh]) -> None:
         self._hulls = tuple(hulls)
-        self._joined = [JoinedParts(hull) for hull in hulls]
+        self._compounds = [CompoundHull(hull) for hull in hulls]
         self._scales = [min(1.0, float(np.ptp(hull.vertices, axis=0).min()) / SMALL) for hull in hulls]
-        self.engine = Engine(hulls)
+        self.bullet = BulletAdapter(hulls)
 
-    def place(self, ship: int, shadow: Shadow) -> None:
-        """Move a hull to its shadow's predicted pose."""
-        self.engine.place(ship, shadow.x, shadow.R)
+    def place(self, ship: int, state: BodyState) -> None:
+        """Move a hull to its state's predicted pose."""
+        self.bullet.place(ship, state.x, state.R)
 
     def clearance(self, a: int, b: int, cap: float) -> float:
         """Least distance [m] between two placed hulls, negative in overlap, at most `cap`."""
-        return self.engine.gap(a, b, cap)
+        return self.bullet.gap(a, b, cap)
 
     def touching(self, a: int, b: int) -> bool:
         """Whether two placed hulls touch or overlap."""
-        return self.engine.gap(a, b, MARGIN) <= 0.0
+        return self.bullet.gap(a, b, MARGIN) <= 0.0
 
-    def contacts(self, a: int, b: int, shadows: Sequence[Shadow], kept: KeptNormals) -> list[Contact]:
-        """Contact points of two placed hulls, gap <= 0. Updates `kept` while the overlap is shallow."""
-        touching = [c for c in self.engine.closest(a, b, 0.0) if c.gap <= 0.0]
+    def contacts(self, a: int, b: int, states: Sequence[BodyState], last_normals: LastNormals) -> list[Contact]:
+        """Contact points of two placed hulls, gap <= 0. Updates `last_normals` while the overlap is shallow."""
+        touching = [c for c in self.bullet.closest(a, b, 0.0) if c.gap <= 0.0]
         if not touching:
-            kept.pop((a, b), None)
+            last_normals.pop((a, b), None)
             return []
-        one, other, scale = self._joined[a], self._joined[b], self._scale(a, b)
+        one, other, scale = self._compounds[a], self._compounds[b], self._scale(a, b)
         joined = not (one.whole and other.whole)
         if joined:
-            touching = on_the_outside(touching, one, other, (shadows[a], shadows[b]))
+            touching = select_supported(touching, one, other, (states[a], states[b]))
         shallow = min(c.gap for c in touching) > -SHALLOW
-        carried = None if shallow else kept.get((a, b))
+        carried = None if shallow else last_normals.get((a, b))
         if carried is None and not shallow:  # deep inside each other, and never seen apart
-            carried = kept[(a, b)] = self._level(a, b, touching, shadows)
+            carried = last_normals[(a, b)] = self._level(a, b, touching, states)
         found: list[Contact] = []
         hidden: list[Contact] = []
         for closest in touching:
-            normal = closest.normal if carried is None else _turned(carried, shadows[a], shadows[b])
-            feature_a, feature_b = self._features(a, b, closest, normal, shadows, scale * FEATURE_DEPTH)
+            normal = closest.normal if carried is None else _turned(carried, states[a], states[b])
+            feature_a, feature_b = self._features(a, b, closest, normal, states, scale * FEATURE_DEPTH)
             if shallow and closest is touching[0]:
                 carrier = 0 if len(feature_a) > len(feature_b) else 1
-                kept[(a, b)] = (carrier, (normal @ shadows[(a, b)[carrier]].R).tolist())
+                last_normals[(a, b)] = (carrier, (normal @ states[(a, b)[carrier]].R).tolist())
             # Features that pass each other (a corner beside a face's edge) leave Bullet's own point.
             corners = contact_manifold(feature_a, feature_b, normal)
             places = corners or [(0.5 * (closest.on_a + closest.on_b), closest.gap)]
@@ -94,59 +94,63 @@ class Detector:
             touch = FLUSH if min(gap for _, gap in places) <= 0.0 else 0.0
             for point, gap in places:
                 if gap <= touch:
-                    contact = make_contact(a, b, shadows, point, normal, gap)
-                    # With a kept normal, parts that pass each other along it or lie behind others have no contact.
-                    inside = joined and not shallow and (not corners or self._is_inside(contact, closest, shadows))
+                    contact = make_contact(a, b, states, point, normal, gap)
+                    # With a last normal, parts that pass each other along it or lie behind others have no contact.
+                    inside = joined and not shallow and (not corners or self._is_inside(contact, closest, states))
                     (hidden if inside else found).append(contact)
-        return _distinct(as_one(found or hidden) if joined else found, scale * SAME_POINT)
+        return _distinct(merge_coplanar(found or hidden) if joined else found, scale * SAME_POINT)
 
-    def facing(self, a: int, b: int, distance: float, shadows: Sequence[Shadow], kept: KeptNormals) -> Contact | None:
+    def facing(
+        self, a: int, b: int, distance: float, states: Sequence[BodyState], last_normals: LastNormals
+    ) -> Contact | None:
         """The middle of what is nearer than `distance` [m] of two placed hulls, with the least gap; None: nothing."""
-        near = self.engine.closest(a, b, distance)
+        near = self.bullet.closest(a, b, distance)
         if not near:
             return None
         nearest = min(near, key=lambda c: c.gap)
         gap, normal = nearest.gap, nearest.normal
-        if gap <= -SHALLOW and (a, b) in kept:
-            normal = _turned(kept[a, b], shadows[a], shadows[b])
+        if gap <= -SHALLOW and (a, b) in last_normals:
+            normal = _turned(last_normals[a, b], states[a], states[b])
         depth = max(self._scale(a, b) * FEATURE_DEPTH, distance - gap)
-        feature_a, feature_b = self._features(a, b, nearest, normal, shadows, depth)
+        feature_a, feature_b = self._features(a, b, nearest, normal, states, depth)
         places = contact_manifold(feature_a, feature_b, normal) or [(0.5 * (nearest.on_a + nearest.on_b), gap)]
         weights = [max(distance - g, 0.0) for _, g in places]
         if not any(weights):
             weights = [1.0] * len(places)
         total = sum(weights)
         middle: Array = sum((w / total * point for (point, _), w in zip(places, weights, strict=True)), np.zeros(3))
-        return make_contact(a, b, shadows, middle, normal, gap)
+        return make_contact(a, b, states, middle, normal, gap)
 
-    def _level(self, a: int, b: int, touching: Sequence[Closest], shadows: Sequence[Shadow]) -> tuple[int, list[float]]:
+    def _level(
+        self, a: int, b: int, touching: Sequence[Closest], states: Sequence[BodyState]
+    ) -> tuple[int, list[float]]:
         """Level normal of least overlap of the two hulls' plans, carried by the ship whose side it belongs to."""
-        in_a = np.vstack([self._placed_part(a, i, shadows) for i in sorted({c.part_a for c in touching})])
-        in_b = np.vstack([self._placed_part(b, i, shadows) for i in sorted({c.part_b for c in touching})])
+        in_a = np.vstack([self._placed_part(a, i, states) for i in sorted({c.part_a for c in touching})])
+        in_b = np.vstack([self._placed_part(b, i, states) for i in sorted({c.part_b for c in touching})])
         _, normal, carrier = least_overlap(in_a, in_b)
-        return carrier, (normal @ shadows[(a, b)[carrier]].R).tolist()
+        return carrier, (normal @ states[(a, b)[carrier]].R).tolist()
 
     def _scale(self, a: int, b: int) -> float:
         return min(self._scales[a], self._scales[b])
 
-    def _is_inside(self, contact: Contact, closest: Closest, shadows: Sequence[Shadow]) -> bool:
-        """Whether a contact with a kept normal lies on a face that another part of the same hull covers."""
+    def _is_inside(self, contact: Contact, closest: Closest, states: Sequence[BodyState]) -> bool:
+        """Whether a contact with a last normal lies on a face that another part of the same hull covers."""
         half = 0.5 * contact.gap * contact.normal
-        a, b = shadows[contact.a], shadows[contact.b]
-        return self._joined[contact.a].covers(
+        a, b = states[contact.a], states[contact.b]
+        return self._compounds[contact.a].covers(
             closest.part_a, a.body(contact.point - half), contact.normal @ a.R
-        ) or self._joined[contact.b].covers(closest.part_b, b.body(contact.point + half), -(contact.normal @ b.R))
+        ) or self._compounds[contact.b].covers(closest.part_b, b.body(contact.point + half), -(contact.normal @ b.R))
 
-    def _placed_part(self, ship: int, part: int, shadows: Sequence[Shadow]) -> Array:
-        points: Array = shadows[ship].x + self._hulls[ship].parts[part] @ shadows[ship].R.T
+    def _placed_part(self, ship: int, part: int, states: Sequence[BodyState]) -> Array:
+        points: Array = states[ship].x + self._hulls[ship].parts[part] @ states[ship].R.T
         return points
 
     def _features(
-        self, a: int, b: int, closest: Closest, normal: Array, shadows: Sequence[Shadow], depth: float
+        self, a: int, b: int, closest: Closest, normal: Array, states: Sequence[BodyState], depth: float
     ) -> tuple[Array, Array]:
         """Points (n, 3) of either part that face the other one: foremost along the normal, within `depth` [m]."""
-        in_a = self._placed_part(a, closest.part_a, shadows)
-        in_b = self._placed_part(b, closest.part_b, shadows)
+        in_a = self._placed_part(a, closest.part_a, states)
+        in_b = self._placed_part(b, closest.part_b, states)
         return foremost(in_a, normal, depth), foremost(in_b, -normal, depth)
 
 
@@ -159,8 +163,8 @@ def _distinct(contacts: list[Contact], apart: float) -> list[Contact]:
     return found
 
 
-def _turned(carried: tuple[int, list[float]], one: Shadow, other: Shadow) -> Array:
-    """A kept normal in n, as it has turned with the hull that carries it."""
+def _turned(carried: tuple[int, list[float]], one: BodyState, other: BodyState) -> Array:
+    """The last normal of a pair in n, as it has turned with the hull that carries it."""
     carrier, normal_b = carried
     normal: Array = (one, other)[carrier].R @ np.array(normal_b)
     return normal

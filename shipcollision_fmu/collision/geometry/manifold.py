@@ -1,7 +1,7 @@
 """Contact points of two convex parts, given the normal: what their facing features have in common.
 
-The features are the foremost points of either part along the normal. Seen along the normal they are a point, an edge or
-a face; their common corners (clipping.py) are the contact points, each with the gap that the two features have there.
+The features are the foremost points of either part along the normal. Along the normal they look like a point, an edge
+or a face. Their common corners (clipping.py) are the contact points, each with the gap of the two features there.
 """
 
 from __future__ import annotations

@@ -16,7 +16,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..dynamics.body_state import Shadow
+from ..dynamics.body_state import BodyState
 from ..dynamics.contact import Contact, contact_velocity, make_contact
 from ..dynamics.contact_frame import contact_axes
 from ..dynamics.delassus import contact_jacobian, delassus
@@ -25,20 +25,20 @@ from .gauss_seidel import solve_pgs
 __all__ = ["resultant_contact"]
 
 
-def resultant_contact(contacts: Sequence[Contact], shadows: Sequence[Shadow]) -> Contact | None:
+def resultant_contact(contacts: Sequence[Contact], states: Sequence[BodyState]) -> Contact | None:
     """One contact for all of a pair's; None when nothing approaches. Its gap is the deepest."""
     axes = [contact_axes(c.normal) for c in contacts]
-    velocity = np.concatenate([axis @ contact_velocity(c, shadows) for axis, c in zip(axes, contacts, strict=True)])
+    velocity = np.concatenate([axis @ contact_velocity(c, states) for axis, c in zip(axes, contacts, strict=True)])
     if velocity[0::3].min() >= 0.0:
         return None
     if len(contacts) == 1:
         return contacts[0]
     G, ships = contact_jacobian(contacts)
     local = np.vstack([axis @ G[3 * i : 3 * i + 3] for i, axis in enumerate(axes)])
-    share = solve_pgs(delassus(local, ships, shadows), velocity, 0.0).P[:, 0]
+    share = solve_pgs(delassus(local, ships, states), velocity, 0.0).P[:, 0]
     share = share / share.sum()
     point = sum((w * c.point for w, c in zip(share, contacts, strict=True)), np.zeros(3))
     normal = sum((w * c.normal for w, c in zip(share, contacts, strict=True)), np.zeros(3))
     return make_contact(
-        contacts[0].a, contacts[0].b, shadows, point, normal / np.linalg.norm(normal), min(c.gap for c in contacts)
+        contacts[0].a, contacts[0].b, states, point, normal / np.linalg.norm(normal), min(c.gap for c in contacts)
     )

@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from shipcollision_fmu.collision.dynamics.body_state import Shadow
+from shipcollision_fmu.collision.dynamics.body_state import BodyState
 from shipcollision_fmu.collision.dynamics.contact import Impulse, actual_velocity, make_contact
-from shipcollision_fmu.collision.dynamics.other_forces import Seen, drift
-from shipcollision_fmu.collision.dynamics.passivity import passive
+from shipcollision_fmu.collision.dynamics.other_forces import ReceivedState, drift
+from shipcollision_fmu.collision.dynamics.passivity import enforce_passivity
 from shipcollision_fmu.ship.coasting import coast
 from shipcollision_fmu.ship.frames import rotation
 
@@ -19,8 +19,8 @@ ANGLE, RATE = st.floats(-0.5, 0.5), st.floats(-0.02, 0.02)
 M_INVERSE = np.diag([1e-7, 2e-7, 1e-7, 1e-9, 1e-11, 1e-11])
 
 
-def seen(t: float, eta: list[float], nu: list[float], applied: np.ndarray | None = None) -> Seen:
-    return Seen(t, H, eta[:3], eta[3:], nu, [0.0] * 6 if applied is None else applied.tolist())
+def seen(t: float, eta: list[float], nu: list[float], applied: np.ndarray | None = None) -> ReceivedState:
+    return ReceivedState(t, H, eta[:3], eta[3:], nu, [0.0] * 6 if applied is None else applied.tolist())
 
 
 @given(st.tuples(ANGLE, ANGLE, st.floats(-3, 3)), st.tuples(RATE, RATE, RATE), st.tuples(*[st.floats(-5, 5)] * 3))
@@ -57,24 +57,24 @@ def test_a_jump_in_time_or_place_is_no_drift(t: float, x: float) -> None:
 def test_a_far_step_is_that_of_the_shadow(attitude: tuple[float, ...], rate: tuple[float, ...]) -> None:
     position, velocity = np.array([100.0, -50.0, 1.0]), [4.0, 0.5, -0.1]
     r_bg = np.array([-3.0, 0.5, 2.0])
-    shadow = Shadow.at(position, np.array(attitude), np.array([*velocity, *rate]), M_INVERSE, r_bg)
-    shadow.advance(0.2)
-    shadow.advance(0.3)
+    state = BodyState.at(position, np.array(attitude), np.array([*velocity, *rate]), M_INVERSE, r_bg)
+    state.advance(0.2)
+    state.advance(0.3)
     place, angles, turned = coast(position.tolist(), attitude, velocity, rate, r_bg.tolist(), 0.5)
-    np.testing.assert_allclose(place, shadow.x, atol=1e-12)
-    np.testing.assert_allclose(rotation(angles), shadow.R, atol=1e-12)
-    np.testing.assert_allclose([*turned, *rate], shadow.nu_predicted, atol=1e-12)
+    np.testing.assert_allclose(place, state.x, atol=1e-12)
+    np.testing.assert_allclose(rotation(angles), state.R, atol=1e-12)
+    np.testing.assert_allclose([*turned, *rate], state.predicted_twist, atol=1e-12)
     assert abs(angles[2] - attitude[2]) < 0.1
 
 
 @given(st.floats(0.1, 10.0), st.floats(-3.0, 3.0))
 def test_an_answer_that_would_add_energy_becomes_elastic(size: float, sway: float) -> None:
     """A ship at 1 m/s against a wall; beyond twice the plastic impulse energy is added, and is taken back."""
-    wall = Shadow.wall(np.array([50.0, 0.0, 0.0]), 0.0)
-    ship = Shadow.at(np.zeros(3), np.zeros(3), np.array([1.0, sway, 0, 0, 0, 0]), M_INVERSE)
-    shadows = [ship, wall]
-    contact = make_contact(0, 1, shadows, np.array([50.0, 0.0, 0.0]), np.array([1.0, 0.0, 0.0]), 0.0)
-    (answer,), scaled = passive([Impulse(contact, np.array([size * 1e7, 0.0, 0.0]))], shadows)
+    wall = BodyState.wall(np.array([50.0, 0.0, 0.0]), 0.0)
+    ship = BodyState.at(np.zeros(3), np.zeros(3), np.array([1.0, sway, 0, 0, 0, 0]), M_INVERSE)
+    states = [ship, wall]
+    contact = make_contact(0, 1, states, np.array([50.0, 0.0, 0.0]), np.array([1.0, 0.0, 0.0]), 0.0)
+    (answer,), scaled = enforce_passivity([Impulse(contact, np.array([size * 1e7, 0.0, 0.0]))], states)
     assert answer.P[0] == pytest.approx(min(size, 2.0) * 1e7)
     assert scaled == (answer.P[0] < size * 1e7 * (1.0 - 1e-9))
-    np.testing.assert_allclose(actual_velocity(contact, shadows), [-1.0, -sway, 0.0])
+    np.testing.assert_allclose(actual_velocity(contact, states), [-1.0, -sway, 0.0])

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from shipcollision_fmu.collision.geometry import broad_phase
 from shipcollision_fmu.collision.geometry.broad_phase import Rectangle, near_pairs
-from shipcollision_fmu.collision.geometry.bullet import Engine
+from shipcollision_fmu.collision.geometry.bullet import BulletAdapter
 from tests.collision.conftest import BOX, World
 
 Make = Callable[..., str]
@@ -83,18 +83,18 @@ def test_far_ships_are_never_given_to_the_narrow_phase(
     make_ship: Make, world: MakeWorld, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     asked: list[tuple[int, int]] = []
-    closest, gap = Engine.closest, Engine.gap
+    closest, gap = BulletAdapter.closest, BulletAdapter.gap
 
-    def counted(self: Engine, a: int, b: int, distance: float) -> list:
+    def counted(self: BulletAdapter, a: int, b: int, distance: float) -> list:
         asked.append((a, b))
         return closest(self, a, b, distance)
 
-    def measured(self: Engine, a: int, b: int, cap: float) -> float:
+    def measured(self: BulletAdapter, a: int, b: int, cap: float) -> float:
         asked.append((a, b))
         return gap(self, a, b, cap)
 
-    monkeypatch.setattr(Engine, "closest", counted)
-    monkeypatch.setattr(Engine, "gap", measured)
+    monkeypatch.setattr(BulletAdapter, "closest", counted)
+    monkeypatch.setattr(BulletAdapter, "gap", measured)
     box = make_ship("box", BOX)
     grid = [{"position": [1000.0 * (k % 10), 1000.0 * (k // 10), 0.0], "nu": [5.0, 0, 0, 0, 0, 0]} for k in range(99)]
     near = [*grid, {"position": [150.0, 200.0, 0.0], "nu": [0.0] * 6}]

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from shipcollision_fmu.collision import bodies
-from shipcollision_fmu.collision.dynamics.body_state import Shadow
-from shipcollision_fmu.collision.geometry.compound_hull import JoinedParts
+from shipcollision_fmu.collision.dynamics.body_state import BodyState
+from shipcollision_fmu.collision.geometry.compound_hull import CompoundHull
 from shipcollision_fmu.collision.geometry.detection import Detector
 from shipcollision_fmu.ship.hull.convex import half_spaces
 from shipcollision_fmu.ship.hull.hull import build_hull
@@ -51,8 +51,8 @@ def as_one_part(mesh: HullMesh) -> HullMesh:
     return HullMesh(mesh.vertices, mesh.triangles, (mesh.vertices,))
 
 
-def shadow(x: float, y: float, z: float = 0.0, heading: float = 0.0) -> Shadow:
-    return Shadow.at(np.array([x, y, z]), np.array([0.0, 0.0, heading]), np.zeros(6), np.eye(6))
+def state(x: float, y: float, z: float = 0.0, heading: float = 0.0) -> BodyState:
+    return BodyState.at(np.array([x, y, z]), np.array([0.0, 0.0, heading]), np.zeros(6), np.eye(6))
 
 
 WEST = -np.pi / 2
@@ -69,14 +69,16 @@ def pair() -> Iterator[Pair]:
 
     yield make
     for detector in made:
-        detector.engine.close()
+        detector.bullet.close()
 
 
-def touch(detector: Detector, one: Shadow, other: Shadow, kept: dict[Any, Any] | None = None) -> list[list[float]]:
+def touch(
+    detector: Detector, one: BodyState, other: BodyState, last_normals: dict[Any, Any] | None = None
+) -> list[list[float]]:
     """Contacts as rows (point, normal, gap), sorted."""
     for i, s in enumerate((one, other)):
         detector.place(i, s)
-    contacts = detector.contacts(0, 1, [one, other], {} if kept is None else kept)
+    contacts = detector.contacts(0, 1, [one, other], {} if last_normals is None else last_normals)
     return sorted([*np.round(c.point, 9).tolist(), *np.round(c.normal, 9).tolist(), c.gap] for c in contacts)
 
 
@@ -84,9 +86,9 @@ def touch(detector: Detector, one: Shadow, other: Shadow, kept: dict[Any, Any] |
 
 
 def test_joints_are_no_outer_faces() -> None:
-    joined = JoinedParts(FIVE)
+    joined = CompoundHull(FIVE)
     assert sorted(len(joined.outer_normals(i)) for i in range(PIECES)) == [4, 4, 4, 5, 5]
-    flared = JoinedParts(hull(FLARED))
+    flared = CompoundHull(hull(FLARED))
     assert not any(np.allclose(n, [0, 0, -1]) for n in flared.outer_normals(0))  # the lower part has no deck
     assert not any(np.allclose(n, [0, 0, 1]) for n in flared.outer_normals(1))  # nor the upper one a keel
 
@@ -95,7 +97,7 @@ def test_joints_are_no_outer_faces() -> None:
 @pytest.mark.parametrize("depth", [0.01, 0.3])
 def test_a_stem_on_a_side_in_pieces_touches_it_as_on_one_box(pair: Pair, x: float, depth: float) -> None:
     """Near a joint the least way out of one piece is along the side, through its neighbour."""
-    where = shadow(0, 0), shadow(x, 115.0 - depth, z=3.0, heading=WEST)
+    where = state(0, 0), state(x, 115.0 - depth, z=3.0, heading=WEST)
     whole, pieces = (touch(pair(solid, hull(WEDGE)), *where) for solid in (hull(BOX), FIVE))
     assert len(whole) == 2
     np.testing.assert_allclose(pieces, whole, atol=1e-6)
@@ -103,7 +105,7 @@ def test_a_stem_on_a_side_in_pieces_touches_it_as_on_one_box(pair: Pair, x: floa
 
 @pytest.mark.parametrize("x", [-20.0, 0.0, 33.0])
 def test_side_on_side_gives_the_corners_of_the_common_area_only(pair: Pair, x: float) -> None:
-    where = shadow(0, 0), shadow(x, 29.95, z=2.0)
+    where = state(0, 0), state(x, 29.95, z=2.0)
     expected = touch(pair(hull(BOX), hull(BOX)), *where)
     assert len(expected) == 4
     for one, other in ((FIVE, hull(BOX)), (hull(BOX), FIVE), (FIVE, FIVE), (FIVE, in_pieces([0.0, 50.0]))):
@@ -118,28 +120,28 @@ def test_a_corner_on_a_side_in_pieces_touches_it_as_on_one_box(pair: Pair) -> No
     )
     whole, pieces = pair(hull(BOX), hull(BOX)), pair(FIVE, hull(BOX))
     for x in np.linspace(15.0, 25.0, 21):
-        where = shadow(0, 0), shadow(x - corner[0], 14.97 - corner[1], heading=heading)
+        where = state(0, 0), state(x - corner[0], 14.97 - corner[1], heading=heading)
         expected = touch(whole, *where)
         np.testing.assert_allclose([row[3:6] for row in expected], [[0, 1, 0]] * len(expected), atol=1e-6)
         np.testing.assert_allclose(touch(pieces, *where), expected, atol=1e-6)
 
 
 def test_deep_overlap_is_that_of_one_box(pair: Pair) -> None:
-    """The kept normal is that of the side, and pieces that lie inside have no contact of their own."""
+    """The last normal is that of the side, and pieces that lie inside have no contact of their own."""
     results = []
     for solid in (hull(BOX), FIVE):
-        detector, kept = pair(solid, hull(WEDGE)), {}
+        detector, last_normals = pair(solid, hull(WEDGE)), {}
         for depth in (0.2, 0.45, 1.0, 3.0):
-            rows = touch(detector, shadow(0, 0), shadow(20.05, 115.0 - depth, heading=WEST), kept)
+            rows = touch(detector, state(0, 0), state(20.05, 115.0 - depth, heading=WEST), last_normals)
         results.append(rows)
     np.testing.assert_allclose(results[1], results[0], atol=1e-6)
 
 
 def test_parts_without_planes_stand_for_themselves() -> None:
-    loose = JoinedParts(HullMesh(FIVE.vertices, FIVE.triangles, FIVE.parts))
+    loose = CompoundHull(HullMesh(FIVE.vertices, FIVE.triangles, FIVE.parts))
     assert loose.whole
     assert loose.supports(1, np.array([-60.0, 0.0, 0.0]), np.array([-1.0, 0.0, 0.0]))
-    joined = JoinedParts(FIVE)
+    joined = CompoundHull(FIVE)
     assert not joined.supports(1, np.array([-60.0, 0.0, 0.0]), np.array([-1.0, 0.0, 0.0]))
 
 
@@ -202,7 +204,7 @@ def test_flare_that_does_not_touch_at_its_knuckle_is_one_part(sailed: Any) -> No
 
 def test_flared_side_on_side_is_one_patch(pair: Pair) -> None:
     """Plumb sides above and below the waterline are one side."""
-    where = shadow(0, 0), shadow(10.0, 29.96)
+    where = state(0, 0), state(10.0, 29.96)
     flared = hull(FLARED)
     np.testing.assert_allclose(
         touch(pair(flared, hull(BOX)), *where), touch(pair(as_one_part(flared), hull(BOX)), *where), atol=1e-6
