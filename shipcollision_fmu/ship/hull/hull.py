@@ -20,14 +20,17 @@ A hull from a user's own mesh file is made in mesh.py. Frame b about CO [m]. Eve
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import lru_cache
 from itertools import pairwise
 from math import radians, tan
+from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
 
 from ...errors import ShipError
+from ..file_stamp import content_digest
 from ..frames import Array
 from ..tables.hull import HullTable
 from .convex import Indices, half_spaces
@@ -39,6 +42,9 @@ BOW_EDGES = 12
 """Edges of the waterline from shoulder to stem, per side: a chord error of B/2 / (4 x 12^2), about 4 cm on 50 m."""
 STERN_EDGES = 6
 
+HULLS_KEPT = 32
+"""Hulls that are kept in memory. With fewer than a run has ships, a mesh is read and cut again for every use."""
+
 
 @dataclass(frozen=True)
 class _Plan:
@@ -49,11 +55,42 @@ class _Plan:
     is_transom: npt.NDArray[np.bool_]
 
 
+@dataclass(frozen=True)
+class _Form:
+    """What a hull is built from, compared by its numbers and by the content of the mesh file."""
+
+    L_oa: float
+    B: float
+    T: float
+    table: HullTable = field(compare=False)
+    key: str  # the table's text
+    digest: str  # of the mesh file
+
+
 def build_hull(L_oa: float, B: float, T: float, table: HullTable) -> HullMesh:
     """Hull of a ship of length over all L_oa, breadth B, draught T [m] in the shape that `table` describes.
 
-    Raises ShipError when the shape's parameters exclude each other.
+    The same content gives the same hull, whose arrays are read-only. Raises ShipError when the shape's parameters
+    exclude each other, or the mesh is refused.
     """
+    digest = ""
+    if table.file is not None:
+        try:
+            digest = content_digest(Path(table.file))
+        except OSError:  # mesh_hull refuses the file by name
+            return _built(L_oa, B, T, table)
+    return _built_once(_Form(L_oa, B, T, table, table.model_dump_json(), digest))
+
+
+@lru_cache(maxsize=HULLS_KEPT)
+def _built_once(form: _Form) -> HullMesh:
+    hull = _built(form.L_oa, form.B, form.T, form.table)
+    for array in (hull.vertices, hull.triangles, *hull.parts, *hull.planes):
+        array.flags.writeable = False
+    return hull
+
+
+def _built(L_oa: float, B: float, T: float, table: HullTable) -> HullMesh:
     if table.shape == "mesh":
         from .mesh import mesh_hull
 

@@ -45,7 +45,9 @@ class HullTable(Table):
     scale: Positive | None = Field(default=None, description="metres per unit of the mesh file, instead of unit")
     forward: Axis = Field(default="+x", description="the mesh file's axis that points to the bow")
     up: Axis = Field(default="+z", description="the mesh file's axis that points up")
-    origin: Vector = Field(default=[0.0, 0.0, 0.0], description="CO in the mesh file's coordinates and unit")
+    origin: Vector = Field(
+        default=[0.0, 0.0, 0.0], validate_default=True, description="CO in the mesh file's coordinates and unit"
+    )
     max_parts: Annotated[int, Field(ge=1, le=64)] = Field(
         default=16, description="the most convex parts that the mesh is cut into"
     )

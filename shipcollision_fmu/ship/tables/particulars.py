@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, PlainSerializer, model_validator
 
 __all__ = [
     "RHO_SEA", "AddedMassTable", "NotNegative", "ParticularsTable", "Positive", "SeakeepingTable", "ShipTable", "Table",
@@ -24,7 +24,11 @@ RHO_SEA = 1025.0
 
 Positive = Annotated[float, Field(gt=0.0)]
 NotNegative = Annotated[float, Field(ge=0.0)]
-Vector = Annotated[list[float], Field(min_length=3, max_length=3)]
+Vector = Annotated[
+    list[float], Field(min_length=3, max_length=3), AfterValidator(tuple), PlainSerializer(list, list[float])
+]
+"""Three numbers, read as a list and kept as a tuple: the tables of a ship are shared and must not change."""
+
 Row = Annotated[list[float], Field(min_length=6, max_length=6)]
 
 

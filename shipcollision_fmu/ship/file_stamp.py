@@ -1,0 +1,49 @@
+"""What changes when a file is written: the ground on which a file that was read once need not be read again."""
+
+from __future__ import annotations
+
+import hashlib
+from functools import lru_cache
+from pathlib import Path
+from time import time_ns
+
+__all__ = ["Stamp", "content_digest", "file_stamp"]
+
+SETTLED_NS = 2_000_000_000
+"""Age [ns] from which a file's times tell it from a later version. File systems count in steps of up to 2 s (FAT): with
+less, a file that is written twice within a step would be taken for unchanged."""
+
+Stamp = tuple[str, int, int, int, int]
+
+
+def file_stamp(path: Path) -> Stamp | None:
+    """(path, inode, size, time of the last write, of the last change [ns]); None: read the file again.
+
+    None for a file that cannot be reached or has been written within the last two seconds (SETTLED_NS).
+    """
+    try:
+        status = path.stat()
+    except OSError:
+        return None
+    if time_ns() - max(status.st_mtime_ns, status.st_ctime_ns) < SETTLED_NS:
+        return None
+    return str(path.absolute()), status.st_ino, status.st_size, status.st_mtime_ns, status.st_ctime_ns
+
+
+def content_digest(path: Path) -> str:
+    """SHA-256 of the file's content in hexadecimal digits. Raises OSError when it cannot be read."""
+    stamp = file_stamp(path)
+    return _digest(path) if stamp is None else _digest_of(stamp)
+
+
+@lru_cache(maxsize=64)
+def _digest_of(stamp: Stamp) -> str:
+    return _digest(Path(stamp[0]))
+
+
+def _digest(path: Path) -> str:
+    digest = hashlib.sha256()
+    with path.open("rb") as file:
+        while block := file.read(1 << 20):
+            digest.update(block)
+    return digest.hexdigest()
