@@ -85,7 +85,7 @@ def simulate(
         events=found,
         summary=summary(scenario, ships, record, found),
         signals=record.signals,
-        bodies=bodies(ships, scenario.obstacles),
+        bodies=bodies(ships, free, scenario.obstacles),
         timing={
             "mode": "in process" if in_process else "FMU" if fmi == 2 else f"FMU, FMI {fmi}.0",
             "wall_time": wall_time,

@@ -3,7 +3,7 @@
     ledger     per ship: impulse issued by the collision FMU, applied by the ship, and their difference, pending;
                in b about CO, cumulative [N s, N m s]. What jacobi issues in the very last step stays pending
     momentum   M nu of every ship, summed: linear in n [N s], angular in n about the scenario's origin [N m s]; nu is
-               that of the motions which M is of: in b, in 3 and 4 degrees of freedom level (ship/free_motions.py)
+               that of the motions which M is of: in b, in 3 and 4 degrees of freedom level (ship/degrees_of_freedom.py)
     energy     1/2 nu' M nu of every ship [J]; what contact dissipated, along the normals and across them; what fenders
                hold and dissipated, which is counted apart
     solver     answers of the contact solver that missed the law by more than 1e-9 of the approach, and answers
@@ -31,8 +31,8 @@ from .. import __version__
 from ..collision.interface import CollisionParameters
 from ..fmi.names import STATE
 from ..scenario.scenario import Scenario
-from ..ship.degrees_of_freedom import level_axes
 from ..ship.frames import Array, rotation
+from ..ship.kinetic_energy import kinetic_energy, motion_twist
 from ..ship.ship import Ship
 from .published import compared
 from .record import Record
@@ -112,20 +112,17 @@ def _momentum(
 ) -> dict[str, list[float]]:
     linear, angular = np.zeros(3), np.zeros(3)
     for name, state in states.items():
-        R, nu = _motion(state, free[name])
-        p = ships[name].M @ nu
+        R = _axes(state[3:6], free[name])
+        p = ships[name].M @ motion_twist(state[3:6], state[6:12], free[name])
         p_n = R @ p[:3]
         linear += p_n
         angular += R @ p[3:] + np.cross(state[:3], p_n)
     return {"linear": linear.tolist(), "angular": angular.tolist()}
 
 
-def _motion(state: Array, free: int) -> tuple[Array, Array]:
-    """Axes (3, 3), to n, and the twist (6,) of the motions that M is of: those of b, or level ones."""
-    if free == 6:
-        return rotation(state[3:6]), state[6:12]
-    nu_l: Array = np.linalg.pinv(level_axes(state[3:6])) @ state[6:12]  # pinv: a ship on end has no heading
-    return rotation([0.0, 0.0, state[5]]), nu_l
+def _axes(attitude: Array, free: int) -> Array:
+    """To n, (3, 3), from the axes of the motions that M is of: those of b, or level ones."""
+    return rotation(attitude if free == 6 else [0.0, 0.0, attitude[2]])
 
 
 def _impulse_taken(record: Record, obstacle: str) -> list[float]:
@@ -134,10 +131,10 @@ def _impulse_taken(record: Record, obstacle: str) -> list[float]:
 
 
 def _energy(ships: Mapping[str, Ship], free: Mapping[str, int], states: Mapping[str, Array]) -> dict[str, float]:
-    kinetic = {}
-    for name, state in states.items():
-        _, nu = _motion(state, free[name])
-        kinetic[name] = float(0.5 * nu @ ships[name].M @ nu)
+    kinetic = {
+        name: float(kinetic_energy(ships[name].M, state[3:6], state[6:12], free[name]))
+        for name, state in states.items()
+    }
     return kinetic | {"total": sum(kinetic.values())}
 
 

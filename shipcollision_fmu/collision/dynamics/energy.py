@@ -2,7 +2,7 @@
 
 With v- and v+ the relative velocities at a contact before and after all impulses of an instant,
 
-    lost = -sum over contacts of P . (v- + v+)/2 = T(nu-) - T(nu+),        T = 1/2 nu^T M nu        [J]
+    lost = -sum over contacts of P . (v- + v+)/2 = T(nu-) - T(nu+),        T of ship/kinetic_energy.py [J]
 
 an identity for any impulses, so the split into the normal and the tangential part adds up to the whole.
 """
@@ -13,12 +13,7 @@ import numpy as np
 
 from ...ship.frames import Array
 
-__all__ = ["energy_lost", "kinetic_energy"]
-
-
-def kinetic_energy(M: Array, nu: Array) -> float:
-    """1/2 nu^T M nu [J]: rigid body and the water it carries, M (6, 6) and nu (6,) about CO in b."""
-    return float(0.5 * nu @ M @ nu)
+__all__ = ["energy_lost"]
 
 
 def energy_lost(P: Array, normal: Array, before: Array, after: Array) -> tuple[float, float]:

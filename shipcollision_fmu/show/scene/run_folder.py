@@ -19,7 +19,7 @@ import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, TypeVar
+from typing import Annotated, Any, Literal, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -61,6 +61,8 @@ class ShipBody(_Surface):
     T: float = Field(gt=0)
     shape: str = ""
     inertia: Annotated[list[Row6], Field(min_length=6, max_length=6)]
+    degrees_of_freedom: Literal[3, 4, 6] = 6
+    """Runs of version 0.1 before this key have none."""
 
 
 class ObstacleBody(_Surface):

@@ -2,7 +2,8 @@
 
     speed       of CO over ground, horizontal      surge, sway   its parts along and across the ship   [m/s]
     yaw_rate    rate of turn in b [rad/s]          roll, heading [rad], the heading unwrapped
-    kinetic     1/2 nu' M nu [J]                   dissipated    in contact [J]
+    kinetic     energy of the ship and the water it carries (ship/kinetic_energy.py) [J]
+    dissipated  in contact [J]
     normal, tangential    impulses of all contact points, summed up to then [N s]
     clearance   least distance between hulls, capped [m]
 
@@ -17,6 +18,7 @@ import numpy as np
 
 from ...fmi.names import STATE
 from ...ship.frames import Array
+from ...ship.kinetic_energy import kinetic_energy
 from .resample import kept
 from .run_folder import RunFolder
 
@@ -65,7 +67,8 @@ def signals_of(run: RunFolder) -> Signals:
 def _of_ship(run: RunFolder, i: int, name: str) -> list[Signal]:
     states = run.states[:, i]
     eta, nu = dict(zip(STATE[:6], states[:, :6].T, strict=True)), states[:, 6:]
-    M = np.array(run.bodies.ships[name].inertia)
+    body = run.bodies.ships[name]
+    energy = kinetic_energy(np.array(body.inertia), states[:, 3:6], nu, body.degrees_of_freedom)
     return [
         Signal("speed", name, "m/s", _speed(eta, nu)),
         Signal("surge", name, "m/s", nu[:, 0]),
@@ -73,7 +76,7 @@ def _of_ship(run: RunFolder, i: int, name: str) -> list[Signal]:
         Signal("yaw_rate", name, "rad/s", nu[:, 5]),
         Signal("roll", name, "rad", eta["attitude.roll"]),
         Signal("heading", name, "rad", eta["attitude.yaw"]),
-        Signal("kinetic", name, "J", 0.5 * np.einsum("ki,ij,kj->k", nu, M, nu)),
+        Signal("kinetic", name, "J", energy),
     ]
 
 

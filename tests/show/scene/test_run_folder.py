@@ -41,6 +41,14 @@ def test_what_was_written_is_read(folder: Path) -> None:
     assert len(run.contacts["time"]) == len((folder / "contacts.csv").read_text().splitlines()) - 1 > 1
 
 
+def test_a_run_of_an_earlier_build_has_six_degrees_of_freedom(folder: Path) -> None:
+    bodies = json.loads((folder / "bodies.json").read_text())
+    for ship in bodies["ships"].values():
+        assert ship.pop("degrees_of_freedom") == 6
+    (folder / "bodies.json").write_text(json.dumps(bodies) + "\n")
+    assert [ship.degrees_of_freedom for ship in read_run_folder(folder).bodies.ships.values()] == [6, 6]
+
+
 def test_no_folder_and_an_empty_and_a_foreign_one(tmp_path: Path) -> None:
     assert refusal(tmp_path / "nowhere").startswith("DIR: does not exist")
     assert refusal(tmp_path).startswith("DIR: is empty")
