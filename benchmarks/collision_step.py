@@ -26,8 +26,8 @@ from shipcollision_fmu.cli.run_table import table
 from shipcollision_fmu.collision.geometry.bullet import bullet_module
 from shipcollision_fmu.collision.model import ShipCollision
 from shipcollision_fmu.cosim.fmi2_component import FmuComponent, UnpackedFmu
+from shipcollision_fmu.fmi.builder.package import fmu_bytes, slave_directory
 from shipcollision_fmu.fmi.names import IMPULSE, STATE, named
-from shipcollision_fmu.fmi.package import fmu_bytes, slave_directory
 from shipcollision_fmu.fmi.ship_collision import INTERFACE
 from shipcollision_fmu.ship.frames import SWAP
 from shipcollision_fmu.ship.hull.hull import build_hull

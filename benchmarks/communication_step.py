@@ -24,7 +24,7 @@ from shipcollision_fmu.cli.run_table import table
 from shipcollision_fmu.cosim.component import Buffer, Component, Group, Value
 from shipcollision_fmu.cosim.fmu_files import ready_fmus
 from shipcollision_fmu.cosim.simulate import stepped, through_fmus
-from shipcollision_fmu.fmi.package import FMUS, fmu_bytes
+from shipcollision_fmu.fmi.builder.package import FMUS, fmu_bytes
 from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
 from shipcollision_fmu.scenario.scenario import Scenario

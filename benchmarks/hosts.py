@@ -41,7 +41,7 @@ from shipcollision_fmu.cosim.master import jacobi
 from shipcollision_fmu.cosim.simulate import Factories, as_models, through_fmus
 from shipcollision_fmu.cosim.wiring import connected
 from shipcollision_fmu.encounters.encounter import encounter
-from shipcollision_fmu.fmi.package import build_fmus
+from shipcollision_fmu.fmi.builder.package import build_fmus
 from shipcollision_fmu.fmi.ship_collision import INTERFACE
 from shipcollision_fmu.packaging.system_structure import COLLISION, system_structure
 from shipcollision_fmu.scenario.scenario import Scenario, scenario_of

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from .encounters.imazu import imazu
     from .encounters.traffic.situation import traffic_scenario
     from .errors import HostError, InputError, ScenarioError, ShipCollisionError, ShipError, StepError
-    from .fmi.package import build_fmus
+    from .fmi.builder.package import build_fmus
     from .manoeuvring.model import ShipManoeuvring
     from .scenario.scenario import Scenario, load_scenario
     from .ship.loading.library import load_ship
@@ -47,7 +47,7 @@ _MODULES = {
     "encounters.imazu": ("imazu",),
     "encounters.traffic.situation": ("traffic_scenario",),
     "errors": ("HostError", "InputError", "ScenarioError", "ShipCollisionError", "ShipError", "StepError"),
-    "fmi.package": ("build_fmus",),
+    "fmi.builder.package": ("build_fmus",),
     "manoeuvring.model": ("ShipManoeuvring",),
     "scenario.scenario": ("Scenario", "load_scenario"),
     "ship.loading.library": ("load_ship",),

@@ -22,7 +22,7 @@ def build(out: Path, fmi: str) -> None:
     one folder. FMI 3.0 needs `pip install 'shipcollision-fmu[fmi3]'`.
     """
     from ..cosim.fmu_files import require_pybullet
-    from ..fmi.package import build_fmus
+    from ..fmi.builder.package import build_fmus
 
     require_pybullet()
     for path in build_fmus(out, fmi=int(fmi)).values():

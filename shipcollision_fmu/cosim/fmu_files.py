@@ -7,8 +7,8 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from ..errors import HostError
+from ..fmi.builder.package import FMUS, build_fmus, fmu_file, fmus_current
 from ..fmi.interface import SHIPS
-from ..fmi.package import FMUS, build_fmus, fmu_file, fmus_current
 
 __all__ = ["fmu_directory", "ready_fmus", "require_pybullet"]
 

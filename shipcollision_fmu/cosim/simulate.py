@@ -16,8 +16,8 @@ from time import perf_counter
 
 from ..errors import ScenarioError
 from ..files import check_writable
+from ..fmi.builder.package import VERSIONS
 from ..fmi.interface import SHIPS, Interface
-from ..fmi.package import VERSIONS
 from ..fmi.ship_collision import INTERFACE as COLLISION
 from ..fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
 from ..results.bodies import bodies

@@ -4,10 +4,8 @@ variables           what a variable is, and how a table of them is written
 units               the units and their SI exponents
 interface           table + model = Interface, what an FMU is made from
 ports               fast access to a model through value references; the same for the FMU and for a run in process
-model_description   modelDescription.xml
-documentation       the page for people
 slave               the base of the slaves in fmu_src/
 build_record        what an FMU was built from, and whether that is what is running
-package             the .fmu files
+builder/            the .fmu files
 ship_manoeuvring, ship_collision    the two tables
 """

@@ -12,12 +12,16 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from math import prod
 
-from .variables import Table, Variable
+from .variables import Kind, Table, Variable
 
-__all__ = ["TIME", "ArrayVariable", "Layout", "arrays"]
+__all__ = ["TIME", "TYPES", "ArrayVariable", "Layout", "arrays"]
 
 TIME = 0
 """Value reference of the independent variable."""
+TYPES: dict[Kind, str] = {
+    "Real": "Float64", "Integer": "Int32", "Boolean": "Boolean", "String": "String", "Enumeration": "Enumeration",
+}  # fmt: skip
+"""What a kind of variable is called in FMI 3.0."""
 
 
 @dataclass(frozen=True)

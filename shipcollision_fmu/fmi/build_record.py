@@ -25,8 +25,8 @@ import shipcollision_fmu
 from ..errors import HostError
 
 __all__ = [
-    "RECORD", "START", "BuildRecord", "confirmed", "contents", "contents_digest", "digest", "package_directory",
-    "running_build", "start_values",
+    "CARRIED", "RECORD", "START", "BuildRecord", "confirmed", "contents", "contents_digest", "digest",
+    "package_directory", "running_build", "start_values",
 ]  # fmt: skip
 
 RECORD = "build.json"
@@ -34,10 +34,12 @@ RECORD = "build.json"
 START = "start.json"
 """Name of the start values, in an FMU that has its own."""
 
-_CARRIED = ("__init__.py", "collision", "errors.py", "files.py", "fmi", "manoeuvring", "ship")
-"""Rooms and files of the package that travel in an FMU. Whatever is not named here stays at home."""
-_DATA = ("hulls", "ships")
-"""Folders under models/ that ships are made from."""
+CARRIED = ("__init__.py", "errors.py", "collision/**/*.py", "fmi/*.py", "manoeuvring/*.py", "ship/**/*.py")
+"""Files of the package that travel in an FMU: the models with all that they import, and the slaves. What is not named
+here stays at home, as the rooms inside fmi and manoeuvring do. A module that a slave imports and that is missing here
+makes the FMU fail in a host without the package."""
+_DATA = ("hulls/**/*", "ships/**/*")
+"""Files under models/ that ships are made from."""
 
 
 @dataclass(frozen=True)
@@ -81,15 +83,11 @@ def contents(package: Path) -> dict[str, Path]:
     """
     models = package / "models" if (package / "models").is_dir() else package.parent / "models"
     found: dict[str, Path] = {}
-    for root, top, folders in (
-        (package, package.name, [package / name for name in _CARRIED]),
-        (models, "models", [models / name for name in _DATA]),
-    ):
-        for folder in folders:
-            for path in [folder] if folder.is_file() else folder.rglob("*"):
-                inside = path.relative_to(root)
-                if path.is_file() and not any(part == "__pycache__" or part.startswith(".") for part in inside.parts):
-                    found[f"{top}/{inside.as_posix()}"] = path
+    for root, top, patterns in ((package, package.name, CARRIED), (models, "models", _DATA)):
+        for path in (path for pattern in patterns for path in root.glob(pattern)):
+            inside = path.relative_to(root)
+            if path.is_file() and not any(part == "__pycache__" or part.startswith(".") for part in inside.parts):
+                found[f"{top}/{inside.as_posix()}"] = path
     return dict(sorted(found.items()))
 
 

@@ -13,13 +13,11 @@ from __future__ import annotations
 import math
 import sys
 from typing import Any
-from xml.etree.ElementTree import Element
 
 import pythonfmu
 from pythonfmu.enums import Fmi2Status
 from pythonfmu.fmi2slave import Fmi2Slave
 
-from .model_description import LOG_CATEGORIES, model_description
 from .slave_base import SlaveBase, keep
 
 __all__ = ["ModelSlave"]
@@ -28,7 +26,6 @@ __all__ = ["ModelSlave"]
 class ModelSlave(SlaveBase, Fmi2Slave):  # type: ignore[misc]  # pythonfmu has no type information
     """An Interface as an FMI 2.0 slave: see SlaveBase."""
 
-    log_categories = LOG_CATEGORIES
     wrapper = f"pythonfmu {pythonfmu.__version__}"
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
@@ -37,11 +34,6 @@ class ModelSlave(SlaveBase, Fmi2Slave):  # type: ignore[misc]  # pythonfmu has n
         super().__init_subclass__(**kwargs)
         if cls.__module__ in sys.modules:
             keep(vars(sys.modules[cls.__module__]))
-
-    def to_xml(self, model_options: Any = None) -> Element:
-        """modelDescription.xml."""
-        del model_options  # what the slave can do does not depend on the builder
-        return model_description(self._made_from, self._ships, str(self.guid), self._start)
 
     def do_step(self, current_time: float, step_size: float) -> bool:
         """One step; False (fmi2Discard) when it could not be made."""

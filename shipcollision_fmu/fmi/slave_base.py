@@ -34,10 +34,16 @@ from .interface import SHIPS, Interface
 from .variable_access import Ports
 from .wrapper_library import let_go
 
-__all__ = ["STDERR", "SlaveBase", "keep", "state_from_bytes", "state_to_bytes"]
+__all__ = ["LOG_CATEGORIES", "STDERR", "SlaveBase", "keep", "state_from_bytes", "state_to_bytes"]
 
 STDERR = "SHIPCOLLISION_LOG"
 """Environment variable; with the value "stderr", what an FMU logs is printed as well."""
+
+LOG_CATEGORIES = {
+    "logStatusError": "Calls that were refused and steps that could not be made, one line each.",
+    "logStatusWarning": "Steps that were made but are less exact than they should be, one line each.",
+}
+"""Categories of log messages, and what is in them; the wrappers map the status of a message to its category."""
 
 T = TypeVar("T")
 
@@ -60,6 +66,7 @@ class SlaveBase:
     instantiation fail.
     """
 
+    log_categories = LOG_CATEGORIES
     interface: ClassVar[Interface | str]
     wrapper: ClassVar[str]
     ports: Ports

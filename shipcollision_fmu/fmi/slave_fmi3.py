@@ -16,16 +16,13 @@ import math
 from collections.abc import Sequence
 from ctypes import c_uint64
 from typing import Any
-from xml.etree.ElementTree import Element
 
 import pythonfmu3
 from pythonfmu3.enums import Fmi3Status
 from pythonfmu3.fmi3slave import Fmi3Slave, Fmi3StepResult
 
 from ..errors import InputError
-from .arrays import TIME, ArrayVariable, arrays
-from .model_description import LOG_CATEGORIES
-from .model_description_fmi3 import TYPES, model_description
+from .arrays import TIME, TYPES, ArrayVariable, arrays
 from .slave_base import SlaveBase
 from .variables import Kind
 
@@ -40,7 +37,6 @@ _PLANS = 1000
 class ModelSlave3(SlaveBase, Fmi3Slave):  # type: ignore[misc]  # pythonfmu3 has no type information
     """An Interface as an FMI 3.0 slave: see SlaveBase."""
 
-    log_categories = LOG_CATEGORIES
     wrapper = f"pythonfmu3 {pythonfmu3.__version__}"
 
     def __init__(self, **kwargs: Any) -> None:
@@ -48,11 +44,6 @@ class ModelSlave3(SlaveBase, Fmi3Slave):  # type: ignore[misc]  # pythonfmu3 has
         self._arrays = arrays(self.ports.table)
         self._plans: dict[tuple[str | int, ...], list[int]] = {}
         self._time = 0.0
-
-    def to_xml(self, model_options: Any = None) -> Element:
-        """modelDescription.xml."""
-        del model_options  # what the slave can do does not depend on the builder
-        return model_description(self._made_from, self._ships, str(self.guid))
 
     def do_step(self, current_time: float, step_size: float) -> Fmi3StepResult:
         """One step; fmi3Discard when it could not be made."""

@@ -11,14 +11,12 @@ refused, or left out on request.
 
 from __future__ import annotations
 
-import io
-import zipfile
-from collections.abc import Mapping
 from pathlib import Path
 from xml.etree.ElementTree import Element, SubElement
 
 from .. import __version__
 from ..files import check_writable, write_file
+from ..fmi.builder.zip_archive import zip_bytes
 from ..fmi.units import UNITS
 from ..scenario.scenario import Scenario
 from .left_out import notes, refuse_orders
@@ -34,8 +32,6 @@ NAMESPACES = {
     "osp": "http://opensimulationplatform.com/SSP/OSPAnnotations",
 }
 _TOOL = f"shipcollision_fmu {__version__}"
-_DATE = (1980, 1, 1, 0, 0, 0)
-"""The earliest that a zip archive can say."""
 
 
 def write_ssp(scenario: Scenario, out: Path, *, initial_orders: bool = False) -> tuple[str, ...]:
@@ -59,7 +55,7 @@ def ssp_bytes(system: SystemStructure, left_out: tuple[str, ...] = ()) -> bytes:
     for instance in system.instances:
         files[f"resources/{instance.name}.fmu"] = instance.fmu()
         files[f"resources/{instance.name}.ssv"] = _ssv(instance)
-    return _zipped(files)
+    return zip_bytes(files)
 
 
 def _ssd(system: SystemStructure, left_out: tuple[str, ...]) -> bytes:
@@ -149,15 +145,3 @@ def _ssv(instance: Instance) -> bytes:
     if only_there:
         comment.append(f"Enumerations, names here and numbers there, are in the FMU alone: {', '.join(only_there)}.")
     return xml_bytes(root, comment, {key: NAMESPACES[key] for key in ("ssv", "ssc")})
-
-
-def _zipped(files: Mapping[str, bytes]) -> bytes:
-    target = io.BytesIO()
-    with zipfile.ZipFile(target, "w") as archive:
-        for name, data in sorted(files.items()):
-            entry = zipfile.ZipInfo(name, _DATE)
-            entry.create_system = 3  # Unix, also when made elsewhere
-            entry.external_attr = 0o100644 << 16
-            entry.compress_type = zipfile.ZIP_STORED if name.endswith(".fmu") else zipfile.ZIP_DEFLATED
-            archive.writestr(entry, data)
-    return target.getvalue()

@@ -21,9 +21,9 @@ from math import isclose
 from ..cosim.component import Value
 from ..cosim.wiring import collision_parameters, ship_parameters, surroundings
 from ..errors import ScenarioError
+from ..fmi.builder.package import instance_fmu
 from ..fmi.interface import Interface
 from ..fmi.names import ANSWERS, APPLIED, ORDERS, STATE, SURROUNDINGS, named
-from ..fmi.package import instance_fmu
 from ..fmi.ship_collision import INTERFACE as COLLISION_INTERFACE
 from ..fmi.ship_manoeuvring import INTERFACE as SHIP_INTERFACE
 from ..fmi.variables import Table, Variable

@@ -13,7 +13,7 @@ from shipcollision_fmu.cosim.component import Component, InProcessComponent
 from shipcollision_fmu.cosim.fmi2_component import FmuComponent, UnpackedFmu
 from shipcollision_fmu.cosim.fmi3_component import Fmi3Component
 from shipcollision_fmu.errors import HostError, StepError
-from shipcollision_fmu.fmi.package import build_fmus
+from shipcollision_fmu.fmi.builder.package import build_fmus
 from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
 

@@ -15,7 +15,7 @@ import pytest
 from fmpy import extract, read_model_description
 from fmpy.fmi2 import FMU2Slave, byref, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 
-from shipcollision_fmu.fmi.package import build_fmus, fmu_bytes
+from shipcollision_fmu.fmi.builder.package import build_fmus, fmu_bytes
 from shipcollision_fmu.fmi.variable_access import Ports
 
 DUMMY = Path(__file__).with_name("Dummy.py")

@@ -155,6 +155,31 @@ for folder in folders:
     assert said[0] == said[2]
 
 
+LATER = {
+    "fmi/names.py": "the names of variables, for masters",
+    "ship/hull/mesh.py": "imported with the first ship whose hull is a mesh file",
+}
+"""Files that an FMU needs although a run does not import them, and why."""
+
+
+def test_an_fmu_carries_what_its_slaves_import_and_nothing_else(real_unpacked: dict[tuple[str, int], Path]) -> None:
+    """Both FMUs, in both versions of FMI, run in one process. What they import is compared with what they carry."""
+    folders = [real_unpacked[name, fmi] for name in ("ShipManoeuvring", "ShipCollision") for fmi in (2, 3)]
+    code = """
+assert all(isinstance(run(folder), float) for folder in folders)
+package = loaded().parent
+files = {Path(module.__file__) for name, module in sys.modules.items() if name.split(".")[0] == package.name}
+print(*sorted(file.relative_to(package).as_posix() for file in files))
+"""
+    imported = set(host(code, *folders).split())
+    for folder in folders:
+        package = folder / "resources" / "shipcollision_fmu"
+        carried = {path.relative_to(package).as_posix() for path in package.rglob("*")
+                   if path.is_file() and path.suffix != ".pyc"}  # fmt: skip
+        assert carried == imported | set(LATER)
+        assert not imported & set(LATER)
+
+
 def test_an_fmu_that_was_edited_is_refused(real_fmus: dict[tuple[str, int], Path], tmp_path: Path) -> None:
     folder = unpack(real_fmus["ShipManoeuvring", 2], tmp_path / "edited")
     edit(folder / "resources" / "shipcollision_fmu" / "manoeuvring" / "model.py", "STEEPEST = 1.4", "STEEPEST = 1.3")

@@ -16,8 +16,9 @@ from fmpy.validation import validate_fmu
 
 import shipcollision_fmu
 from shipcollision_fmu.errors import HostError, InputError
-from shipcollision_fmu.fmi import build_record, package
-from shipcollision_fmu.fmi.package import FMUS, REQUIREMENTS, build_fmus, fmus_current
+from shipcollision_fmu.fmi import build_record
+from shipcollision_fmu.fmi.builder import package
+from shipcollision_fmu.fmi.builder.package import FMUS, REQUIREMENTS, build_fmus, fmus_current
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -131,7 +132,7 @@ def test_what_is_in_an_fmu(built: dict[str, Path]) -> None:
             assert wanted in names
         assert not [n for n in names if re.search(r"__pycache__|\.pyc$|/scenarios/|/fmu_src/", n)]
         carried = {n.split("/")[2] for n in names if n.startswith("resources/shipcollision_fmu/")}
-        assert carried == {"__init__.py", "collision", "errors.py", "files.py", "fmi", "manoeuvring", "ship"}
+        assert carried == {"__init__.py", "collision", "errors.py", "fmi", "manoeuvring", "ship"}
 
 
 def test_requirements_are_those_of_the_project() -> None:
@@ -171,8 +172,9 @@ def test_same_inputs_same_bytes(built: dict[str, Path], built_for_fmi3: dict[str
 def test_same_bytes_from_files_found_in_another_order(
     built: dict[str, Path], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    walk = Path.rglob
-    monkeypatch.setattr(Path, "rglob", lambda self, pattern: reversed(list(walk(self, pattern))))
+    for search in ("glob", "rglob"):
+        walk = getattr(Path, search)
+        monkeypatch.setattr(Path, search, lambda self, pattern, walk=walk: reversed(list(walk(self, pattern))))
     for name, path in build_fmus(tmp_path).items():
         assert path.read_bytes() == built[name].read_bytes()
 
@@ -232,7 +234,9 @@ def test_the_digest_sees_every_file_and_its_name(tmp_path: Path) -> None:
     assert (
         tree("installed", {"shipcollision_fmu/ship/a.py": "1", "shipcollision_fmu/models/ships/x.toml": "2"}) == digest
     )
-    unseen = ("shipcollision_fmu/m.py", "shipcollision_fmu/new_room/m.py", "shipcollision_fmu/ship/__pycache__/a.pyc",
+    unseen = ("shipcollision_fmu/m.py", "shipcollision_fmu/new_room/m.py", "shipcollision_fmu/fmi/builder/m.py",
+              "shipcollision_fmu/manoeuvring/trials/m.py", "shipcollision_fmu/ship/README.md",
+              "shipcollision_fmu/ship/__pycache__/a.pyc",
               "models/scenarios/s.toml", "shipcollision_fmu/fmu_src/S.py")  # fmt: skip
     assert tree("more", {**plain, **dict.fromkeys(unseen, "4")}) == digest
 

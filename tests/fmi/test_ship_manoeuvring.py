@@ -14,7 +14,7 @@ import pytest
 from fmpy import extract, read_model_description
 
 from shipcollision_fmu.errors import ShipCollisionError
-from shipcollision_fmu.fmi.package import fmu_bytes, slave_directory
+from shipcollision_fmu.fmi.builder.package import fmu_bytes, slave_directory
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE
 from shipcollision_fmu.fmi.variable_access import Ports
 

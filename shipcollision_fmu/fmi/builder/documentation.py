@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from html import escape
 
-from .. import __version__
-from .arrays import ArrayVariable, arrays
-from .interface import Interface
-from .model_description_fmi3 import TYPES
-from .variables import Variable
+from ... import __version__
+from ..arrays import TYPES, ArrayVariable, arrays
+from ..interface import Interface
+from ..variables import Variable
 
 __all__ = ["page"]
 

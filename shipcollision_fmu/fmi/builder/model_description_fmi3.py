@@ -14,19 +14,14 @@ from collections.abc import Mapping
 from typing import Any
 from xml.etree.ElementTree import Element, SubElement
 
-from .. import __version__
-from .arrays import TIME, ArrayVariable, arrays
-from .interface import Interface
+from ... import __version__
+from ..arrays import TIME, TYPES, ArrayVariable, arrays
+from ..interface import Interface
+from ..variable_access import Ports
+from ..variables import Table, Variable
 from .model_description import add_categories, add_types, add_units, known, limits, number, start
-from .variable_access import Ports
-from .variables import Kind, Table, Variable
 
-__all__ = ["TYPES", "model_description"]
-
-TYPES: dict[Kind, str] = {
-    "Real": "Float64", "Integer": "Int32", "Boolean": "Boolean", "String": "String", "Enumeration": "Enumeration",
-}  # fmt: skip
-"""What a kind of variable is called in FMI 3.0."""
+__all__ = ["model_description"]
 
 _SECOND = "s"  # the unit of the time, which is not in the table
 _CAPABILITIES = {

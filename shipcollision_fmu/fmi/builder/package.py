@@ -17,7 +17,6 @@ digest of everything else.
 
 from __future__ import annotations
 
-import io
 import json
 import zipfile
 from collections.abc import Callable, Mapping
@@ -30,15 +29,16 @@ from typing import Any
 from uuid import UUID
 from xml.etree.ElementTree import Element
 
-from .. import __version__
-from ..errors import HostError, InputError
-from ..files import write_files
-from . import build_record
-from .build_record import RECORD, START, BuildRecord, package_directory
+from ... import __version__
+from ...errors import HostError, InputError
+from ...files import write_files
+from .. import build_record
+from ..build_record import RECORD, START, BuildRecord, package_directory
+from ..interface import SHIPS, Interface
 from .documentation import page
-from .interface import SHIPS, Interface
 from .model_description import model_description, to_bytes
 from .model_description_fmi3 import model_description as model_description_fmi3
+from .zip_archive import LIBRARIES, zip_bytes
 
 __all__ = [
     "FMUS", "REQUIREMENTS", "VERSIONS", "build_fmus", "fmu_bytes", "fmu_file", "fmus_current", "instance_fmu",
@@ -46,15 +46,11 @@ __all__ = [
 ]  # fmt: skip
 
 FMUS = {"ShipCollision": "ship_collision", "ShipManoeuvring": "ship_manoeuvring"}
-"""Name of each FMU, and the module beside this one that holds its INTERFACE."""
+"""Name of each FMU, and the module of the room fmi that holds its INTERFACE."""
 
 REQUIREMENTS = ("numpy>=1.24", "pybullet>=3.2.5", "pydantic>=2.7", "tomli>=2.0; python_version < '3.11'")
 """What the slaves import besides what they carry: the project's dependencies without those of the master and the
 command line."""
-
-_DATE = (1980, 1, 1, 0, 0, 0)
-"""The earliest that a zip archive can say."""
-_BINARIES = (".so", ".dll", ".dylib")
 
 
 @dataclass(frozen=True)
@@ -147,7 +143,7 @@ def fmu_bytes(
     files["modelDescription.xml"] = to_bytes(version.description(interface, ships, guid, start))
     record = BuildRecord(name, __version__, contents, inputs, ships, guid, _identity(version))
     files[f"resources/{RECORD}"] = record.to_json().encode()
-    return _zipped(files)
+    return zip_bytes(files)
 
 
 def slave_directory() -> Path:
@@ -197,7 +193,7 @@ def _wrapper(wrapper: str, name: str) -> dict[str, bytes]:
     found = {
         f"binaries/{path.parent.name}/{name}{path.suffix}": path.read_bytes()
         for path in binaries.rglob("*")
-        if path.suffix in _BINARIES
+        if path.suffix in LIBRARIES
     }
     if not found:
         raise HostError(f"{wrapper} has no binaries under {binaries}: install {wrapper} from its wheel")
@@ -221,9 +217,10 @@ def _distributed(distribution: str) -> str | None:
 
 
 def _inputs(contents: str, slave: bytes, ships: tuple[str, ...], version: _Version) -> str:
-    """Digest of everything an FMU is made from; what the wrapper gives goes by its version."""
+    """Digest of everything an FMU is made from, this room included; what the wrapper gives goes by its version."""
     _home(version.wrapper)
-    parts = (contents, sha256(slave).hexdigest(), ships, _identity(version), __version__, REQUIREMENTS)
+    builder = build_record.digest({path.name: path.read_bytes() for path in Path(__file__).parent.glob("*.py")})
+    parts = (contents, builder, sha256(slave).hexdigest(), ships, _identity(version), __version__, REQUIREMENTS)
     return sha256(repr(parts).encode()).hexdigest()
 
 
@@ -235,16 +232,3 @@ def _is_current(fmu: Path, name: str, contents: str, ships: tuple[str, ...], fmi
         return False
     inputs = _inputs(contents, _slave(name, fmi).read_bytes(), ships, VERSIONS[fmi])
     return record.model == name and record.inputs == inputs
-
-
-def _zipped(files: Mapping[str, bytes]) -> bytes:
-    """A zip archive that depends on names and contents only."""
-    target = io.BytesIO()
-    with zipfile.ZipFile(target, "w") as archive:
-        for name, data in sorted(files.items()):
-            entry = zipfile.ZipInfo(name, _DATE)
-            entry.create_system = 3  # Unix, also when built elsewhere
-            entry.compress_type = zipfile.ZIP_DEFLATED
-            entry.external_attr = (0o100755 if name.endswith(_BINARIES) else 0o100644) << 16
-            archive.writestr(entry, data, compresslevel=9)
-    return target.getvalue()

@@ -13,21 +13,17 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
-from .. import __version__
-from .interface import Interface
-from .units import UNITS
-from .variable_access import Ports
-from .variables import Table, Variable
+from ... import __version__
+from ..interface import Interface
+from ..slave_base import LOG_CATEGORIES
+from ..units import UNITS
+from ..variable_access import Ports
+from ..variables import Table, Variable
 
 __all__ = [
-    "LOG_CATEGORIES", "add_categories", "add_types", "add_units", "known", "limits", "model_description", "number",
+    "add_categories", "add_types", "add_units", "known", "limits", "model_description", "number",
     "start", "to_bytes", "type_name",
 ]  # fmt: skip
-
-LOG_CATEGORIES = {
-    "logStatusError": "Calls that were refused and steps that could not be made, one line each.",
-    "logStatusWarning": "Steps that were made but are less exact than they should be, one line each.",
-}
 
 _CAPABILITIES = {
     "needsExecutionTool": True,  # a Python interpreter with the packages of resources/requirements.txt
