@@ -44,7 +44,7 @@ from shipcollision_fmu.encounters.encounter import encounter
 from shipcollision_fmu.fmi.builder.package import build_fmus
 from shipcollision_fmu.fmi.ship_collision import INTERFACE
 from shipcollision_fmu.packaging.system_structure import COLLISION, system_structure
-from shipcollision_fmu.scenario.scenario import Scenario, scenario_of
+from shipcollision_fmu.scenario.scenario import Scenario, parse_scenario
 from tests.hosts.encounter import Encounter, run_master
 from tests.hosts.masters import MASTERS
 
@@ -88,7 +88,7 @@ BARE = """
 def two_tankers(seconds: float) -> Scenario:
     """They meet halfway."""
     made = encounter("t-bone", hydrodynamics=True, time=seconds / 2, after=seconds / 2, name="benchmark")
-    return scenario_of(made.text, "benchmark.toml").changed(algorithm="jacobi")
+    return parse_scenario(made.text, "benchmark.toml").changed(algorithm="jacobi")
 
 
 def our_loop(scenario: Scenario, made: Callable[[ExitStack], Factories]) -> float:

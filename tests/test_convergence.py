@@ -13,7 +13,7 @@ import pytest
 
 from shipcollision_fmu import load_scenario, load_ship, simulate
 from shipcollision_fmu.fmi.names import STATE
-from shipcollision_fmu.scenario.scenario import scenario_names
+from shipcollision_fmu.scenario.scenario import list_scenario_names
 
 pytestmark = pytest.mark.slow
 
@@ -42,7 +42,7 @@ def differ(name: str, one: dict[str, np.ndarray], other: dict[str, np.ndarray]) 
     return worst
 
 
-@pytest.mark.parametrize("name", scenario_names())
+@pytest.mark.parametrize("name", list_scenario_names())
 def test_half_the_substep_changes_velocities_by_less_than_one_per_cent(name: str) -> None:
     step = load_scenario(name).step
     one, other = twists(name, "gauss-seidel", step, 2), twists(name, "gauss-seidel", step)
@@ -50,7 +50,7 @@ def test_half_the_substep_changes_velocities_by_less_than_one_per_cent(name: str
 
 
 @pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
-@pytest.mark.parametrize("name", scenario_names())
+@pytest.mark.parametrize("name", list_scenario_names())
 def test_the_communication_step_changes_velocities_by_less_than_two_and_five_per_cent(
     name: str, algorithm: str
 ) -> None:

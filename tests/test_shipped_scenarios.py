@@ -13,7 +13,7 @@ from shipcollision_fmu import load_scenario, simulate
 from shipcollision_fmu.collision.model import ShipCollision
 from shipcollision_fmu.cosim.run import Run
 from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
-from shipcollision_fmu.scenario.scenario import Scenario, scenario_names
+from shipcollision_fmu.scenario.scenario import Scenario, list_scenario_names
 from shipcollision_fmu.ship.degrees_of_freedom import FREE
 from shipcollision_fmu.ship.frames import rotation
 from shipcollision_fmu.ship.loading.library import load_ship
@@ -54,7 +54,7 @@ class Watched:
 def runs() -> dict[tuple[str, str], Watched]:
     """Every scenario in process, with step 0.05 s, watched."""
     found = {}
-    for name in scenario_names():
+    for name in list_scenario_names():
         scenario = load_scenario(name)
         for algorithm in ALGORITHMS:
             watch = Watch()
@@ -68,7 +68,7 @@ def runs() -> dict[tuple[str, str], Watched]:
 
 
 def each() -> Any:
-    return pytest.mark.parametrize(("name", "algorithm"), [(n, a) for n in scenario_names() for a in ALGORITHMS])
+    return pytest.mark.parametrize(("name", "algorithm"), [(n, a) for n in list_scenario_names() for a in ALGORITHMS])
 
 
 Runs = dict[tuple[str, str], Watched]
@@ -142,7 +142,7 @@ def test_contact_never_gives_kinetic_energy(runs: Runs, name: str, algorithm: st
     assert -sum(work) == pytest.approx(dissipated[-1], rel=0.02)
 
 
-@pytest.mark.parametrize("name", scenario_names())
+@pytest.mark.parametrize("name", list_scenario_names())
 def test_both_masters_end_at_the_same_velocities(runs: Runs, name: str) -> None:
     """Within 2 % of the change that the collision made, at 0.05 s: the velocity of CO, and the whole twist in the norm
     of the kinetic energy, which is the one that may add metres and radians."""
@@ -186,7 +186,7 @@ def test_linear_momentum_without_added_mass_is_the_same_after_as_before(runs: Ru
         assert not runs[name, algorithm].run.summary["momentum"]["closed"]
 
 
-@pytest.mark.parametrize("name", scenario_names())
+@pytest.mark.parametrize("name", list_scenario_names())
 def test_fmus_and_models_in_process_give_identical_states(name: str, tmp_path: Path) -> None:
     scenario = load_scenario(name)
     simulate(scenario, out=tmp_path / "fmu")

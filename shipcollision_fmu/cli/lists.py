@@ -28,11 +28,11 @@ def ships() -> None:
 @click.command()
 def scenarios() -> None:
     """List the shipped scenarios."""
-    from ..scenario.scenario import load_scenario, scenario_names
+    from ..scenario.scenario import list_scenario_names, load_scenario
     from .run_table import table
 
     listed = table("name", "ships", ">duration [s]", ">step [s]", "description")
-    for name in scenario_names():
+    for name in list_scenario_names():
         loaded = load_scenario(name)
         header = loaded.scenario
         who = ", ".join(f"{role}: {ship.ship}" for role, ship in loaded.ships.items())

@@ -14,8 +14,10 @@ from math import hypot, radians
 
 from ..collision.obstacles import obstacles_toml
 from ..fmi.names import ANSWERS, APPLIED, ORDERS, STATE, SURROUNDINGS, named
-from ..scenario.scenario import Scenario, heading_table, order_table
-from ..scenario.tables import AutopilotTable, ShipStart
+from ..scenario.order_schedule import schedule_headings, schedule_orders
+from ..scenario.scenario import Scenario
+from ..scenario.tables.autopilot import AutopilotTable
+from ..scenario.tables.ship_start import ShipStart
 from ..ship.loading.library import load_ship
 from .component import Buffer, Component, Group, Value
 from .helm import Autopilot, Evasion, HelmState, Route, Seen, Steering, helmed
@@ -116,8 +118,8 @@ def connected(scenario: Scenario, make_ship: MakeShip, make_collision: MakeColli
 
 def _helm(scenario: Scenario, name: str, start: ShipStart, ship: Component) -> Helm:
     """The helm of a ship; its steering, when it has one, is scaled to her length and speed where the file is silent."""
-    helm = Helm(ship.reals(ORDERS), order_table(start, scenario.step), step=scenario.step)
-    headings = heading_table(start, scenario.step)
+    helm = Helm(ship.reals(ORDERS), schedule_orders(start, scenario.step), step=scenario.step)
+    headings = schedule_headings(start, scenario.step)
     if start.route is None and start.evasion is None and all(heading is None for _, heading in headings):
         return helm
     L_pp = load_ship(scenario.ship_file(name)).L_pp

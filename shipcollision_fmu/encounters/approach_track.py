@@ -15,7 +15,8 @@ import numpy as np
 
 from ..errors import ScenarioError
 from ..manoeuvring.model import ShipManoeuvring
-from ..scenario.scenario import Scenario, order_table
+from ..scenario.order_schedule import schedule_orders
+from ..scenario.scenario import Scenario
 from ..ship.frames import Array
 from .approaching_ship import ApproachingShip
 
@@ -104,7 +105,7 @@ def sail_as_in_run(scenario: Scenario, name: str, steps: int) -> list[Pose]:
     parameters.initial_velocity[:], parameters.initial_rate[:] = start.velocity, start.rate
     if table.hydrodynamics:
         model.inputs.current[:] = scenario.environment.current
-    return _step_model(model, dict(order_table(table, scenario.step)), steps, scenario.step)
+    return _step_model(model, dict(schedule_orders(table, scenario.step)), steps, scenario.step)
 
 
 def _step_model(model: ShipManoeuvring, orders: Mapping[int, list[float]], steps: int, h: float) -> list[Pose]:

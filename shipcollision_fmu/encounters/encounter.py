@@ -23,7 +23,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import ScenarioError
-from ..scenario.scenario import Scenario, scenario_of
+from ..scenario.scenario import Scenario, parse_scenario
 from .approach_track import compute_relative_velocity, make_track, sail_as_in_run, shift_track
 from .approaching_ship import ApproachingShip, plan_approaching_ships
 from .earlier_contact import check_no_earlier_contact
@@ -97,7 +97,7 @@ def encounter(request: Request | str, directory: str | Path = ".", **options: An
         )
         text, scenario = _write_as_run(
             lambda to: write_encounter(request, kind, impact, steps, current, to, sailed, Path(directory)),
-            lambda text: scenario_of(text, f"encounter {request.kind}", directory),
+            lambda text: parse_scenario(text, f"encounter {request.kind}", directory),
             request, impact, approach, steps, finder,
         )  # fmt: skip
     return Encounter(

@@ -6,7 +6,7 @@ from math import degrees
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..scenario.toml_writer import scenario_text
+from ..scenario.toml_writer import format_toml
 from .approach_track import Pose
 from .approaching_ship import ApproachingShip
 from .plan_contact import PlanContact
@@ -60,7 +60,7 @@ def write_encounter(
     }
     if any(current):
         tables["environment"] = {"current": [*current]}
-    return scenario_text(comment, tables)
+    return format_toml(comment, tables)
 
 
 def _ship_table(ship: ApproachingShip, start: Pose, step: float, sailed: bool, directory: Path) -> dict[str, Any]:

@@ -21,8 +21,8 @@ from typing import Any
 
 from ..errors import ScenarioError
 from ..manoeuvring.trials.steady_course import self_propulsion
-from ..scenario.scenario import Scenario, scenario_of
-from ..scenario.toml_writer import scenario_text
+from ..scenario.scenario import Scenario, parse_scenario
+from ..scenario.toml_writer import format_toml
 from .encounter_file import CONTACT_LAW
 from .request import FASTEST, LONGEST, count_steps
 from .ship_table import build_ship_table, refer_to_ship, require_manoeuvring, round_off
@@ -108,8 +108,8 @@ def imazu(
         f"On their courses all ships are at n's origin after {T:g} s; their hulls touch before.",
         "Imazu (1987), as tabulated by Sawada, Sato and Majima (2021), J. Mar. Sci. Technol. 26:509-524, table 4.",
     ]
-    text = scenario_text(comment, tables)
-    return Imazu(text, scenario_of(text, f"Imazu case {case}", directory), T)
+    text = format_toml(comment, tables)
+    return Imazu(text, parse_scenario(text, f"Imazu case {case}", directory), T)
 
 
 def _ship_table(

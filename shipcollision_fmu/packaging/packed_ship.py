@@ -10,7 +10,7 @@ from __future__ import annotations
 from pathlib import Path, PurePosixPath
 
 from ..errors import ShipError
-from ..scenario.toml_writer import scenario_text
+from ..scenario.toml_writer import format_toml
 from ..ship.loading.library import ship_content, ship_names
 
 __all__ = ["FOLDER", "packed_ship"]
@@ -38,5 +38,5 @@ def packed_ship(name: str, ship: str) -> tuple[str, dict[str, bytes]]:
         hull["file"] = f"{name}{mesh.suffix.lower()}"
         files[f"{FOLDER}/{hull['file']}"] = data
     place = str(PurePosixPath(FOLDER, f"{name}.toml"))
-    files[place] = scenario_text([f"From {source}, with all that it extends."], content).encode()
+    files[place] = format_toml([f"From {source}, with all that it extends."], content).encode()
     return place, files

@@ -27,8 +27,9 @@ from ..fmi.names import ANSWERS, APPLIED, ORDERS, STATE, SURROUNDINGS, named
 from ..fmi.ship_collision import INTERFACE as COLLISION_INTERFACE
 from ..fmi.ship_manoeuvring import INTERFACE as SHIP_INTERFACE
 from ..fmi.variables import Table, Variable
-from ..scenario.scenario import Scenario, order_table
-from ..scenario.tables import ShipStart
+from ..scenario.order_schedule import schedule_orders
+from ..scenario.scenario import Scenario
+from ..scenario.tables.ship_start import ShipStart
 from .packed_ship import packed_ship
 
 __all__ = ["COLLISION", "Connection", "Instance", "SystemStructure", "TimedOrder", "number", "system_structure"]
@@ -138,7 +139,7 @@ def number(variable: Variable, value: Value) -> Value:
 
 def _ship(scenario: Scenario, name: str, ship: ShipStart, packed: tuple[str, dict[str, bytes]]) -> Instance:
     parameters = {**ship_parameters(scenario, name, ship), "ship": packed[0]}
-    at_start = next((ordered for k, ordered in order_table(ship, scenario.step) if k == 0), [0.0, 0.0])
+    at_start = next((ordered for k, ordered in schedule_orders(ship, scenario.step) if k == 0), [0.0, 0.0])
     inputs: dict[str, Value] = {
         **dict(zip(ORDERS, at_start, strict=True)),
         **dict(zip(SURROUNDINGS, surroundings(scenario), strict=True)),
@@ -173,7 +174,7 @@ def _orders(scenario: Scenario) -> tuple[TimedOrder, ...]:
     found: list[TimedOrder] = []
     for name, start in scenario.ships.items():
         now = [0.0, 0.0]
-        for k, ordered in order_table(start, scenario.step):
+        for k, ordered in schedule_orders(start, scenario.step):
             if k > 0:
                 found += [
                     TimedOrder(round(k * scenario.step, 9), name, variable, value)

@@ -29,7 +29,7 @@ import numpy.typing as npt
 
 from ..collision.collisions import heading_angle
 from ..fmi.names import STATE, named
-from ..scenario.tables import DamageTable
+from ..scenario.tables.collision import DamageTable
 from ..ship.degrees_of_freedom import free_inverse, tilted_inverse
 from ..ship.frames import Array, rotation, rotation_vector
 from ..ship.ship import Ship

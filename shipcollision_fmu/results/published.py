@@ -21,7 +21,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..fmi.names import STATE
-from ..scenario.tables import Quantity, Reference
+from ..scenario.tables.reference import Quantity, Reference
 from ..ship.frames import Array, quaternion_w, rotation, swapped
 from ..ship.ship import Ship
 

@@ -1,6 +1,6 @@
-"""A scenario whose bodies start inside each other is refused: no impulse can be right there.
+"""Refuses a scenario whose bodies overlap at the start, where no impulse would be right.
 
-Seen from above first, which is cheap; only where that overlaps are the solids themselves compared.
+Plans are compared first, which is cheap; the solids are compared only where the plans overlap.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from ..errors import ScenarioError
 from ..ship.hull.hull import build_hull
 from ..ship.hull.solid import HullMesh
 from ..ship.ship import Ship
-from .tables import ShipStart
+from .tables.ship_start import ShipStart
 
 __all__ = ["refuse_overlap"]
 

@@ -1,12 +1,11 @@
-"""A scenario: which ships start where, how their contact is modelled, and what was published about it.
+"""Scenario: a whole scenario file, its checks, and load_scenario().
 
-All times are whole numbers of communication steps: t_k = k step, never a running sum. An order is held until the next
-one; it is given at the first communication point at or after its time. The tables of the file are in cosim/tables.py.
+Keys, units and limits of the file are in tables/. Here are the checks that need more than one table: names, orders
+after the end, ships that cannot be loaded, and bodies that overlap at the start (initial_overlap.py).
 """
 
 from __future__ import annotations
 
-from math import ceil, radians
 from pathlib import Path
 from typing import Any
 
@@ -18,36 +17,39 @@ from ..ship.loading.library import load_ship, models_directory
 from ..ship.loading.messages import one_line, suggestion
 from ..ship.loading.toml import parsed, read_toml
 from ..ship.ship import Ship
+from ..ship.tables.particulars import Table
 from .initial_overlap import refuse_overlap
-from .tables import Algorithm, Collision, Environment, Header, Reference, ShipStart, Table
+from .tables.collision import Collision
+from .tables.environment import Environment
+from .tables.reference import Reference
+from .tables.run import Algorithm, Header
+from .tables.ship_start import ShipStart
 
-__all__ = [
-    "RESERVED", "Scenario", "heading_table", "load_scenario", "order_table", "scenario_names", "scenario_of",
-]  # fmt: skip
+__all__ = ["RESERVED", "Scenario", "list_scenario_names", "load_scenario", "parse_scenario"]
 
 RESERVED = frozenset({
     "clearance", "clearance_range", "contact", "energy", "feedback", "fender", "friction", "impact",
     "minimum_separation_time", "obstacles", "response", "restitution", "scratch", "solver", "substep", "time",
 })  # fmt: skip
-"""Names that no ship may have: the collision FMU's own variables, and the column `time` of states.csv."""
+"""Names that no ship may have: the collision FMU's own variables begin so, and states.csv has a column `time`."""
 
 
 class Scenario(Table):
     """A whole scenario file."""
 
-    scenario: Header
+    scenario: Header = Field(description="the table [scenario]: name, duration, step, algorithm")
     ships: dict[str, ShipStart] = Field(min_length=1, description="a table [ships.NAME] for each of two or more ships")
-    collision: Collision = Collision()
-    environment: Environment = Environment()
+    collision: Collision = Field(default=Collision(), description="the table [collision]: contact and feedback")
+    environment: Environment = Field(default=Environment(), description="the table [environment]: current and wind")
     obstacles: dict[str, ObstacleTable] = Field(default={}, description="a table [obstacles.NAME] for each")
-    reference: Reference | None = None
+    reference: Reference | None = Field(default=None, description="the table [reference]: published results")
 
     _source: str = PrivateAttr(default="scenario")
     _directory: Path = PrivateAttr(default_factory=Path)
 
     @property
     def name(self) -> str:
-        """Name of the scenario; its run is stored under it."""
+        """Name of the scenario and of the folder of its run."""
         return self.scenario.name
 
     @property
@@ -62,11 +64,11 @@ class Scenario(Table):
 
     @property
     def algorithm(self) -> Algorithm:
-        """How the master orders its steps."""
+        """Order of the master's steps."""
         return self.scenario.algorithm
 
     def ship_file(self, name: str) -> str:
-        """What load_ship takes for ship `name`: a shipped model's name, or an absolute path.
+        """The argument of load_ship for ship `name`: a shipped ship's name, or an absolute path.
 
         A path in a scenario file is relative to that file.
         """
@@ -74,30 +76,33 @@ class Scenario(Table):
         return str((self._directory / ship).resolve()) if _is_path(ship) else ship
 
     def load_ships(self) -> dict[str, Ship]:
-        """The ships by their names in the scenario; ScenarioError, in one line, for one that cannot be had."""
+        """The ships by name. Raises ScenarioError, in one line, for a ship that cannot be loaded."""
         return {name: self._load_ship(name) for name in self.ships}
 
     def check(self) -> None:
-        """Raises ScenarioError for ships that cannot be had, and for bodies that start inside each other."""
+        """Raise ScenarioError for ships that cannot be loaded, and for bodies that overlap at the start."""
         ships = self.load_ships()
         if self.collision.response == "bullet":
             for name, ship in ships.items():
                 if ship.M_A.any():
                     raise ScenarioError(
-                        f"{self._source}: [collision] response = 'bullet' knows a scalar mass only, and [ships.{name}] "
-                        f"ship = {self.ships[name].ship!r} has added mass: take 'pgs', or a ship without it"
+                        f"{self._source}: [collision] response = 'bullet' supports scalar masses only, and "
+                        f"[ships.{name}] ship = {self.ships[name].ship!r} has added mass: take 'pgs', or another ship"
                     )
         refuse_overlap(self._source, self.ships, ships, self.obstacles)
 
     def changed(self, *, algorithm: str | None = None, step: float | None = None) -> Scenario:
-        """The same scenario with another algorithm or communication step [s]; ScenarioError if that does not fit."""
+        """The same scenario with another algorithm or communication step [s].
+
+        Raises ScenarioError when the duration is not a whole number of these steps, or the algorithm is unknown.
+        """
         options = {key: value for key, value in (("algorithm", algorithm), ("step", step)) if value is not None}
         if not options:
             return self
         data = self.model_dump(exclude_unset=True)
         data["scenario"].update(options)
-        said = " and ".join(f"{key} {value}" for key, value in options.items())
-        return _validated(data, f"{self._source} with {said}", self._directory)
+        changes = " and ".join(f"{key} {value}" for key, value in options.items())
+        return _validate(data, f"{self._source} with {changes}", self._directory)
 
     def _load_ship(self, name: str) -> Ship:
         start = self.ships[name]
@@ -108,18 +113,19 @@ class Scenario(Table):
             raise ScenarioError(f"{key}: {error}") from None
         if start.hydrodynamics and ship.manoeuvring is None:
             raise ScenarioError(
-                f"{key} can only coast, it has no table [manoeuvring]: set hydrodynamics = false, or take one that has"
+                f"{key} can only coast, it has no table [manoeuvring]: set hydrodynamics = false, or take "
+                "a ship that has it"
             )
         return ship
 
     @model_validator(mode="after")
-    def _something_to_meet(self) -> Scenario:
+    def _check_two_bodies(self) -> Scenario:
         if len(self.ships) + len(self.obstacles) < 2:
             raise ValueError("[ships] has one ship and nothing to meet: give another [ships.NAME], or [obstacles.NAME]")
         return self
 
     @model_validator(mode="after")
-    def _obstacles_named_apart(self) -> Scenario:
+    def _check_obstacle_names(self) -> Scenario:
         for name in self.obstacles:
             if not (name.isidentifier() and name.isascii()) or name in self.ships:
                 raise ValueError(
@@ -128,7 +134,7 @@ class Scenario(Table):
         return self
 
     @model_validator(mode="after")
-    def _named_apart(self) -> Scenario:
+    def _check_ship_names(self) -> Scenario:
         for name in self.ships:
             if not (name.isidentifier() and name.isascii()) or name in RESERVED:
                 raise ValueError(
@@ -138,7 +144,7 @@ class Scenario(Table):
         return self
 
     @model_validator(mode="after")
-    def _placed_apart(self) -> Scenario:
+    def _check_positions(self) -> Scenario:
         places: dict[tuple[float, ...], str] = {}
         for name, ship in self.ships.items():
             place = tuple(ship.start.position)
@@ -148,7 +154,7 @@ class Scenario(Table):
         return self
 
     @model_validator(mode="after")
-    def _nothing_without_effect(self) -> Scenario:
+    def _check_effects(self) -> Scenario:
         end = self.scenario.duration
         for name, ship in self.ships.items():
             if ship.orders and ship.orders[-1].time > end:
@@ -167,7 +173,7 @@ class Scenario(Table):
         return self
 
     @model_validator(mode="after")
-    def _reference_fits(self) -> Scenario:
+    def _check_reference(self) -> Scenario:
         if self.reference is None:
             return self
         if self.reference.time > self.scenario.duration:
@@ -181,7 +187,7 @@ class Scenario(Table):
         return self
 
 
-def scenario_names() -> list[str]:
+def list_scenario_names() -> list[str]:
     """Names of the shipped scenarios, sorted."""
     return sorted(path.stem for path in (models_directory() / "scenarios").glob("*.toml"))
 
@@ -189,56 +195,27 @@ def scenario_names() -> list[str]:
 def load_scenario(name_or_path: str | Path) -> Scenario:
     """The scenario of a shipped name (`guan2014`) or of a file (`my/scenario.toml`).
 
-    Anything with the suffix .toml or a path separator is a file. Raises ScenarioError, in one line, for a file that
-    is missing, is not TOML, or says something that cannot be run, and for ships that cannot be loaded.
+    An argument with the suffix .toml or a path separator is a file. Raises ScenarioError, in one line, for a file that
+    is missing, is not TOML or cannot be run, for ships that cannot be loaded, and for bodies that overlap at the start.
     """
-    path = _located(name_or_path)
-    scenario = _validated(read_toml(path, ScenarioError), path.name, path.parent)
-    scenario.check()  # so that everything a file can get wrong is said here
-    return scenario
-
-
-def scenario_of(text: str, source: str, directory: str | Path = ".") -> Scenario:
-    """The scenario that TOML text describes; `source` names it in messages, paths of ships start in `directory`.
-
-    Raises ScenarioError as load_scenario does.
-    """
-    scenario = _validated(parsed(text, source, ScenarioError), source, Path(directory))
+    path = _locate(name_or_path)
+    scenario = _validate(read_toml(path, ScenarioError), path.name, path.parent)
     scenario.check()
     return scenario
 
 
-def order_table(start: ShipStart, step: float) -> list[tuple[int, list[float]]]:
-    """Communication points k and what is ordered there: [rudder_order rad, propeller_order rev/s], k rising.
+def parse_scenario(text: str, source: str, directory: str | Path = ".") -> Scenario:
+    """The scenario in TOML text; `source` is its name in messages, paths of ships are relative to `directory`.
 
-    An order is given at the first communication point at or after its time. A billionth of a step is forgiven, so
-    that 0.3 s is 6 steps of 0.05 s; of orders that fall on one point the last counts.
+    Raises ScenarioError as load_scenario does.
     """
-    table: dict[int, list[float]] = {}
-    rudder, revolutions = 0.0, 0.0
-    for order in start.orders:
-        rudder = rudder if order.rudder_deg is None else radians(order.rudder_deg)
-        revolutions = revolutions if order.rev_per_s is None else float(order.rev_per_s)
-        table[_point(order.time, step)] = [rudder, revolutions]
-    return list(table.items())
+    scenario = _validate(parsed(text, source, ScenarioError), source, Path(directory))
+    scenario.check()
+    return scenario
 
 
-def heading_table(start: ShipStart, step: float) -> list[tuple[int, float | None]]:
-    """Communication points k and the heading to steer from there [rad], None for a rudder by hand; k rising."""
-    table: dict[int, float | None] = {}
-    for order in start.orders:
-        if order.heading_deg is not None or order.rudder_deg is not None:
-            heading = None if order.heading_deg is None else radians(order.heading_deg)
-            table[_point(order.time, step)] = heading
-    return list(table.items())
-
-
-def _point(time: float, step: float) -> int:
-    return ceil(time / step - 1e-9)
-
-
-def _located(name_or_path: str | Path) -> Path:
-    text, names = str(name_or_path), ", ".join(scenario_names())
+def _locate(name_or_path: str | Path) -> Path:
+    text, names = str(name_or_path), ", ".join(list_scenario_names())
     if isinstance(name_or_path, Path) or _is_path(text):
         path = Path(text)
         if not path.is_file():
@@ -247,7 +224,7 @@ def _located(name_or_path: str | Path) -> Path:
         return path
     path = models_directory() / "scenarios" / f"{text}.toml"
     if not path.is_file():
-        near = suggestion(text, scenario_names())
+        near = suggestion(text, list_scenario_names())
         raise ScenarioError(f"unknown scenario {text!r}:{near} known: {names}; or give the path of a TOML file")
     return path
 
@@ -256,7 +233,7 @@ def _is_path(text: str) -> bool:
     return text.endswith(".toml") or "/" in text or "\\" in text
 
 
-def _validated(data: dict[str, Any], source: str, directory: Path) -> Scenario:
+def _validate(data: dict[str, Any], source: str, directory: Path) -> Scenario:
     try:
         scenario = Scenario.model_validate(data)
     except ValidationError as error:

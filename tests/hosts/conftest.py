@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from shipcollision_fmu.encounters.encounter import encounter
-from shipcollision_fmu.scenario.scenario import load_scenario, scenario_of
+from shipcollision_fmu.scenario.scenario import load_scenario, parse_scenario
 
 from .encounter import Encounter, Rows
 
@@ -23,7 +23,7 @@ def encounters(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Encounter]
     text = encounter("t-bone", hydrodynamics=True, name="under_way", **place).text
     assert "restitution = 0.0" in text
     text = text.replace("restitution = 0.0", "restitution = 0.3")
-    scenarios = {"guan2014": load_scenario("guan2014"), "under_way": scenario_of(text, "under_way.toml")}
+    scenarios = {"guan2014": load_scenario("guan2014"), "under_way": parse_scenario(text, "under_way.toml")}
     return {name: Encounter.packaged(scenarios[name], tmp_path_factory.mktemp(name)) for name in NAMES}
 
 

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from shipcollision_fmu.scenario.scenario import Scenario, load_scenario, scenario_of
+from shipcollision_fmu.scenario.scenario import Scenario, load_scenario, parse_scenario
 from shipcollision_fmu.ship.loading.library import models_directory
 
 from .encounter import Encounter, Rows, run_master
@@ -74,7 +74,7 @@ def differences(host: str, told: Scenario, folder: Path, gone: Path | None = Non
 
 @pytest.mark.parametrize("host", [host for host in MASTERS if host == "libcosim-osp"])
 def test_orders_in_time_reach_the_ship_in_libcosim(tmp_path: Path, host: str) -> None:
-    scenario = scenario_of(ORDERS, "orders.toml")
+    scenario = parse_scenario(ORDERS, "orders.toml")
     found, ours = differences(host, scenario, tmp_path, scenario=str(tmp_path / "osp" / "scenario.json"))
     assert found.max() <= JITTER
     heading = ours[:, 5]

@@ -27,7 +27,7 @@ from shipcollision_fmu.packaging.osp_groups import KINDS, collision_groups, ship
 from shipcollision_fmu.packaging.packed_ship import packed_ship
 from shipcollision_fmu.packaging.ssp import ssp_bytes, write_ssp
 from shipcollision_fmu.packaging.system_structure import TimedOrder, system_structure
-from shipcollision_fmu.scenario.scenario import load_scenario, scenario_names
+from shipcollision_fmu.scenario.scenario import list_scenario_names, load_scenario
 from shipcollision_fmu.ship.hull.hull import build_hull
 from shipcollision_fmu.ship.loading.library import load_ship, models_directory
 
@@ -52,7 +52,7 @@ def empty_fmus(monkeypatch: pytest.MonkeyPatch) -> None:
 # What is in it. ------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", scenario_names())
+@pytest.mark.parametrize("name", list_scenario_names())
 def test_every_shipped_scenario_can_be_packaged(tmp_path: Path, name: str) -> None:
     scenario = load_scenario(name)
     write_ssp(scenario, tmp_path / "it.ssp", initial_orders=True)

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from shipcollision_fmu.results.published import compared, state_at, world_state
-from shipcollision_fmu.scenario.tables import Reference, ShipStart
+from shipcollision_fmu.scenario.tables.reference import Reference
+from shipcollision_fmu.scenario.tables.ship_start import ShipStart
 from shipcollision_fmu.ship.frames import rotation
 from shipcollision_fmu.ship.loading.library import load_ship
 

@@ -9,8 +9,11 @@ import numpy as np
 import pytest
 
 from shipcollision_fmu.errors import ScenarioError
-from shipcollision_fmu.scenario.scenario import load_scenario, order_table, scenario_names
-from shipcollision_fmu.scenario.tables import Header, Order, ShipStart
+from shipcollision_fmu.scenario.order_schedule import schedule_orders
+from shipcollision_fmu.scenario.scenario import list_scenario_names, load_scenario
+from shipcollision_fmu.scenario.tables.orders import Order
+from shipcollision_fmu.scenario.tables.run import Header
+from shipcollision_fmu.scenario.tables.ship_start import ShipStart
 from shipcollision_fmu.ship.frames import rotation
 from tests.conftest import Write
 
@@ -76,13 +79,13 @@ def test_an_order_is_given_at_the_first_communication_point_from_its_time() -> N
     """0.3 s is 6 steps of 0.05 s, though 0.3/0.05 is not 6 in floats; 0.31 s waits for the next point."""
     orders = [Order(time=0.0, rev_per_s=1.5), Order(time=0.3, rudder_deg=20.0), Order(time=0.31, rudder_deg=-20.0)]
     ship = ShipStart(ship="x", position=[0, 0], heading_deg=0, hydrodynamics=True, orders=orders)
-    assert order_table(ship, 0.05) == [(0, [0.0, 1.5]), (6, [radians(20), 1.5]), (7, [radians(-20), 1.5])]
+    assert schedule_orders(ship, 0.05) == [(0, [0.0, 1.5]), (6, [radians(20), 1.5]), (7, [radians(-20), 1.5])]
 
 
 def test_of_orders_on_one_communication_point_the_last_counts() -> None:
     orders = [Order(time=0.01, rudder_deg=10.0), Order(time=0.02, rudder_deg=20.0)]
     ship = ShipStart(ship="x", position=[0, 0], heading_deg=0, hydrodynamics=True, orders=orders)
-    assert order_table(ship, 0.05) == [(1, [radians(20), 0.0])]
+    assert schedule_orders(ship, 0.05) == [(1, [radians(20), 0.0])]
 
 
 def test_a_current_may_have_a_speed_and_a_direction(scenario_file: Write) -> None:
@@ -101,8 +104,8 @@ def test_options_change_a_scenario(scenario_file: Write) -> None:
 
 
 def test_every_shipped_scenario_can_be_loaded() -> None:
-    assert "guan2014" in scenario_names()
-    for name in scenario_names():
+    assert "guan2014" in list_scenario_names()
+    for name in list_scenario_names():
         assert load_scenario(name).name == name
 
 
@@ -147,8 +150,8 @@ def test_every_shipped_scenario_can_be_loaded() -> None:
         ("friction = 0.3", "friction = 10.5", r"\[collision\] friction = 10.5 must be less than or equal to 10"),
         ("friction = 0.3", "restitution = 1.5", r"\[collision\] restitution = 1.5 must be less than or equal to 1"),
         ("friction = 0.3", 'response = "psg"', r"\[collision\] response = 'psg' is not offered: take one of .*pgs"),
-        ("friction = 0.3", 'feedback = "state"', r'\[collision\] feedback = "state" wants ships that adopt post'),
-        ("friction = 0.3", "[environment]\nwind = 10.0", r"\[environment\] wind = 10.0 .*: it is {speed = 10.0, from"),
+        ("friction = 0.3", 'feedback = "state"', r'\[collision\] feedback = "state" needs ships that adopt post'),
+        ("friction = 0.3", "[environment]\nwind = 10.0", r"\[environment\] wind = 10.0 .*: it is the wind, {speed = "),
         ("friction = 0.3", "[environment]\nwind = {speed = 10.0}", r"\[environment.wind\] from_deg is missing: give "),
         ("friction = 0.3", "[environment]\nwind = {speed = 99.0, from_deg = 0.0}", r"speed = 99.0 must be less than"),
         ("friction = 0.3", "[environment]\nwind = {speed = 9.0, from_deg = 0.0}", r"\] wind acts on no ship: set"),

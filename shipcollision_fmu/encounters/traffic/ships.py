@@ -15,8 +15,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ...errors import ScenarioError
-from ...scenario.tables import SHORTEST_LEG
-from ...scenario.toml_writer import scenario_text
+from ...scenario.tables.autopilot import SHORTEST_LEG
+from ...scenario.toml_writer import format_toml
 from ...ship.tables.particulars import RHO_SEA
 from ..imazu import KNOT
 from .schema import Dimensions, Initial, Position, Static, TrafficShip
@@ -167,7 +167,7 @@ def write_ship_file(role: str, ship: TrafficShip, path: Path) -> str:
     kind = str(static.shipType or "unknown")
     C_b = BLOCK_COEFFICIENTS.get(kind.split()[0].split("/")[0].lower(), OTHER_BLOCK_COEFFICIENT)
     draught = f"T = B/{BREADTH_TO_DRAUGHT:g}" if d.draught is None else "draught from the same file"
-    return scenario_text(
+    return format_toml(
         [f"Made by `shipcollision import {path.name}`: {role}."],
         {
             "ship": {

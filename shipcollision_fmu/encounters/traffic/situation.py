@@ -22,7 +22,7 @@ from typing import Any, NamedTuple
 from ...errors import ScenarioError
 from ...manoeuvring.trials.steady_course import self_propulsion
 from ...scenario.scenario import load_scenario
-from ...scenario.toml_writer import scenario_text
+from ...scenario.toml_writer import format_toml
 from ..request import count_steps
 from ..ship_table import build_ship_table, refer_to_ship, require_manoeuvring, round_off
 from .schema import Environment, Situation, TrafficShip, read_situation
@@ -182,7 +182,7 @@ def _write(plan: _Plan, directory: Path) -> str:
         around = _environment_table(plan.situation.environment)
         if around:
             tables["environment"] = around
-    return scenario_text(comment, tables)
+    return format_toml(comment, tables)
 
 
 def _ship_table(start: TrafficStart, ship: str, directory: Path, plan: _Plan) -> dict[str, Any]:
