@@ -30,7 +30,7 @@ class Watch:
 
     def step(self, model: ShipCollision, original: Any, t: float, h: float) -> None:
         original(model, t, h)
-        self.dissipated.append(model.outputs.energy[0])
+        self.dissipated.append(model.outputs.energy.dissipated)
 
     def strike(self, model: ShipManoeuvring, original: Any, *arguments: Any) -> Any:
         nu, applied = np.array(model.outputs.velocity + model.outputs.rate), np.array(model.outputs.impulse_applied)

@@ -68,13 +68,13 @@ def prepare_bodies(names: Sequence[str], parameters: CollisionParameters, direct
 
 def _ship(name: str, ship: Ship, parameters: ShipParameters) -> Body:
     hull = build_hull(ship.L_oa, ship.B, ship.T, ship.hull)
-    S = skew(ship.r_bg)
+    S, fender = skew(ship.r_bg), parameters.fender
     inertia_g = np.diag(ship.M_RB[3:, 3:] + ship.mass * S @ S).copy()
     return Body(
         name, hull, float(np.linalg.norm(hull.vertices, axis=1).max()),
         parameters.degrees_of_freedom, free_inverse(ship.M, parameters.degrees_of_freedom),
         BulletBody(ship.mass, inertia_g, np.array(ship.r_bg)),
-        build_fender(f"{name}.fender", parameters.fender),
+        build_fender(f"{name}.fender", fender.stiffness, fender.damping, fender.thickness),
     )  # fmt: skip
 
 

@@ -52,14 +52,16 @@ class ContactPoint:
         """Write it where the outputs are."""
         c = self.contact
         if c is None:
-            for values in (place.point, place.normal, place.r_a, place.r_b, place.impulse, place.values):
-                values[:] = [0.0] * len(values)
-            place.ship_a = place.ship_b = place.impact = place.scratch = 0
+            for vector in (place.point, place.normal, place.r_a, place.r_b, place.impulse):
+                vector[:] = [0.0, 0.0, 0.0]
+            place.gap = place.impulse_normal = place.impulse_tangential = place.energy = 0.0
+            place.ship_a = place.ship_b = place.collision = place.scratch = 0
             return
         place.point[:], place.normal[:] = c.point.tolist(), c.normal.tolist()
         place.r_a[:], place.r_b[:], place.impulse[:] = c.r_a.tolist(), c.r_b.tolist(), self.P.tolist()
-        place.values[:] = [c.gap, self.P_n, float(np.linalg.norm(self.P_t)), self.energy]
-        place.ship_a, place.ship_b, place.impact, place.scratch = c.a + 1, c.b + 1, self.impact, self.scratch
+        place.gap, place.energy = c.gap, self.energy
+        place.impulse_normal, place.impulse_tangential = self.P_n, float(np.linalg.norm(self.P_t))
+        place.ship_a, place.ship_b, place.collision, place.scratch = c.a + 1, c.b + 1, self.impact, self.scratch
 
 
 def merge_contact_point(points: list[ContactPoint], new: ContactPoint) -> list[ContactPoint]:

@@ -53,11 +53,11 @@ class Compression:
     dissipated: float
 
 
-def build_fender(name: str, values: list[float]) -> Fender | None:
-    """From (stiffness, damping, thickness), all zero for none. Raises InputError on values that are no fender."""
+def build_fender(name: str, stiffness: float, damping: float, thickness: float) -> Fender | None:
+    """The fender of these values [N/m], [N s/m], [m], None for all zero. Raises InputError on values of no fender."""
+    values = (stiffness, damping, thickness)
     if not any(values):
         return None
-    stiffness, damping, thickness = values
     if not (all(map(isfinite, values)) and stiffness > 0.0 and damping >= 0.0 and thickness > 0.0):
         raise InputError(
             f"{name}: stiffness = {stiffness} N/m, damping = {damping} N s/m, thickness = {thickness} m is no fender: "

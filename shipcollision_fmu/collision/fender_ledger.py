@@ -27,9 +27,9 @@ class FenderLedger:
         self._dissipated = 0.0
 
     @property
-    def energy(self) -> list[float]:
-        """[stored now, dissipated so far] in all of them [J]."""
-        return [sum(self._stored.values()), self._dissipated]
+    def energy(self) -> tuple[float, float]:
+        """(stored now, dissipated so far) in all of them [J]."""
+        return float(sum(self._stored.values())), self._dissipated
 
     def release(self, pair: tuple[int, int]) -> None:
         """A fender that nothing compresses any more: what its spring still holds is lost."""

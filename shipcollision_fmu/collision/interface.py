@@ -1,6 +1,7 @@
-"""What the collision model takes and gives, as plain lists and attributes.
+"""Inputs, parameters and outputs of the collision model, with a name for every scalar and a list for every vector.
 
-Reals are lists of stable identity: they are filled, never replaced, so that a caller may hold on to them.
+The objects and lists are filled and never replaced: the access layer of fmi/ keeps references to them. Scalars are
+plain floats and ints.
 """
 
 from __future__ import annotations
@@ -8,11 +9,13 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 __all__ = [
-    "CollisionInputs", "CollisionOutputs", "CollisionParameters", "ContactOutput", "ShipParameters", "ShipPost",
-    "ShipState", "contact_point_count",
+    "CollisionInputs", "CollisionOutputs", "CollisionParameters", "ContactOutput", "EnergyOutput", "FenderOutput",
+    "FenderParameters", "ImpactOutput", "ShipParameters", "ShipPost", "ShipState", "SolverOutput",
+    "contact_point_count",
 ]  # fmt: skip
 
-LEAST_SLOTS, SLOTS_PER_SHIP, MOST_SLOTS = 8, 4, 64
+LEAST_POINTS, POINTS_PER_SHIP, MOST_POINTS = 8, 4, 64
+"""Contact points in the outputs. More points are more variables of the FMU; with fewer, points of a pair are merged."""
 
 
 def zeros(n: int) -> list[float]:
@@ -21,55 +24,48 @@ def zeros(n: int) -> list[float]:
 
 
 def contact_point_count(ships: int) -> int:
-    """Contact points that are output per communication step, for so many ships."""
-    return min(max(LEAST_SLOTS, SLOTS_PER_SHIP * ships), MOST_SLOTS)
+    """Number of contact points in the outputs of a model of so many ships."""
+    return min(max(LEAST_POINTS, POINTS_PER_SHIP * ships), MOST_POINTS)
+
+
+@dataclass
+class FenderParameters:
+    """A fender around a hull: stiffness [N/m], damping [N s/m], thickness [m]; all zero for none."""
+
+    stiffness: float = 0.0
+    damping: float = 0.0
+    thickness: float = 0.0
 
 
 @dataclass
 class ShipParameters:
     """Which ship it is: a name or a file; degrees_of_freedom 3 (surge, sway, yaw), 4 (and roll) or 6, as its model
-    has; fender around its hull: stiffness [N/m], damping [N s/m], thickness [m], all 0 for none."""
+    has; the fender around its hull."""
 
     ship: str = "kvlcc2"
     degrees_of_freedom: int = 6
-    fender: list[float] = field(default_factory=lambda: zeros(3))
+    fender: FenderParameters = field(default_factory=FenderParameters)
 
 
 @dataclass
 class CollisionParameters:
-    """Fixed parameters. numbers: friction, restitution, substep [s], minimum_separation_time [s], clearance_range
-    [m]. obstacles: TOML text or the path of a TOML file, see obstacles.py; empty: none."""
+    """Fixed parameters, the same for all pairs.
+
+    friction: Coulomb's coefficient; restitution: normal velocity after over before, 0 to 1; substep: length of an
+    internal step [s]; minimum_separation_time: time apart [s] after which the next contact is a new collision;
+    clearance_range: cap of the clearance [m]; obstacles: TOML text or the path of a TOML file, see obstacles.py; empty:
+    none.
+    """
 
     ships: list[ShipParameters]
-    numbers: list[float] = field(default_factory=lambda: [0.3, 0.0, 0.01, 10.0, 200.0])
+    friction: float = 0.3
+    restitution: float = 0.0
+    substep: float = 0.01
+    minimum_separation_time: float = 10.0
+    clearance_range: float = 200.0
     response: str = "pgs"
     feedback: str = "ledger"
     obstacles: str = ""
-
-    @property
-    def friction(self) -> float:
-        """Coulomb's coefficient of the pair."""
-        return self.numbers[0]
-
-    @property
-    def restitution(self) -> float:
-        """Normal velocity after over before, 0 to 1."""
-        return self.numbers[1]
-
-    @property
-    def substep(self) -> float:
-        """Length of an internal step [s]."""
-        return self.numbers[2]
-
-    @property
-    def minimum_separation_time(self) -> float:
-        """Time apart [s] after which the next contact is a new collision."""
-        return self.numbers[3]
-
-    @property
-    def clearance_range(self) -> float:
-        """Cap [m] of the clearance: farther apart is not measured."""
-        return self.numbers[4]
 
 
 @dataclass
@@ -104,49 +100,88 @@ class ShipPost:
 
 @dataclass
 class ContactOutput:
-    """A contact point of the step. point, normal in n; r_a, r_b its places in the ships' b [m]; impulse (3) on ship_b
-    in n [N s]; values: gap [m], normal and tangential impulse [N s], energy dissipated [J]. Ships from 1, 0: unused;
-    ship_b beyond the number of ships is an obstacle, the first one being the number of ships plus 1."""
+    """A contact point of the step.
+
+    point, normal: in n [m], [1]; r_a, r_b: the point in b of either ship [m]; impulse: on ship_b in n [N s]; gap [m];
+    impulse_normal, impulse_tangential [N s]; energy: dissipated [J]; ship_a, ship_b: from 1, 0: unused, an obstacle is
+    numbered on from the ships; collision, scratch: their numbers.
+    """
 
     point: list[float] = field(default_factory=lambda: zeros(3))
     normal: list[float] = field(default_factory=lambda: zeros(3))
     r_a: list[float] = field(default_factory=lambda: zeros(3))
     r_b: list[float] = field(default_factory=lambda: zeros(3))
     impulse: list[float] = field(default_factory=lambda: zeros(3))
-    values: list[float] = field(default_factory=lambda: zeros(4))
+    gap: float = 0.0
+    impulse_normal: float = 0.0
+    impulse_tangential: float = 0.0
+    energy: float = 0.0
     ship_a: int = 0
     ship_b: int = 0
-    impact: int = 0
+    collision: int = 0
     scratch: int = 0
 
 
 @dataclass
+class ImpactOutput:
+    """The latest impact, with which a collision began: time [s], first contact point in n [m], closing speed along the
+    normal [m/s], angle between the headings [rad], ships from 1."""
+
+    time: float = 0.0
+    point: list[float] = field(default_factory=lambda: zeros(3))
+    closing_speed: float = 0.0
+    angle: float = 0.0
+    ship_a: int = 0
+    ship_b: int = 0
+
+
+@dataclass
+class EnergyOutput:
+    """Kinetic energy lost to contact since the start [J]: all, along the normals, by friction."""
+
+    dissipated: float = 0.0
+    normal: float = 0.0
+    tangential: float = 0.0
+
+
+@dataclass
+class FenderOutput:
+    """Energy that fenders hold now, and have dissipated since the start [J]."""
+
+    stored: float = 0.0
+    dissipated: float = 0.0
+
+
+@dataclass
+class SolverOutput:
+    """How well contact was solved. residual: by how much the law of contact was missed in the step, at worst, as a
+    share of the approach; sweeps: most of a substep; unconverged: substeps so far with a residual above 1e-9; scaled:
+    substeps so far whose impulses were scaled back so as not to add energy."""
+
+    residual: float = 0.0
+    sweeps: int = 0
+    unconverged: int = 0
+    scaled: int = 0
+
+
+@dataclass
 class CollisionOutputs:
-    """energy: dissipated, normal, tangential [J]; impact: time [s], closing speed [m/s], angle [rad] of the latest
-    collision, impact_point its first contact point in n; fender: energy stored in fenders now and dissipated by them
-    so far [J]; clearance [m] (one entry), nearest_ship_a and _b its pair. Of the solver: by how much the law of contact
-    is missed in the step, as a share of the approach, at worst (one entry); its sweeps, at most; and how many answers
-    so far missed it by more than 1e-9, or had to be scaled back so as not to add energy."""
+    """Outputs of a step. collision_count: collisions so far; scratch_id: the scratch being drawn, 0: none; clearance:
+    least distance [m] between hulls, capped; nearest_ship_a, nearest_ship_b: its pair, from 1."""
 
     ships: list[ShipPost]
     contacts: list[ContactOutput] = field(default_factory=list)
     contact_active: bool = False
     contact_count: int = 0
-    impact_count: int = 0
-    impact_ship_a: int = 0
-    impact_ship_b: int = 0
-    impact: list[float] = field(default_factory=lambda: zeros(3))
-    impact_point: list[float] = field(default_factory=lambda: zeros(3))
+    collision_count: int = 0
+    impact: ImpactOutput = field(default_factory=ImpactOutput)
     scratch_id: int = 0
-    energy: list[float] = field(default_factory=lambda: zeros(3))
-    fender: list[float] = field(default_factory=lambda: zeros(2))
-    clearance: list[float] = field(default_factory=lambda: zeros(1))
+    energy: EnergyOutput = field(default_factory=EnergyOutput)
+    fender: FenderOutput = field(default_factory=FenderOutput)
+    clearance: float = 0.0
     nearest_ship_a: int = 0
     nearest_ship_b: int = 0
-    solver: list[float] = field(default_factory=lambda: zeros(1))
-    solver_sweeps: int = 0
-    solver_unconverged: int = 0
-    solver_scaled: int = 0
+    solver: SolverOutput = field(default_factory=SolverOutput)
 
     def __post_init__(self) -> None:
         self.contacts = self.contacts or [ContactOutput() for _ in range(contact_point_count(len(self.ships)))]

@@ -149,7 +149,7 @@ class ShipCollision:
         except Exception:
             self.set_state(before)
             raise
-        if (missed := self._unconverged - self.outputs.solver_unconverged) > 0:
+        if (missed := self._unconverged - self.outputs.solver.unconverged) > 0:
             self.warning = (
                 f"contact was not solved to {CONVERGED:g} of the approach {missed} times in the step from t = {t:g} s "
                 f"by {H:g} s, at worst to {self._residual:.2g}: its impulses are less exact (solver.residual)"
@@ -326,34 +326,34 @@ class ShipCollision:
     ) -> None:
         colliding = self._collisions.open_ships()
         for i, state in enumerate(states[: len(self.names)]):
-            out, received = self.outputs.ships[i], self.inputs.ships[i]
+            post, received = self.outputs.ships[i], self.inputs.ships[i]
             if state is _ABSENT:
-                out.position[:], out.attitude[:], out.velocity[:] = coast(
+                post.position[:], post.attitude[:], post.velocity[:] = coast(
                     received.position, received.attitude, received.velocity, received.rate, self._centres[i], H
                 )
-                out.rate[:] = received.rate
-                out.force[:] = _NO_FORCE
+                post.rate[:] = received.rate
+                post.force[:] = _NO_FORCE
                 continue
             ledger, reading = self._ledgers[i], self._readings[i]
             ledger.close(reading, state.issued, state.nu_received, state.x_applied, state.R_applied)
-            out.impulse[:] = ledger.issued.tolist()
-            out.force[:] = (state.issued / H).tolist() if state.issued.any() else _NO_FORCE
+            post.impulse[:] = ledger.issued.tolist()
+            post.force[:] = (state.issued / H).tolist() if state.issued.any() else _NO_FORCE
             self._last_received[i] = _as_received(t - H, H, received) if i in colliding else None
             nu = state.predicted_twist.tolist()
-            out.position[:] = state.x.tolist()
-            out.attitude[:] = attitude_unwrapped(attitude_from_rotation(state.R), received.attitude[2]).tolist()
-            out.velocity[:], out.rate[:] = nu[:3], nu[3:]
+            post.position[:] = state.x.tolist()
+            post.attitude[:] = attitude_unwrapped(attitude_from_rotation(state.R), received.attitude[2]).tolist()
+            post.velocity[:], post.rate[:] = nu[:3], nu[3:]
         self._publish_contacts(t, points)
-        self.outputs.energy[:] = self._energy.tolist()
-        self.outputs.fender[:] = self._fenders.energy
-        self.outputs.clearance[0], nearest = self._proximity.clearance(candidates, states)
-        self.outputs.nearest_ship_a, self.outputs.nearest_ship_b = nearest
-        self.outputs.solver[0], self.outputs.solver_sweeps = self._residual, self._sweeps
-        self.outputs.solver_unconverged, self.outputs.solver_scaled = self._unconverged, self._scaled
+        out = self.outputs
+        out.energy.dissipated, out.energy.normal, out.energy.tangential = self._energy.tolist()
+        out.fender.stored, out.fender.dissipated = self._fenders.energy
+        out.clearance, (out.nearest_ship_a, out.nearest_ship_b) = self._proximity.clearance(candidates, states)
+        out.solver.residual, out.solver.sweeps = self._residual, self._sweeps
+        out.solver.unconverged, out.solver.scaled = self._unconverged, self._scaled
 
     def _publish_contacts(self, t: float, points: list[ContactPoint]) -> None:
         out, latest = self.outputs, self._collisions.latest
-        if not points and not out.contact_count and out.impact_count == self._collisions.impacts:
+        if not points and not out.contact_count and out.collision_count == self._collisions.impacts:
             return  # nothing to show, and nothing shown: most steps
         points = fit_contact_points(points, len(out.contacts))
         for k, place in enumerate(out.contacts):
@@ -363,9 +363,11 @@ class ShipCollision:
                 ContactPoint.unused().fill(place)
         out.contact_active, out.contact_count = any(s.impact for s in points), len(points)
         out.scratch_id = max((s.scratch for s in points), default=0)
-        out.impact_count, out.impact_ship_a, out.impact_ship_b = self._collisions.impacts, latest.ship_a, latest.ship_b
-        out.impact[:] = [latest.time, latest.closing_speed, latest.angle]
-        out.impact_point[:] = latest.point
+        out.collision_count, out.impact.ship_a, out.impact.ship_b = (
+            self._collisions.impacts, latest.ship_a, latest.ship_b,
+        )  # fmt: skip
+        out.impact.time, out.impact.closing_speed, out.impact.angle = latest.time, latest.closing_speed, latest.angle
+        out.impact.point[:] = latest.point
 
     # -- state --------------------------------------------------------------------------------------
 

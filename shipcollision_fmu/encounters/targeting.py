@@ -74,7 +74,7 @@ class ImpactFinder:
             elif k == first:
                 model.set_state(self._initial_state)
             model.step(k * h, h)
-            if model.outputs.impact_count:
+            if model.outputs.collision_count:
                 return self._convert_impact(target[k], k)
         return None
 
@@ -84,7 +84,7 @@ class ImpactFinder:
 
     def _convert_impact(self, target: Pose, k: int) -> Hit:
         """The model's latest impact, found in the step from k, in the target's b."""
-        time, point = self._model.outputs.impact[0], np.array(self._model.outputs.impact_point)
+        time, point = self._model.outputs.impact.time, np.array(self._model.outputs.impact.point)
         since = time - k * self._h
         R_nb = rotation(target[3:6])
         x = np.array(target[0:3]) + R_nb @ np.array(target[6:9]) * since

@@ -96,15 +96,15 @@ def _ship(i: int, s: str) -> Table:
             "As in the model that sails it; 3: surge, sway, yaw; 4: and roll; 6: all", minimum=3, maximum=6,
         ),
         real(
-            "parameter", f"{s}.fender.stiffness", "N/m", f"parameters.ships.{i}.fender", 0,
+            "parameter", f"{s}.fender.stiffness", "N/m", f"parameters.ships.{i}.fender.stiffness", None,
             "Of a fender around the hull; 0 for none", minimum=0.0,
         ),
         real(
-            "parameter", f"{s}.fender.damping", "N.s/m", f"parameters.ships.{i}.fender", 1,
+            "parameter", f"{s}.fender.damping", "N.s/m", f"parameters.ships.{i}.fender.damping", None,
             "Of a fender around the hull", minimum=0.0,
         ),
         real(
-            "parameter", f"{s}.fender.thickness", "m", f"parameters.ships.{i}.fender", 2,
+            "parameter", f"{s}.fender.thickness", "m", f"parameters.ships.{i}.fender.thickness", None,
             "How far before the hull the fender acts; 0 for none", minimum=0.0,
         ),
     )  # fmt: skip
@@ -139,25 +139,25 @@ def _contact(name: str, path: str, slots: int) -> Table:
             array=point(field, components, description),
         )  # fmt: skip
 
-    def value(field: str, unit: str, index: int, description: str, minimum: float | None = None) -> Variable:
+    def value(field: str, unit: str, description: str, minimum: float | None = None) -> Variable:
         return real(
-            "output", f"{name}.{field}", unit, f"{path}.values", index, description, depends_on=(),
+            "output", f"{name}.{field}", unit, f"{path}.{field}", None, description, depends_on=(),
             minimum=minimum, array=each(field, description),
         )  # fmt: skip
 
-    def number(field: str, description: str) -> Variable:
+    def number(field: str, description: str, at: str | None = None) -> Variable:
         return integer(
-            "output", f"{name}.{field}", f"{path}.{field}", description, minimum=0, depends_on=(),
+            "output", f"{name}.{field}", f"{path}.{at or field}", description, minimum=0, depends_on=(),
             array=each(field, description),
         )  # fmt: skip
 
     return (
         *triple(name, NED, "m", "point", "Contact point in n", "position"),
         *triple(f"{name}.normal", NED, "1", "normal", "Unit normal from ship_a to ship_b in n", "normal"),
-        value("gap", "m", 0, "Gap, negative in overlap"),
-        value("impulse_normal", "N.s", 1, "Normal impulse over the step", minimum=0.0),
-        value("impulse_tangential", "N.s", 2, "Friction impulse over the step", minimum=0.0),
-        value("energy", "J", 3, "Energy dissipated over the step"),
+        value("gap", "m", "Gap, negative in overlap"),
+        value("impulse_normal", "N.s", "Normal impulse over the step", minimum=0.0),
+        value("impulse_tangential", "N.s", "Friction impulse over the step", minimum=0.0),
+        value("energy", "J", "Energy dissipated over the step"),
         *triple(
             f"{name}.impulse", NED, "N.s", "impulse",
             "Impulse on ship_b in n over the step; ship_a takes the opposite", "impulse",
@@ -166,7 +166,7 @@ def _contact(name: str, path: str, slots: int) -> Table:
         *triple(f"{name}.b", BODY, "m", "r_b", "Contact point in b of ship_b", "b"),
         number("ship_a", "First ship, from 1; 0: slot unused"),
         number("ship_b", "Second ship, from 1; beyond the ships: obstacles, in their order; 0: slot unused"),
-        number("impact", "Number of the collision; 0: a fender acts, the hulls do not touch"),
+        number("impact", "Number of the collision; 0: a fender acts, the hulls do not touch", "collision"),
         number("scratch", "Number of the scratch"),
     )  # fmt: skip
 
@@ -174,28 +174,28 @@ def _contact(name: str, path: str, slots: int) -> Table:
 def _impact() -> Table:
     """The latest collision, and the scratch being drawn."""
     return (
-        integer("output", "impact.count", "outputs.impact_count", "Collisions so far", minimum=0, depends_on=()),
-        real("output", "impact.time", "s", "outputs.impact", 0, "Start of the latest collision", depends_on=()),
+        integer("output", "impact.count", "outputs.collision_count", "Collisions so far", minimum=0, depends_on=()),
+        real("output", "impact.time", "s", "outputs.impact.time", None, "Start of the latest collision", depends_on=()),
         *vector(
-            "output", "impact", NED, "m", "outputs.impact_point",
+            "output", "impact", NED, "m", "outputs.impact.point",
             "First contact point of the latest collision in n: where the explosion goes", depends_on=(),
             array=Array("impact.position", (3,), "First contact point of the latest collision in n: north, east, down"),
         ),
         real(
-            "output", "impact.closing_speed", "m/s", "outputs.impact", 1,
+            "output", "impact.closing_speed", "m/s", "outputs.impact.closing_speed", None,
             "Closing speed along the normal at the first contact of the latest collision", minimum=0.0, depends_on=(),
         ),
         real(
-            "output", "impact.angle", "rad", "outputs.impact", 2,
+            "output", "impact.angle", "rad", "outputs.impact.angle", None,
             "Angle between the headings at the latest collision, 0 (same) to pi (head-on)",
             minimum=0.0, maximum=pi, depends_on=(),
         ),
         integer(
-            "output", "impact.ship_a", "outputs.impact_ship_a",
+            "output", "impact.ship_a", "outputs.impact.ship_a",
             "First ship of the latest collision, from 1", minimum=0, depends_on=(),
         ),
         integer(
-            "output", "impact.ship_b", "outputs.impact_ship_b",
+            "output", "impact.ship_b", "outputs.impact.ship_b",
             "Second ship of the latest collision, from 1; beyond the ships: an obstacle", minimum=0, depends_on=(),
         ),
         integer(
@@ -209,20 +209,23 @@ def _energy() -> Table:
     """What contact and fenders cost."""
     return (
         real(
-            "output", "energy.dissipated", "J", "outputs.energy", 0,
+            "output", "energy.dissipated", "J", "outputs.energy.dissipated", None,
             "Kinetic energy lost to contact since the start", depends_on=(),
         ),
         real(
-            "output", "energy.normal", "J", "outputs.energy", 1,
+            "output", "energy.normal", "J", "outputs.energy.normal", None,
             "Part of it lost along the contact normals", depends_on=(),
         ),
-        real("output", "energy.tangential", "J", "outputs.energy", 2, "Part of it lost to friction", depends_on=()),
         real(
-            "output", "fender.stored", "J", "outputs.fender", 0,
+            "output", "energy.tangential", "J", "outputs.energy.tangential", None,
+            "Part of it lost to friction", depends_on=(),
+        ),
+        real(
+            "output", "fender.stored", "J", "outputs.fender.stored", None,
             "Kinetic energy that fenders hold now; not part of energy.*", minimum=0.0, depends_on=(),
         ),
         real(
-            "output", "fender.dissipated", "J", "outputs.fender", 1,
+            "output", "fender.dissipated", "J", "outputs.fender.dissipated", None,
             "Kinetic energy lost in fenders since the start; not part of energy.*", depends_on=(),
         ),
     )  # fmt: skip
@@ -232,19 +235,19 @@ def _solver() -> Table:
     """How well contact was solved."""
     return (
         real(
-            "output", "solver.residual", "1", "outputs.solver", 0,
+            "output", "solver.residual", "1", "outputs.solver.residual", None,
             "By how much the law of contact was missed in this step, as a share of the approach speed", depends_on=(),
         ),
         integer(
-            "output", "solver.sweeps", "outputs.solver_sweeps", "Most sweeps of an answer in this step", minimum=0,
+            "output", "solver.sweeps", "outputs.solver.sweeps", "Most sweeps of an answer in this step", minimum=0,
             depends_on=(),
         ),
         integer(
-            "output", "solver.unconverged", "outputs.solver_unconverged",
+            "output", "solver.unconverged", "outputs.solver.unconverged",
             "Answers so far whose residual was above 1e-9", minimum=0, depends_on=(),
         ),
         integer(
-            "output", "solver.scaled", "outputs.solver_scaled",
+            "output", "solver.scaled", "outputs.solver.scaled",
             "Answers so far that were scaled back so as not to add energy", minimum=0, depends_on=(),
         ),
     )  # fmt: skip
@@ -254,7 +257,7 @@ def _clearance() -> Table:
     """Who is nearest to whom."""
     return (
         real(
-            "output", "clearance", "m", "outputs.clearance", 0,
+            "output", "clearance", "m", "outputs.clearance", None,
             "Least distance between hulls, and between hulls and obstacles, at most clearance_range",
         ),
         integer(
@@ -270,22 +273,24 @@ def _clearance() -> Table:
 
 def _parameters() -> Table:
     """What holds for all pairs."""
-    numbers = "parameters.numbers"
     return (
         real(
-            "parameter", "friction", "1", numbers, 0,
+            "parameter", "friction", "1", "parameters.friction", None,
             "Coulomb friction coefficient of the hulls", minimum=0.0, maximum=MAXIMUM_FRICTION,
         ),
         real(
-            "parameter", "restitution", "1", numbers, 1,
+            "parameter", "restitution", "1", "parameters.restitution", None,
             "Normal velocity after over before impact", minimum=0.0, maximum=1.0,
         ),
-        real("parameter", "substep", "s", numbers, 2, "Length of an internal step", minimum=0.0),
+        real("parameter", "substep", "s", "parameters.substep", None, "Length of an internal step", minimum=0.0),
         real(
-            "parameter", "minimum_separation_time", "s", numbers, 3,
+            "parameter", "minimum_separation_time", "s", "parameters.minimum_separation_time", None,
             "Time apart after which the next contact is a new collision", minimum=0.0,
         ),
-        real("parameter", "clearance_range", "m", numbers, 4, "Cap of the clearance", minimum=0.0),
+        real(
+            "parameter", "clearance_range", "m", "parameters.clearance_range", None,
+            "Cap of the clearance", minimum=0.0,
+        ),
         enumeration("parameter", "response", tuple(RESPONSES), "parameters.response", "How contacts are answered"),
         enumeration(
             "parameter", "feedback", tuple(FEEDBACKS), "parameters.feedback",

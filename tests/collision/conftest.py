@@ -48,10 +48,7 @@ class World:
         for slot, ship in zip(self.model.parameters.ships, ships, strict=True):
             slot.ship, slot.degrees_of_freedom = ship, degrees_of_freedom
         for key, value in parameters.items():
-            if key in (keys := ["friction", "restitution", "substep", "minimum_separation_time", "clearance_range"]):
-                self.model.parameters.numbers[keys.index(key)] = float(value)  # type: ignore[arg-type]
-            else:
-                setattr(self.model.parameters, key, value)
+            setattr(self.model.parameters, key, value)
         self.M = [load_ship(ship).M for ship in ships]
         self.r_bg = [np.array(load_ship(ship).r_bg) for ship in ships]
         self.upright = [free_inverse(M, degrees_of_freedom) for M in self.M]

@@ -11,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from shipcollision_fmu.collision.fender import Fender, combine_in_series, compress_fender, solve_friction
+from shipcollision_fmu.collision.interface import FenderParameters
 from shipcollision_fmu.collision.model import ShipCollision
 from shipcollision_fmu.errors import InputError
 from tests.collision.conftest import BOX, World
@@ -44,7 +45,7 @@ def test_mass_on_a_spring_is_a_half_sine(make_ship: Make, world: MakeWorld) -> N
     for _ in range(round(6.0 / H)):
         w.step(H)
         forces.append(-w.model.outputs.ships[0].force[0])
-        stored.append(w.model.outputs.fender[0])
+        stored.append(w.model.outputs.fender.stored)
     begin = 0.05 / V
     t = (np.arange(len(forces)) + 0.5) * H - begin  # mean forces: of the middle of a step
     exact = np.where((t > 0) & (t < pi / OMEGA), K * V / OMEGA * np.sin(OMEGA * t), 0.0)
@@ -52,10 +53,10 @@ def test_mass_on_a_spring_is_a_half_sine(make_ship: Make, world: MakeWorld) -> N
     assert max(stored) == pytest.approx(0.5 * MASS * V**2, rel=0.01)
     assert w.nu[0][0] == pytest.approx(-V, rel=(OMEGA * H) ** 2)
     assert abs(w.nu[0][0]) <= V
-    assert w.model.outputs.fender[0] == 0.0
-    assert w.model.outputs.fender[1] == pytest.approx(0.5 * MASS * (V**2 - w.nu[0][0] ** 2), rel=1e-6)
+    assert w.model.outputs.fender.stored == 0.0
+    assert w.model.outputs.fender.dissipated == pytest.approx(0.5 * MASS * (V**2 - w.nu[0][0] ** 2), rel=1e-6)
     assert not w.model.outputs.contact_active
-    assert w.model.outputs.impact_count == 0
+    assert w.model.outputs.collision_count == 0
 
 
 @pytest.mark.parametrize("step", [0.05, 0.2])
@@ -88,7 +89,7 @@ def test_a_damped_fender_restores_what_the_textbook_says(make_ship: Make, world:
     speed = V * exp(-decay * end) * (cos(own * end) - decay / own * sin(own * end))
     assert speed < 0.0
     assert w.nu[0][0] == pytest.approx(speed, rel=0.03)
-    assert w.model.outputs.fender[1] == pytest.approx(0.5 * MASS * (V**2 - w.nu[0][0] ** 2), rel=1e-6)
+    assert w.model.outputs.fender.dissipated == pytest.approx(0.5 * MASS * (V**2 - w.nu[0][0] ** 2), rel=1e-6)
 
 
 def test_berthing_energy_is_that_of_pianc(make_ship: Make, world: MakeWorld) -> None:
@@ -103,18 +104,18 @@ def test_berthing_energy_is_that_of_pianc(make_ship: Make, world: MakeWorld) -> 
     most = 0.0
     for _ in range(400):
         w.step(0.02)
-        most = max(most, w.model.outputs.fender[0])
+        most = max(most, w.model.outputs.fender.stored)
     M, k = 1.8 * 40e6, 0.25 * 200.0
     assert most == pytest.approx(0.5 * M * 0.2**2 * k**2 / (k**2 + 50.0**2), rel=0.02)
-    assert w.model.outputs.impact_count == 0
+    assert w.model.outputs.collision_count == 0
 
 
 def test_a_fender_that_bottoms_out_leaves_the_rest_to_the_wall(make_ship: Make, world: MakeWorld) -> None:
     w = head_on(world, make_ship("box", BOX), wall(stiffness=1e6, thickness=0.3)).run(5.0, 0.05)
     out = w.model.outputs
-    assert out.impact_count == 1
-    assert out.energy[0] == pytest.approx(0.5 * MASS * V**2, rel=0.1)
-    assert out.fender[0] <= 0.5 * 1e6 * 0.31**2
+    assert out.collision_count == 1
+    assert out.energy.dissipated == pytest.approx(0.5 * MASS * V**2, rel=0.1)
+    assert out.fender.stored <= 0.5 * 1e6 * 0.31**2
     assert max(np.cumsum(w.work)) <= 0.0
 
 
@@ -126,10 +127,10 @@ def test_books_of_ships_and_fender_agree(make_ship: Make, world: MakeWorld) -> N
     )  # fmt: skip
     for _ in range(400):
         w.step(0.02)
-        energy, fender = w.model.outputs.energy[0], w.model.outputs.fender
-        assert -sum(w.work) == pytest.approx(energy + sum(fender), rel=1e-9, abs=1.0)
-        assert fender[0] >= 0.0
-    assert w.model.outputs.fender[1] > 1e6
+        energy, fender = w.model.outputs.energy.dissipated, w.model.outputs.fender
+        assert -sum(w.work) == pytest.approx(energy + fender.stored + fender.dissipated, rel=1e-9, abs=1.0)
+        assert fender.stored >= 0.0
+    assert w.model.outputs.fender.dissipated > 1e6
 
 
 @pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
@@ -155,7 +156,7 @@ def test_fenders_of_a_ship_and_of_a_quay_are_in_series(make_ship: Make, world: M
     ship = make_ship("box", BOX)
     one = head_on(world, ship, wall()).run(6.0, H)
     both = head_on(world, ship, wall(2 * K, 0.0, 1.0).replace("position = [111.0", "position = [112.0"))
-    both.model.parameters.ships[0].fender[:] = [2 * K, 0.0, 1.0]
+    both.model.parameters.ships[0].fender = FenderParameters(2 * K, 0.0, 1.0)
     both.model.initialise()
     both.run(6.0, H)
     np.testing.assert_allclose(both.nu[0], one.nu[0], atol=1e-12)
@@ -166,7 +167,7 @@ def test_what_is_no_fender_is_refused(make_ship: Make, values: list[float]) -> N
     model = ShipCollision(("one", "two"))
     for slot in model.parameters.ships:
         slot.ship = make_ship("a")
-    model.parameters.ships[1].fender[:] = values
+    model.parameters.ships[1].fender = FenderParameters(*values)
     with pytest.raises(InputError, match=r"two.fender: stiffness = .* is no fender: stiffness and thickness must be"):
         model.initialise()
 

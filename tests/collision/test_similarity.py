@@ -48,7 +48,7 @@ def impulses(world: MakeWorld, folder: Path, case: str, scale: float) -> np.ndar
     ]  # fmt: skip
     w = world(ships, start, friction=0.0)
     w.run(0.5, 0.05)
-    assert w.model.outputs.impact_count == 1
+    assert w.model.outputs.collision_count == 1
     unit = np.array([scale] * 3 + [scale**2] * 3)
     return np.concatenate([np.array(w.model.outputs.ships[i].impulse) / (unit * scale**3) for i in (0, 1)])
 

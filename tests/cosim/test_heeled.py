@@ -75,7 +75,7 @@ def test_level_momentum_is_kept(
     collision = ShipCollision(["a", "b"])
     for slot in collision.parameters.ships:
         slot.ship, slot.degrees_of_freedom = SHIP, free
-    collision.parameters.numbers[0] = mu
+    collision.parameters.friction = mu
     for inputs, ship in zip(collision.inputs.ships, ships, strict=True):
         _shown(inputs, ship)
     try:

@@ -173,7 +173,7 @@ def test_a_stem_slides_along_five_pieces_as_along_one(sailed: Any) -> None:
     np.testing.assert_allclose(pieces, whole, rtol=0.01, atol=1e-6 * abs(whole[1]))
     assert abs(pieces[0]) < 1e-5 * abs(pieces[1])  # along the side
     assert worlds[1].x[1][0] > 20.0  # both joints are behind it
-    assert worlds[1].model.outputs.impact_count == worlds[0].model.outputs.impact_count
+    assert worlds[1].model.outputs.collision_count == worlds[0].model.outputs.collision_count
 
 
 @pytest.mark.parametrize("friction", [0.0, 0.3])
