@@ -28,13 +28,14 @@ from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import Field, ValidationError, model_validator
 
 from ..errors import InputError
 from ..ship.frames import Array
 from ..ship.hull.solid import HullMesh
 from ..ship.loading.messages import one_line
 from ..ship.loading.toml import parsed, read_toml
+from ..ship.tables.table import Pair, Positive, Table
 from .fender import Fender
 from .geometry.clipping import convex_polygon
 
@@ -46,15 +47,8 @@ CYLINDER_SIDES = 32
 TOP, BOTTOM = 5.0, 30.0
 """Heights [m] where the table is silent: above any deck edge that matters, below any keel."""
 
-Positive = Annotated[float, Field(gt=0.0)]
-Pair = Annotated[list[float], Field(min_length=2, max_length=2)]
 
-
-class _Table(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
-
-
-class FenderTable(_Table):
+class FenderTable(Table):
     """fender = {stiffness, damping, thickness} of an obstacle or a ship."""
 
     stiffness: Positive = Field(description="force over compression [N/m]")
@@ -67,7 +61,7 @@ class FenderTable(_Table):
         return Fender(self.stiffness, self.damping, self.thickness)
 
 
-class ObstacleTable(_Table):
+class ObstacleTable(Table):
     """An obstacle as its table says it."""
 
     kind: str = Field(min_length=1, description='what it is, e.g. "quay"')
@@ -145,7 +139,7 @@ class ObstacleTable(_Table):
         return self
 
 
-class _Obstacles(_Table):
+class _Obstacles(Table):
     obstacles: dict[str, ObstacleTable]
 
 

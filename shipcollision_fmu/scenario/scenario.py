@@ -17,7 +17,7 @@ from ..ship.loading.library import load_ship, models_directory
 from ..ship.loading.messages import one_line, suggestion
 from ..ship.loading.toml import parsed, read_toml
 from ..ship.ship import Ship
-from ..ship.tables.particulars import Table
+from ..ship.tables.table import Table
 from .initial_overlap import refuse_overlap
 from .tables.collision import Collision
 from .tables.environment import Environment

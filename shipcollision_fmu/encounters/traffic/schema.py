@@ -12,10 +12,11 @@ import json
 from pathlib import Path
 from typing import Annotated
 
-from pydantic import AliasChoices, BaseModel, ConfigDict, Field, ValidationError
+from pydantic import AliasChoices, ConfigDict, Field, ValidationError
 
 from ...errors import ScenarioError
 from ...ship.loading.messages import one_line
+from ...ship.tables.table import Table
 
 __all__ = [
     "Dimensions", "Environment", "Initial", "Leg", "Position", "Situation", "Static", "TrafficShip", "Waypoint",
@@ -27,10 +28,10 @@ Course = Annotated[float | None, Field(ge=-360, le=360, description="clockwise f
 Metres = Annotated[float | None, Field(gt=0, le=500, description="a length in metres")]
 
 
-class Part(BaseModel):
-    """An object of the JSON; members that are not declared here are ignored."""
+class Part(Table):
+    """An object of a situation: strict as a table of ours, but the file is another project's and may say more."""
 
-    model_config = ConfigDict(extra="ignore", frozen=True, allow_inf_nan=False, strict=True)
+    model_config = ConfigDict(extra="ignore")
 
 
 class Position(Part):

@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated
-
 from pydantic import Field
 
-from ...ship.tables.particulars import Table
+from ...ship.tables.table import Pair, Table
 
 __all__ = ["SHORTEST_LEG", "AutopilotTable", "RouteTable"]
 
 SHORTEST_LEG = 1.0
 """[m] Limit of a leg of a route; the bearing of a shorter leg is unreliable."""
-
-Waypoint = Annotated[list[float], Field(min_length=2, max_length=2)]
 
 
 class AutopilotTable(Table):
@@ -30,7 +26,7 @@ class AutopilotTable(Table):
 class RouteTable(Table):
     """route: waypoints from the start; the last leg continues beyond its end."""
 
-    waypoints: list[Waypoint] = Field(min_length=1, description="[[north, east], ...] [m], without the ship's start")
+    waypoints: list[Pair] = Field(min_length=1, description="[[north, east], ...] [m], without the ship's start")
     lookahead: float | None = Field(
         default=None, gt=0, description="the distance ahead at which the ship is steered onto the leg [m]"
     )

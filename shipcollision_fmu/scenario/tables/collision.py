@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Literal
 
 from pydantic import Field, field_validator
 
 from ...collision.checks import MAXIMUM_FRICTION
 from ...collision.responses import RESPONSES
-from ...ship.tables.particulars import Table
+from ...ship.tables.table import Pair, Table
 
 __all__ = ["Collision", "DamageTable"]
-
-Shell = Annotated[list[float], Field(min_length=2, max_length=2)]
 
 
 class DamageTable(Table):
@@ -22,11 +20,11 @@ class DamageTable(Table):
     half_angle_deg: float = Field(
         gt=0, lt=90, description="the half angle of the striking bow in plan [deg], e.g. 30.0"
     )
-    shells: list[Shell] = Field(default=[], description="[[height, thickness], ...] of side shells torn open [m]")
+    shells: list[Pair] = Field(default=[], description="[[height, thickness], ...] of side shells torn open [m]")
 
     @field_validator("shells")
     @classmethod
-    def _check_shells(cls, shells: list[Shell]) -> list[Shell]:
+    def _check_shells(cls, shells: list[Pair]) -> list[Pair]:
         for height, thickness in shells:
             if not (0.0 < height <= 50.0 and 0.0 < thickness <= 0.1):
                 raise ValueError(f"damage: shell {[height, thickness]} must be a height and a thickness in metres")

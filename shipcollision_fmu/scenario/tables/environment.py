@@ -7,7 +7,7 @@ from typing import Any
 
 from pydantic import Field, field_validator
 
-from ...ship.tables.particulars import Table
+from ...ship.tables.table import Table
 
 __all__ = ["Environment", "WindTable"]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field, model_validator
 
-from ...ship.tables.particulars import Table
+from ...ship.tables.table import Table
 from .orders import revolutions
 
 __all__ = ["EvasionTable"]

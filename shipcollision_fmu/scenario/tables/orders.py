@@ -6,7 +6,7 @@ from typing import Any
 
 from pydantic import Field, model_validator
 
-from ...ship.tables.particulars import Table
+from ...ship.tables.table import Table
 
 __all__ = ["Order", "revolutions"]
 

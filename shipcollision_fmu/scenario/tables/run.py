@@ -8,7 +8,7 @@ from typing import Literal
 
 from pydantic import Field, field_validator, model_validator
 
-from ...ship.tables.particulars import Table
+from ...ship.tables.table import Table
 
 __all__ = ["Algorithm", "Header"]
 

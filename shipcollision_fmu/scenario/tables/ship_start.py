@@ -10,7 +10,7 @@ from pydantic import Field, model_validator
 
 from ...collision.obstacles import FenderTable
 from ...ship.frames import Array, attitude_from_quaternion, rotation
-from ...ship.tables.particulars import Table
+from ...ship.tables.table import Table
 from .autopilot import SHORTEST_LEG, AutopilotTable, RouteTable
 from .evasion import EvasionTable
 from .orders import Order

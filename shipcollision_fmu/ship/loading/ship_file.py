@@ -15,7 +15,8 @@ from pydantic import Field, PrivateAttr, ValidationError, model_validator
 from ...errors import ShipError
 from ..tables.hull import HullTable
 from ..tables.manoeuvring import EngineTable, ManoeuvringTable, PropellerTable, RudderTable
-from ..tables.particulars import AddedMassTable, ParticularsTable, SeakeepingTable, ShipTable, Table, WindTable
+from ..tables.particulars import AddedMassTable, ParticularsTable, SeakeepingTable, ShipTable, WindTable
+from ..tables.table import Table
 from .messages import one_line
 from .mmg_estimate import Dimensions, completed
 

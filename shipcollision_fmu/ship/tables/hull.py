@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from .particulars import NotNegative, Positive, Table, Vector
+from .table import NotNegative, Positive, Table, Vector
 
 __all__ = ["HullTable"]
 

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from pydantic import Field, model_validator
 
-from .particulars import NotNegative, Positive, Table
+from .table import NotNegative, Positive, Table
 
 __all__ = ["EngineTable", "ManoeuvringTable", "PropellerTable", "RudderTable"]
 

@@ -12,30 +12,14 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, PlainSerializer, model_validator
+from pydantic import Field, model_validator
 
-__all__ = [
-    "RHO_SEA", "AddedMassTable", "NotNegative", "ParticularsTable", "Positive", "SeakeepingTable", "ShipTable", "Table",
-    "Vector", "WindTable", "WindType",
-]  # fmt: skip
+from .table import NotNegative, Positive, Row, Table, Vector
+
+__all__ = ["RHO_SEA", "AddedMassTable", "ParticularsTable", "SeakeepingTable", "ShipTable", "WindTable", "WindType"]
 
 RHO_SEA = 1025.0
 """Density of sea water [kg/m3]."""
-
-Positive = Annotated[float, Field(gt=0.0)]
-NotNegative = Annotated[float, Field(ge=0.0)]
-Vector = Annotated[
-    list[float], Field(min_length=3, max_length=3), AfterValidator(tuple), PlainSerializer(list, list[float])
-]
-"""Three numbers, read as a list and kept as a tuple: the tables of a ship are shared and must not change."""
-
-Row = Annotated[list[float], Field(min_length=6, max_length=6)]
-
-
-class Table(BaseModel):
-    """A table of the file: what is not known is refused."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
 
 
 class ShipTable(Table):

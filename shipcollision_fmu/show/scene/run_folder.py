@@ -23,11 +23,12 @@ from typing import Annotated, Any, Literal, TypeVar
 
 import numpy as np
 import numpy.typing as npt
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import ConfigDict, Field, ValidationError
 
 from ...errors import InputError
 from ...fmi.names import STATE
 from ...ship.frames import Array
+from ...ship.tables.table import Row, Table
 
 __all__ = ["FILES", "Bodies", "Events", "RunFolder", "read_run_folder"]
 
@@ -37,12 +38,13 @@ CONTACT_NUMBERS = ("time", "scratch", "impulse_normal", "impulse_tangential", "e
 REMEDY = "give a folder that `shipcollision run` has stored a run in, or run the scenario again"
 
 Vector = tuple[float, float, float]
-Row6 = Annotated[list[float], Field(min_length=6, max_length=6)]
-Table = TypeVar("Table", bound="_Model")
+Content = TypeVar("Content", bound="_Model")
 
 
-class _Model(BaseModel):
-    model_config = ConfigDict(extra="ignore", frozen=True, allow_inf_nan=False)
+class _Model(Table):
+    """An object of a run's JSON: keys of later versions are ignored, and lists are read as the tuples that they are."""
+
+    model_config = ConfigDict(extra="ignore", strict=False)
 
 
 class _Surface(_Model):
@@ -60,7 +62,7 @@ class ShipBody(_Surface):
     B: float = Field(gt=0)
     T: float = Field(gt=0)
     shape: str = ""
-    inertia: Annotated[list[Row6], Field(min_length=6, max_length=6)]
+    inertia: Annotated[list[Row], Field(min_length=6, max_length=6)]
     degrees_of_freedom: Literal[3, 4, 6] = 6
     """Runs of version 0.1 before this key have none."""
 
@@ -77,7 +79,7 @@ class Bodies(_Model):
     """bodies.json."""
 
     ships: dict[str, ShipBody] = Field(min_length=1)
-    obstacles: dict[str, ObstacleBody] = {}
+    obstacles: dict[str, ObstacleBody] = Field(default={})
 
 
 class Point(_Model):
@@ -198,7 +200,7 @@ def _texts(folder: Path) -> dict[str, str]:
     return texts
 
 
-def _parsed(path: Path, texts: dict[str, str], model: type[Table]) -> Table:
+def _parsed(path: Path, texts: dict[str, str], model: type[Content]) -> Content:
     try:
         return model.model_validate(json.loads(texts[path.name]))
     except json.JSONDecodeError as error:
