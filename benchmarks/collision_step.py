@@ -25,7 +25,8 @@ from rich.console import Console
 from shipcollision_fmu.cli.run_table import table
 from shipcollision_fmu.collision.geometry.bullet import bullet_module
 from shipcollision_fmu.collision.model import ShipCollision
-from shipcollision_fmu.cosim.fmi2_component import FmuComponent, UnpackedFmu
+from shipcollision_fmu.cosim.fmi2_component import Fmi2Component
+from shipcollision_fmu.cosim.fmu_instance import UnpackedFmu
 from shipcollision_fmu.fmi.builder.package import fmu_bytes, slave_directory
 from shipcollision_fmu.fmi.names import IMPULSE, STATE, named
 from shipcollision_fmu.fmi.ship_collision import INTERFACE
@@ -56,7 +57,9 @@ class EmptyShipCollision(ModelSlave):
 
 def fmu_step(path: Path, stack: ExitStack) -> list[float]:
     """Seconds per step with two ships far apart, of every round."""
-    collision = stack.enter_context(closing(FmuComponent("collision", stack.enter_context(closing(UnpackedFmu(path))))))
+    collision = stack.enter_context(
+        closing(Fmi2Component("collision", stack.enter_context(closing(UnpackedFmu(path)))))
+    )
     inputs = [collision.reals([*named(s, STATE), *named(s, named("impulse_applied", _SIX))]) for s in NAMES]
     outputs = [collision.reals(named(s, IMPULSE)) for s in NAMES]
     counts = collision.integers(["contact.count", "impact.count"])

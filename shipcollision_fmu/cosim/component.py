@@ -9,7 +9,7 @@ The order of calls is FMI's:
     close                       always, also after an error
 
 A Group may share another's buffer. A connection is then one read and one write, and no value is touched on the way.
-`FmuComponent` (fmi2_component.py) and `InProcessComponent` have the same interface and give the same bits.
+`Fmi2Component` (fmi2_component.py) and `InProcessComponent` have the same interface and give the same bits.
 
 Errors: StepError when a model refuses a step (its state before the step stays), HostError when an FMU cannot be used.
 """

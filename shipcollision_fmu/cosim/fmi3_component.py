@@ -7,19 +7,17 @@ through a buffer beside it. A group that writes part of an array leaves the rest
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import suppress
 from ctypes import Array, byref, c_bool, c_char_p, c_double, c_int, c_int32, c_int64, c_uint
 from typing import Any
 
-from fmpy.fmi3 import FMU3Slave, fmi3Error, fmi3OK, fmi3Warning
+from fmpy.fmi3 import FMU3Slave
 
-from ..errors import HostError, StepError
+from ..errors import HostError
 from ..fmi.arrays import Layout
 from ..fmi.variables import Kind, Table
 from .component import Buffer, Group, Value, item_number
-from .fmi2_component import REMEDY, UnpackedFmu, told
+from .fmu_instance import REMEDY, WARNING, FmuInstance, UnpackedFmu
 
 __all__ = ["Fmi3Component"]
 
@@ -30,30 +28,27 @@ _ACCESS: dict[Kind, tuple[str, Any]] = {
 """fmi3GetXXX and fmi3SetXXX of a kind, and the type of their values."""
 
 
-class Fmi3Component:
+class Fmi3Component(FmuInstance):
     """An instance of an FMU for co-simulation, FMI 3.0; `table` is the table of variables that it was built from."""
 
     def __init__(self, name: str, fmu: UnpackedFmu, table: Table) -> None:
-        self.name = name
         self._table, self._layout = {line.name: line for line in table}, Layout(table)
-        self._messages: deque[str] = deque(maxlen=8)
-        self._initialised = False
-        self._component: Any = None
-        description = fmu.description
-        try:
-            self._fmu = FMU3Slave(
-                guid=description.guid,
-                unzipDirectory=str(fmu.directory),
-                modelIdentifier=description.coSimulation.modelIdentifier,
-                instanceName=name,
-            )
-            self._fmu.instantiate(loggingOn=True, logMessage=self._keep)
-        except Exception as error:
-            said = told(self._messages, fmi3Error) if self._messages else error
-            raise HostError(f"{name}: {fmu.file.name} cannot be instantiated: {said}") from None
-        self._component = self._fmu.component
+        super().__init__(name, fmu)
         flags, self._last = (c_bool(), c_bool(), c_bool()), c_double()
-        self._flags = (*map(byref, flags), byref(self._last))
+        self._do_step, self._step_options = self._fmu.dll.fmi3DoStep, (True, *map(byref, flags), byref(self._last))
+
+    def _instantiate(self, arguments: Mapping[str, str]) -> Any:
+        fmu = FMU3Slave(**arguments)
+        fmu.instantiate(loggingOn=True, logMessage=self._keep)
+        return fmu
+
+    def _enter_initialisation(self, stop_time: float) -> None:
+        entered = self._fmu.dll.fmi3EnterInitializationMode(self._component, False, 0.0, 0.0, True, stop_time)
+        self.check(entered, "initialisation")
+
+    def _exit_initialisation(self) -> int:
+        status: int = self._fmu.dll.fmi3ExitInitializationMode(self._component)
+        return status
 
     def reals(self, names: Sequence[str], values: Buffer | None = None) -> Group:
         """See Component."""
@@ -63,42 +58,6 @@ class Fmi3Component:
     def integers(self, names: Sequence[str]) -> Group:
         """See Component."""
         return _Group(self, names, ("Integer", "Enumeration"), (c_int * len(names))())
-
-    def initialise(self, parameters: Mapping[str, Value], stop_time: float, inputs: Sequence[Group] = ()) -> None:
-        """See Component."""
-        for name, value in parameters.items():
-            self._set(name, value)
-        dll, component = self._fmu.dll, self._component
-        entered = dll.fmi3EnterInitializationMode(component, False, 0.0, 0.0, True, stop_time)
-        self.check(entered, "initialisation")
-        for group in inputs:
-            group.write()
-        self.check(dll.fmi3ExitInitializationMode(component), "initialisation")
-        self._initialised = True
-
-    def step(self, t: float, h: float) -> None:
-        """See Component."""
-        status = self._fmu.dll.fmi3DoStep(self._component, t, h, True, *self._flags)
-        if status > fmi3Warning:
-            self._initialised = status < fmi3Error
-            raise StepError(f"{self.name}: {told(self._messages, status, f'step at t = {t:g} s ')}")
-
-    def close(self) -> None:
-        """See Component."""
-        if self._component is None:
-            return
-        with suppress(Exception):  # the run has ended either way; a complaint now would hide its real error
-            if self._initialised:
-                self._fmu.terminate()
-        with suppress(Exception):  # also after fmi3Fatal, which FMI forbids: our slaves see to it that this is safe
-            self._fmu.freeInstance()
-        self._component = None
-
-    def check(self, status: int, doing: str) -> None:
-        """Raise HostError, with the FMU's own message, for a status beyond warning."""
-        if status > fmi3Warning:
-            self._initialised = False
-            raise HostError(f"{self.name}: {doing} failed: {told(self._messages, status)}")
 
     def calls(self, kind: Kind) -> tuple[Callable[..., int], Callable[..., int]]:
         """fmi3GetXXX and fmi3SetXXX of a kind of variable."""
@@ -139,10 +98,8 @@ class Fmi3Component:
         self.check(put(self._component, references, 1, values, size), f"setting {name} = {value!r}")
 
     def _keep(self, environment: Any, status: int, category: bytes, message: bytes) -> None:
-        """Remember the FMU's last messages, for the error that may follow."""
         del environment, category
-        if status > fmi3OK and message:
-            self._messages.append(message.decode("utf-8", "replace").strip())
+        self._remember(status, message)
 
 
 def _plain(kind: Kind, value: Value) -> Any:
@@ -182,12 +139,12 @@ class _Part:
             for target, source in self._moves:
                 self._values[source] = self._into[target]
         status = self._put(self._owner._component, self._references, len(self._references), self._values, self._size)
-        if status > fmi3Warning:
+        if status > WARNING:
             self._owner.check(status, "writing inputs")
 
     def _fetch(self) -> None:
         status = self._get(self._owner._component, self._references, len(self._references), self._values, self._size)
-        if status > fmi3Warning:
+        if status > WARNING:
             self._owner.check(status, "reading outputs")
 
 

@@ -26,9 +26,10 @@ from ..results.record import Record
 from ..results.summary import summary
 from ..scenario.scenario import Scenario, load_scenario
 from .component import Component, InProcessComponent
-from .fmi2_component import FmuComponent, UnpackedFmu
+from .fmi2_component import Fmi2Component
 from .fmi3_component import Fmi3Component
 from .fmu_files import ready_fmus, require_pybullet
+from .fmu_instance import UnpackedFmu
 from .interrupt import held_back
 from .master import ALGORITHMS
 from .recorder import Recorder
@@ -137,6 +138,6 @@ def through_fmus(fmus: Mapping[str, Path], stack: ExitStack, ships: tuple[str, .
         fmu = unpacked[made_from.name]
         if fmi == 3:
             return stack.enter_context(closing(Fmi3Component(name, fmu, made_from.table(ships))))
-        return stack.enter_context(closing(FmuComponent(name, fmu)))
+        return stack.enter_context(closing(Fmi2Component(name, fmu)))
 
     return lambda name: made(name, MANOEUVRING), lambda: made("collision", COLLISION)

@@ -10,8 +10,9 @@ from pathlib import Path
 import pytest
 
 from shipcollision_fmu.cosim.component import Component, InProcessComponent
-from shipcollision_fmu.cosim.fmi2_component import FmuComponent, UnpackedFmu
+from shipcollision_fmu.cosim.fmi2_component import Fmi2Component
 from shipcollision_fmu.cosim.fmi3_component import Fmi3Component
+from shipcollision_fmu.cosim.fmu_instance import UnpackedFmu
 from shipcollision_fmu.errors import HostError, StepError
 from shipcollision_fmu.fmi.builder.package import build_fmus
 from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
@@ -58,7 +59,7 @@ def make(
                 table = made_from.table(("own", "target"))
                 return stack.enter_context(closing(Fmi3Component("one", unpacked, table)))
             fmu = stack.enter_context(closing(UnpackedFmu(built[model])))
-            return stack.enter_context(closing(FmuComponent("one", fmu)))
+            return stack.enter_context(closing(Fmi2Component("one", fmu)))
 
         yield made
 
@@ -99,7 +100,7 @@ def test_a_group_that_writes_part_of_a_vector_leaves_the_rest(make: Make) -> Non
 def test_two_instances_of_one_fmu_do_not_disturb_each_other(built: dict[str, Path], temporary: Path) -> None:
     with ExitStack() as stack:
         fmu = stack.enter_context(closing(UnpackedFmu(built["ShipManoeuvring"])))
-        first, second = (stack.enter_context(closing(FmuComponent(name, fmu))) for name in ("first", "second"))
+        first, second = (stack.enter_context(closing(Fmi2Component(name, fmu))) for name in ("first", "second"))
         poses = [ship.reals(POSE) for ship in (first, second)]
         first.initialise(SAILING, 1.0)
         second.initialise(SAILING | {"initial.velocity.surge": 1.0}, 1.0)
@@ -180,7 +181,7 @@ def test_a_refused_step_tells_when_and_why(make: Make, value: float) -> None:
 
 def test_closing_removes_the_unpacked_fmu_and_its_traces(built: dict[str, Path], temporary: Path) -> None:
     path = list(sys.path)
-    with closing(UnpackedFmu(built["ShipManoeuvring"])) as fmu, closing(FmuComponent("one", fmu)) as ship:
+    with closing(UnpackedFmu(built["ShipManoeuvring"])) as fmu, closing(Fmi2Component("one", fmu)) as ship:
         assert fmu.directory.is_relative_to(temporary)
         ship.initialise(SAILING, 1.0)
         ship.close()
@@ -203,4 +204,4 @@ def test_an_fmu_without_its_library_is_refused(built: dict[str, Path], temporary
         for library in fmu.directory.glob("binaries/*/*"):
             library.unlink()
         with pytest.raises(HostError, match=r"one: ShipManoeuvring.fmu cannot be instantiated: Cannot find shared"):
-            FmuComponent("one", fmu)
+            Fmi2Component("one", fmu)

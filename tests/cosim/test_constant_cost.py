@@ -16,8 +16,9 @@ from time import process_time
 import pytest
 
 from shipcollision_fmu.cosim.component import Component
-from shipcollision_fmu.cosim.fmi2_component import FmuComponent, UnpackedFmu
+from shipcollision_fmu.cosim.fmi2_component import Fmi2Component
 from shipcollision_fmu.cosim.fmu_files import ready_fmus
+from shipcollision_fmu.cosim.fmu_instance import UnpackedFmu
 from shipcollision_fmu.cosim.simulate import simulate
 from shipcollision_fmu.scenario.scenario import load_scenario
 from tests.conftest import BARGE, Write
@@ -37,7 +38,7 @@ def make() -> Iterator[Make]:
 
         def made(name: str) -> Component:
             fmu = stack.enter_context(closing(UnpackedFmu(ready_fmus()[name])))
-            return stack.enter_context(closing(FmuComponent("one", fmu)))
+            return stack.enter_context(closing(Fmi2Component("one", fmu)))
 
         yield made
 

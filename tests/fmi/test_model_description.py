@@ -11,7 +11,7 @@ import pytest
 from fmpy import read_model_description
 from fmpy.validation import validate_fmu
 
-from shipcollision_fmu.fmi.builder.model_description import model_description
+from shipcollision_fmu.fmi.builder.model_description_fmi2 import model_description
 from shipcollision_fmu.fmi.interface import Interface
 from shipcollision_fmu.fmi.variables import real
 

@@ -16,8 +16,9 @@ from typing import Any
 import pytest
 
 from shipcollision_fmu.cosim.component import Component
-from shipcollision_fmu.cosim.fmi2_component import FmuComponent, UnpackedFmu
+from shipcollision_fmu.cosim.fmi2_component import Fmi2Component
 from shipcollision_fmu.cosim.fmi3_component import Fmi3Component
+from shipcollision_fmu.cosim.fmu_instance import UnpackedFmu
 from shipcollision_fmu.cosim.master import System, gauss_seidel, jacobi
 from shipcollision_fmu.cosim.wiring import connected
 from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
@@ -38,7 +39,9 @@ class Encounter:
 
         def component(name: str, made_from: Any) -> Component:
             fmu = unpacked[made_from.name]
-            made = FmuComponent(name, fmu) if fmi == 2 else Fmi3Component(name, fmu, made_from.table(("own", "target")))
+            made = (
+                Fmi2Component(name, fmu) if fmi == 2 else Fmi3Component(name, fmu, made_from.table(("own", "target")))
+            )
             self.parts.append(stack.enter_context(closing(made)))
             return self.parts[-1]  # type: ignore[no-any-return]
 

@@ -1,7 +1,8 @@
 """From an Interface to an .fmu file. Nothing of this room travels inside an FMU.
 
-model_description         modelDescription.xml of FMI 2.0, and what both versions share
-model_description_fmi3    the same for FMI 3.0
+model_description         modelDescription.xml: what both versions of FMI share
+model_description_fmi2    and what is of FMI 2.0
+model_description_fmi3    and of FMI 3.0
 documentation             the page for people
 zip_archive               an archive that depends on names and contents only
 package                   the .fmu files: what is in them, and whether a file is up to date

@@ -1,16 +1,15 @@
-"""modelDescription.xml of FMI 2.0 for co-simulation, from the table of variables.
+"""What modelDescription.xml has in common in FMI 2.0 and 3.0: everything before the variables, and how values are
+written.
 
-What pythonfmu leaves out and importers want: units with their SI exponents, enumerations, limits, which output
-depends on what. An output of these slaves is computed in doStep and depends on no input at the same instant, so
-`dependencies=""`: a master that looks for algebraic loops finds none, rightly. At the start an output does depend on
-parameters: InitialUnknowns.
+What pythonfmu leaves out and importers want: units with their SI exponents, enumerations, limits, which output depends
+on what. No document has a date, so that the same sources give the same file.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
-from typing import Any
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from ... import __version__
@@ -20,52 +19,40 @@ from ..units import UNITS
 from ..variable_access import Ports
 from ..variables import Table, Variable
 
-__all__ = [
-    "add_categories", "add_types", "add_units", "known", "limits", "model_description", "number",
-    "start", "to_bytes", "type_name",
-]  # fmt: skip
-
-_CAPABILITIES = {
-    "needsExecutionTool": True,  # a Python interpreter with the packages of resources/requirements.txt
-    "canHandleVariableCommunicationStepSize": True,
-    "canInterpolateInputs": False,
-    "canBeInstantiatedOnlyOncePerProcess": False,
-    "canNotUseMemoryManagementFunctions": True,
-    "canGetAndSetFMUstate": True,
-    "canSerializeFMUstate": True,
-}
+__all__ = ["Version", "dependencies", "describe_variable", "limits", "number", "open_document", "start", "to_bytes"]
 
 
-def model_description(
-    interface: Interface, ships: tuple[str, ...], guid: str, starts: Mapping[str, Any] | None = None
-) -> Element:
-    """The whole document. Without a date, so that the same sources give the same file.
+@dataclass(frozen=True)
+class Version:
+    """What a version of FMI writes in its own way before the variables: its number, the attribute with the identity of
+    the build, its capabilities, and how the type of an enumeration begins. `units` are in use beside the table's."""
 
-    `starts` are start values in place of the model's own.
-    """
-    ports = interface.ports(ships, starts)
-    table = ports.table
+    number: str
+    identity: str
+    capabilities: Mapping[str, bool]
+    enumeration: Callable[[Element, str, Variable], Element]
+    units: tuple[str, ...] = ()
+
+
+def open_document(version: Version, interface: Interface, identity: str, ports: Ports) -> tuple[Element, Element]:
+    """The document up to its variables, and the empty element ModelVariables."""
     root = Element("fmiModelDescription", {
-        "fmiVersion": "2.0",
+        "fmiVersion": version.number,
         "modelName": interface.name,
-        "guid": guid,
+        version.identity: identity,
         "description": interface.description,
         "version": __version__,
         "license": "MIT",
         "generationTool": f"shipcollision_fmu {__version__}",
         "variableNamingConvention": "structured",
     })  # fmt: skip
-    capabilities = {name: str(able).lower() for name, able in _CAPABILITIES.items()}
+    capabilities = {name: str(able).lower() for name, able in version.capabilities.items()}
     SubElement(root, "CoSimulation", {"modelIdentifier": interface.name, **capabilities})
-    add_units(root, table)
-    add_types(root, table, _enumeration)
-    add_categories(root)
+    _add_units(root, ports.table, *version.units)
+    _add_types(root, ports.table, version.enumeration)
+    _add_categories(root)
     SubElement(root, "DefaultExperiment", {"startTime": "0", "stepSize": number(interface.step_size)})
-    variables = SubElement(root, "ModelVariables")
-    for reference, variable in enumerate(table):
-        _variable(variables, reference, variable, ports)
-    _structure(root, table)
-    return root
+    return root, SubElement(root, "ModelVariables")
 
 
 def to_bytes(description: Element) -> bytes:
@@ -75,8 +62,8 @@ def to_bytes(description: Element) -> bytes:
     return f'<?xml version="1.0" encoding="UTF-8"?>\n{text}\n'.encode()
 
 
-def add_units(root: Element, table: Table, *others: str) -> None:
-    """UnitDefinitions of the units in use, and of `others`; the same in FMI 2.0 and 3.0."""
+def _add_units(root: Element, table: Table, *others: str) -> None:
+    """UnitDefinitions of the units in use, and of `others`."""
     used = sorted({variable.unit for variable in table if variable.unit is not None} | set(others))
     if not used:
         return
@@ -90,16 +77,16 @@ def add_units(root: Element, table: Table, *others: str) -> None:
             SubElement(node, "DisplayUnit", {"name": display.name, "factor": number(display.factor)})
 
 
-def add_categories(root: Element) -> None:
-    """LogCategories; the same in FMI 2.0 and 3.0."""
+def _add_categories(root: Element) -> None:
+    """LogCategories."""
     categories = SubElement(root, "LogCategories")
     for name, description in LOG_CATEGORIES.items():
         SubElement(categories, "Category", {"name": name, "description": description})
 
 
-def add_types(root: Element, table: Table, enumeration: Callable[[Element, str, Variable], Element]) -> None:
+def _add_types(root: Element, table: Table, enumeration: Callable[[Element, str, Variable], Element]) -> None:
     """TypeDefinitions of the enumerations; `enumeration` adds one and returns the element that takes its items."""
-    enumerations = {type_name(variable): variable for variable in table if variable.items}
+    enumerations = {_type_name(variable): variable for variable in table if variable.items}
     if not enumerations:
         return
     definitions = SubElement(root, "TypeDefinitions")
@@ -109,38 +96,30 @@ def add_types(root: Element, table: Table, enumeration: Callable[[Element, str, 
             SubElement(items, "Item", {"name": item, "value": str(value)})
 
 
-def _enumeration(definitions: Element, name: str, variable: Variable) -> Element:
-    simple = SubElement(definitions, "SimpleType", {"name": name, "description": variable.description})
-    return SubElement(simple, "Enumeration")
-
-
-def type_name(variable: Variable) -> str:
+def _type_name(variable: Variable) -> str:
     """`own.response` -> `OwnResponse`: a type may not be called like a variable."""
     return "".join(word[:1].upper() + word[1:] for word in variable.name.replace(".", "_").split("_"))
 
 
-def _variable(variables: Element, reference: int, variable: Variable, ports: Ports) -> None:
+def describe_variable(name: str, reference: int, description: str, line: Variable) -> dict[str, str]:
+    """The attributes that say what a variable is; `line` is its line of the table, or any line of an array."""
     attributes = {
-        "name": variable.name,
+        "name": name,
         "valueReference": str(reference),
-        "description": variable.description,
-        "causality": variable.causality,
-        "variability": variable.variability,
+        "description": description,
+        "causality": line.causality,
+        "variability": line.variability,
     }
-    if variable.causality != "input":  # FMI 2.0.4, section 2.2.7: an input has no `initial`
-        attributes["initial"] = "calculated" if variable.causality == "output" else "exact"
-    node = SubElement(variables, "ScalarVariable", attributes)
-    value = limits(variable)
-    if variable.causality != "output":
-        value["start"] = start(variable, reference, ports)
-    SubElement(node, variable.kind, value)
+    if line.causality != "input":  # FMI 2.0.4, section 2.2.7: an input has no `initial`
+        attributes["initial"] = "calculated" if line.causality == "output" else "exact"
+    return attributes
 
 
 def limits(variable: Variable) -> dict[str, str]:
-    """Type, unit and limits of a variable as attributes; the same in FMI 2.0 and 3.0."""
+    """Type, unit and limits of a variable as attributes."""
     value: dict[str, str] = {}
     if variable.items:
-        value["declaredType"] = type_name(variable)
+        value["declaredType"] = _type_name(variable)
     if variable.unit is not None:
         value["unit"] = variable.unit
         if UNITS[variable.unit].display:
@@ -162,35 +141,20 @@ def start(variable: Variable, reference: int, ports: Ports) -> str:
     return str(ports.get_integer([reference])[0])
 
 
-def _structure(root: Element, table: Table) -> None:
-    structure = SubElement(root, "ModelStructure")
-    unknowns = [(position, variable) for position, variable in enumerate(table, 1) if variable.causality == "output"]
-    if not unknowns:
-        return
-    outputs = SubElement(structure, "Outputs")
-    for position, _ in unknowns:
-        SubElement(outputs, "Unknown", {"index": str(position), "dependencies": ""})
-    initial = SubElement(structure, "InitialUnknowns")
-    for position, variable in unknowns:
-        node = SubElement(initial, "Unknown", {"index": str(position)})
-        if variable.depends_on is not None:
-            node.set("dependencies", " ".join(map(str, known(variable, table))))
-
-
-def known(variable: Variable, table: Table) -> Iterable[int]:
-    """Positions, from 1, of what a variable depends on at the start. Raises ValueError for a name that is nowhere in
-    the table."""
-    known: set[int] = set()
+def dependencies(variable: Variable, table: Table) -> list[int]:
+    """Value references, in order, of what an output depends on at the start. Raises ValueError for a name that is
+    nowhere in the table."""
+    found: set[int] = set()
     for wanted in variable.depends_on or ():
-        found = {
-            position
-            for position, other in enumerate(table, 1)
+        named = {
+            reference
+            for reference, other in enumerate(table)
             if other.causality != "output" and (other.name == wanted or other.name.startswith(f"{wanted}."))
         }
-        if not found:
+        if not named:
             raise ValueError(f"variable {variable.name} depends on {wanted!r}, which is no parameter or input")
-        known |= found
-    return sorted(known)
+        found |= named
+    return sorted(found)
 
 
 def number(value: float) -> str:

@@ -1,7 +1,7 @@
 """modelDescription.xml of FMI 3.0 for co-simulation, from the same table of variables.
 
-What differs from FMI 2.0 (model_description.py): arrays; the time is a variable; every variable is an element of its
-type, and references are value references, not positions.
+What differs from FMI 2.0 (model_description_fmi2.py): FMI 3.0 has arrays, the time is a variable, every variable is an
+element of its type, and unknowns are named by value references, not by positions.
 
 Types that pythonfmu3 cannot serve (Float32, Int8, Int16, UInt8, UInt16, UInt32, Binary, Clock) are not used, and
 capabilities that it does not have are declared false. It ends the host's process when such a call comes all the same;
@@ -14,12 +14,11 @@ from collections.abc import Mapping
 from typing import Any
 from xml.etree.ElementTree import Element, SubElement
 
-from ... import __version__
 from ..arrays import TIME, TYPES, ArrayVariable, arrays
 from ..interface import Interface
 from ..variable_access import Ports
 from ..variables import Table, Variable
-from .model_description import add_categories, add_types, add_units, known, limits, number, start
+from .model_description import Version, dependencies, describe_variable, limits, open_document, start
 
 __all__ = ["model_description"]
 
@@ -44,29 +43,10 @@ _CAPABILITIES = {
 def model_description(
     interface: Interface, ships: tuple[str, ...], token: str, starts: Mapping[str, Any] | None = None
 ) -> Element:
-    """The whole document. Without a date, so that the same sources give the same file.
-
-    `starts` are start values in place of the model's own.
-    """
+    """The whole document. `starts` are start values in place of the model's own."""
     ports = interface.ports(ships, starts)
     table, gathered = ports.table, arrays(ports.table)
-    root = Element("fmiModelDescription", {
-        "fmiVersion": "3.0",
-        "modelName": interface.name,
-        "instantiationToken": token,
-        "description": interface.description,
-        "version": __version__,
-        "license": "MIT",
-        "generationTool": f"shipcollision_fmu {__version__}",
-        "variableNamingConvention": "structured",
-    })  # fmt: skip
-    capabilities = {name: str(able).lower() for name, able in _CAPABILITIES.items()}
-    SubElement(root, "CoSimulation", {"modelIdentifier": interface.name, **capabilities})
-    add_units(root, table, _SECOND)
-    add_types(root, table, _enumeration)
-    add_categories(root)
-    SubElement(root, "DefaultExperiment", {"startTime": "0", "stepSize": number(interface.step_size)})
-    variables = SubElement(root, "ModelVariables")
+    root, variables = open_document(_VERSION, interface, token, ports)
     SubElement(variables, "Float64", {
         "name": "time",
         "valueReference": str(TIME),
@@ -85,17 +65,12 @@ def _enumeration(definitions: Element, name: str, variable: Variable) -> Element
     return SubElement(definitions, "EnumerationType", {"name": name, "description": variable.description})
 
 
+_VERSION = Version("3.0", "instantiationToken", _CAPABILITIES, _enumeration, (_SECOND,))
+
+
 def _variable(variables: Element, reference: int, array: ArrayVariable, ports: Ports) -> None:
     line = array.line
-    attributes = {
-        "name": array.name,
-        "valueReference": str(reference),
-        "description": array.description,
-        "causality": line.causality,
-        "variability": line.variability,
-    }
-    if line.causality != "input":
-        attributes["initial"] = "calculated" if line.causality == "output" else "exact"
+    attributes = describe_variable(array.name, reference, array.description, line)
     starts = [start(ports.table[scalar], scalar, ports) for scalar in array.references]
     settable, string = line.causality != "output", line.kind == "String"
     if settable and not string:
@@ -117,5 +92,5 @@ def _structure(root: Element, gathered: tuple[ArrayVariable, ...], table: Table)
     for reference, array in outputs:
         node = SubElement(structure, "InitialUnknown", {"valueReference": str(reference)})
         if array.line.depends_on is not None:
-            scalars = (position - 1 for position in known(array.line, table))
-            node.set("dependencies", " ".join(map(str, sorted({within[scalar] for scalar in scalars}))))
+            references = sorted({within[scalar] for scalar in dependencies(array.line, table)})
+            node.set("dependencies", " ".join(map(str, references)))

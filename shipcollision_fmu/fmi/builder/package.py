@@ -36,7 +36,8 @@ from .. import build_record
 from ..build_record import RECORD, START, BuildRecord, package_directory
 from ..interface import SHIPS, Interface
 from .documentation import page
-from .model_description import model_description, to_bytes
+from .model_description import to_bytes
+from .model_description_fmi2 import model_description as model_description_fmi2
 from .model_description_fmi3 import model_description as model_description_fmi3
 from .zip_archive import LIBRARIES, zip_bytes
 
@@ -65,7 +66,7 @@ class _Version:
 
 
 VERSIONS = {
-    2: _Version("pythonfmu", ".", ".fmu", model_description),
+    2: _Version("pythonfmu", ".", ".fmu", model_description_fmi2),
     3: _Version("pythonfmu3", "fmi3", ".fmi3.fmu", model_description_fmi3),
 }
 """Versions of FMI that FMUs can be built for."""

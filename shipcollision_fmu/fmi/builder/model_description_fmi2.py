@@ -1,0 +1,74 @@
+"""modelDescription.xml of FMI 2.0 for co-simulation, from the table of variables.
+
+An output of these slaves is computed in doStep and depends on no input at the same instant, so `dependencies=""`: a
+master that looks for algebraic loops finds none, rightly. At the start an output does depend on parameters:
+InitialUnknowns. They are named by their position among the variables, counted from 1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+from xml.etree.ElementTree import Element, SubElement
+
+from ..interface import Interface
+from ..variable_access import Ports
+from ..variables import Table, Variable
+from .model_description import Version, dependencies, describe_variable, limits, open_document, start
+
+__all__ = ["model_description"]
+
+
+_CAPABILITIES = {
+    "needsExecutionTool": True,  # a Python interpreter with the packages of resources/requirements.txt
+    "canHandleVariableCommunicationStepSize": True,
+    "canInterpolateInputs": False,
+    "canBeInstantiatedOnlyOncePerProcess": False,
+    "canNotUseMemoryManagementFunctions": True,
+    "canGetAndSetFMUstate": True,
+    "canSerializeFMUstate": True,
+}
+
+
+def model_description(
+    interface: Interface, ships: tuple[str, ...], guid: str, starts: Mapping[str, Any] | None = None
+) -> Element:
+    """The whole document. `starts` are start values in place of the model's own."""
+    ports = interface.ports(ships, starts)
+    root, variables = open_document(_VERSION, interface, guid, ports)
+    for reference, variable in enumerate(ports.table):
+        _variable(variables, reference, variable, ports)
+    _structure(root, ports.table)
+    return root
+
+
+def _enumeration(definitions: Element, name: str, variable: Variable) -> Element:
+    simple = SubElement(definitions, "SimpleType", {"name": name, "description": variable.description})
+    return SubElement(simple, "Enumeration")
+
+
+_VERSION = Version("2.0", "guid", _CAPABILITIES, _enumeration)
+
+
+def _variable(variables: Element, reference: int, variable: Variable, ports: Ports) -> None:
+    attributes = describe_variable(variable.name, reference, variable.description, variable)
+    node = SubElement(variables, "ScalarVariable", attributes)
+    value = limits(variable)
+    if variable.causality != "output":
+        value["start"] = start(variable, reference, ports)
+    SubElement(node, variable.kind, value)
+
+
+def _structure(root: Element, table: Table) -> None:
+    structure = SubElement(root, "ModelStructure")
+    unknowns = [(position, variable) for position, variable in enumerate(table, 1) if variable.causality == "output"]
+    if not unknowns:
+        return
+    outputs = SubElement(structure, "Outputs")
+    for position, _ in unknowns:
+        SubElement(outputs, "Unknown", {"index": str(position), "dependencies": ""})
+    initial = SubElement(structure, "InitialUnknowns")
+    for position, variable in unknowns:
+        node = SubElement(initial, "Unknown", {"index": str(position)})
+        if variable.depends_on is not None:
+            node.set("dependencies", " ".join(str(reference + 1) for reference in dependencies(variable, table)))
