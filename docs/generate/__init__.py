@@ -1,0 +1,13 @@
+"""Parts of the pages that are made from the code when the site is built.
+
+parts        the names that pages use in `<!-- generate: NAME -->`, and what makes each part
+markdown     tables and headings
+schema       a JSON schema as tables of keys: files of ships and scenarios, events.json
+variables    the variables of both FMUs
+commands     the command line
+columns      the columns of a run's tables
+api          the names that the package exports
+rooms        the rooms, their floors and their maps
+published    the paper's numbers beside ours, from a run
+frames       the figure of the frames
+"""
