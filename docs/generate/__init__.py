@@ -7,7 +7,8 @@ variables    the variables of both FMUs
 commands     the command line
 columns      the columns of a run's tables
 api          the names that the package exports
+aligned      docstrings for the API reference: aligned columns stay columns
 rooms        the rooms, their floors and their maps
-published    the paper's numbers beside ours, from a run
+published    published numbers beside ours, from runs
 frames       the figure of the frames
 """

@@ -20,6 +20,7 @@ PARTS: dict[str, Callable[[], str]] = {
     "api": api.api,
     "rooms": rooms.rooms,
     "guan2014": published.guan2014,
+    "turning circles": published.turning_circles,
 }
 """What makes the part of each name. A page that names another part ends the build."""
 

@@ -1,13 +1,26 @@
-"""The published collision of Guan et al. (2014) beside ours, from a run made for the page."""
+"""Published figures beside ours, computed when the page is built."""
 
 from __future__ import annotations
 
 from shipcollision_fmu import load_scenario
 from shipcollision_fmu.cosim.simulate import simulate
+from shipcollision_fmu.manoeuvring.trials.steady_course import approach
+from shipcollision_fmu.manoeuvring.trials.trials import turning_circle
 
 from .markdown import table
 
-__all__ = ["guan2014"]
+__all__ = ["guan2014", "turning_circles"]
+
+CIRCLES = (
+    # ship, port, source, advance / L, tactical diameter / L
+    ("kvlcc2", False, "table 6, computed", 3.62, 3.71),
+    ("kvlcc2", True, "table 6, computed", 3.56, 3.59),
+    ("kvlcc2_l7", False, "table 6, computed", 3.31, 3.36),
+    ("kvlcc2_l7", True, "table 6, computed", 3.26, 3.26),
+    ("kvlcc2_l7", False, "table 4, measured", 3.25, 3.34),
+    ("kvlcc2_l7", True, "table 4, measured", 3.11, 3.08),
+)
+"""Turning circles with 35 degrees of rudder in Yasukawa and Yoshimura (2015)."""
 
 
 def guan2014() -> str:
@@ -23,3 +36,22 @@ def guan2014() -> str:
     return table(
         ("ship", "quantity", "unit", "printed", "corrected", "computed", "difference", "tolerance", "within"), rows
     )
+
+
+def turning_circles() -> str:
+    """Advance and tactical diameter [L] of KVLCC2 and its 7 m model, published and computed."""
+    sailed = {
+        (ship, port): turning_circle(approach(ship), 35.0, port=port)
+        for ship, port in {(ship, port) for ship, port, *_ in CIRCLES}
+    }
+    rows = []
+    for ship, port, source, advance, diameter in CIRCLES:
+        ours = sailed[ship, port]
+        cells = [
+            cell
+            for published, computed in ((advance, ours["advance"]), (diameter, ours["tactical diameter"]))
+            for cell in (f"{published:.2f}", f"{computed:.2f}", f"{computed / published - 1.0:+.1%}")
+        ]
+        rows.append((f"`{ship}`", "port" if port else "starboard", source, *cells))
+    header = ("ship", "side", "source", "advance", "ours", "difference", "tactical diameter", "ours", "difference")
+    return table(header, rows)

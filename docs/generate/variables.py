@@ -12,8 +12,7 @@ from itertools import product
 
 from shipcollision_fmu.fmi.arrays import TIME, ArrayVariable, arrays
 from shipcollision_fmu.fmi.interface import SHIPS, Interface
-from shipcollision_fmu.fmi.model_description import number, start
-from shipcollision_fmu.fmi.model_description_fmi3 import TYPES
+from shipcollision_fmu.fmi.model_description import start
 from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
 from shipcollision_fmu.fmi.variables import Causality, Variable
@@ -23,6 +22,7 @@ from .markdown import anchored, cell, table
 __all__ = ["ship_collision", "ship_manoeuvring"]
 
 _HEADER = ("FMI 2.0", "FMI 3.0", "type", "unit", "limits", "start", "meaning")
+_START = _HEADER.index("start")
 _GROUPS: tuple[tuple[Causality, str], ...] = (("input", "Inputs"), ("output", "Outputs"), ("parameter", "Parameters"))
 
 
@@ -47,7 +47,8 @@ def _page(interface: Interface) -> str:
     parts = []
     for causality, heading in _GROUPS:
         rows = [_row(array, lines, starts) for array in shown if array.line.causality == causality]
-        parts.append(f"## {heading}\n\n{table(_HEADER, rows)}")
+        header, *rows = [row if causality != "output" else _without_start(row) for row in (_HEADER, *rows)]
+        parts.append(f"## {heading}\n\n{table(header, rows)}")
     return "\n".join([*parts, _references(gathered, lines)])
 
 
@@ -57,19 +58,21 @@ def _row(array: ArrayVariable, lines: Sequence[Variable], starts: Sequence[str])
     pattern = _pattern(names)
     values = list(dict.fromkeys(starts[reference] for reference in array.references))
     shape = f"[{', '.join(map(str, array.shape))}]" if array.shape else ""
-    if line.items:
-        kind = ", ".join(f"{n}: `{item}`" for n, item in enumerate(line.items, 1))
-    else:
-        kind = line.kind if line.kind == TYPES[line.kind] else f"{line.kind}, {TYPES[line.kind]}"
+    kind = ", ".join(f"{n}: `{item}`" for n, item in enumerate(line.items, 1)) if line.items else line.kind
     return (
-        anchored(pattern, names[0]).replace("|", "\\|"), f"`{array.name}{shape}`", kind, line.unit or "",
+        anchored(pattern, names[0]), f"`{array.name}{shape}`", kind, line.unit or "",
         _limits(line), ", ".join(f"`{value}`" for value in values if value), cell(array.description),
     )  # fmt: skip
 
 
+def _without_start(row: tuple[str, ...]) -> tuple[str, ...]:
+    """An output has no start value."""
+    return row[:_START] + row[_START + 1 :]
+
+
 def _limits(line: Variable) -> str:
     bounds = (("≥", line.minimum), ("≤", line.maximum))
-    return ", ".join(f"{sign} {number(bound).removesuffix('.0')}" for sign, bound in bounds if bound is not None)
+    return ", ".join(f"{sign} {bound:.6g}" for sign, bound in bounds if bound is not None)
 
 
 def _pattern(names: Sequence[str]) -> str:

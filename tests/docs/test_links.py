@@ -1,0 +1,97 @@
+"""Links and paths in the documents lead somewhere: on a code host, where nobody builds the site.
+
+MkDocs in strict mode checks the links between the pages of the site. Here are the READMEs as well, the anchors, and every
+path of a source file that a document names: a file that moves takes the documents along.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from functools import cache
+from itertools import chain
+from pathlib import Path
+
+import pytest
+
+from docs.generate.parts import filled
+
+ROOT = Path(__file__).parents[2]
+LEFT_OUT = {".git", ".venv", "node_modules", "site", "runs", "dist", "build"}
+DOCUMENTS = sorted(
+    path.relative_to(ROOT)
+    for path in chain(ROOT.rglob("*.md"), [ROOT / "mkdocs.yml"])
+    if not LEFT_OUT.intersection(path.relative_to(ROOT).parts[:-1]) or path.relative_to(ROOT).parts[0] == "build"
+)
+
+_LINK = re.compile(r"\]\(([^)\s]+)\)")
+_SOURCE = re.compile(r"(?<![\w/.-])([\w./-]*\w\.(?:py|c|toml|js|mjs))(?:::(\w+))?(?![\w(])")
+_OWN_NAMES = {"my.toml", "mine.toml", "my/ship.toml", "my/scenario.toml", "vessel.fmu", "barge.toml", "FILE.toml"}
+"""Names that a document gives to files of the reader's."""
+
+
+@cache
+def text(document: Path) -> str:
+    """The document, with the parts from the code put in where there are any."""
+    return filled((ROOT / document).read_text(encoding="utf-8"))
+
+
+def without_code(document: Path) -> str:
+    return re.sub(r"`[^`\n]*`", "", re.sub(r"^```.*?^```", "", text(document), flags=re.DOTALL | re.MULTILINE))
+
+
+@cache
+def anchors(document: Path) -> set[str]:
+    """Identifiers of the headings, as MkDocs and code hosts make them, and those that are given."""
+    plain = re.sub(r"^```.*?^```", "", text(document), flags=re.DOTALL | re.MULTILINE)
+    found = set(re.findall(r"\{ #(\S+) \}", plain))
+    for heading in re.findall(r"^#+ (.+)$", plain, re.MULTILINE):
+        shown = unicodedata.normalize("NFKD", re.sub(r"\{ #\S+ \}|`|\*", "", heading)).strip().lower()
+        found.add(re.sub(r"[-\s]+", "-", re.sub(r"[^\w\s-]", "", shown)))
+    return found
+
+
+@cache
+def sources() -> tuple[str, ...]:
+    """Every file of the project, as "/path"."""
+    return tuple(
+        f"/{path.relative_to(ROOT).as_posix()}"
+        for path in ROOT.rglob("*.*")
+        if not LEFT_OUT.intersection(path.relative_to(ROOT).parts)
+    )
+
+
+def test_the_documents_are_found() -> None:
+    assert {Path("README.md"), Path("CONTRIBUTING.md"), Path("docs/index.md"), Path("models/README.md")} <= set(
+        DOCUMENTS
+    )
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=str)
+def test_every_link_leads_to_a_file_and_a_heading(document: Path) -> None:
+    wrong = []
+    for link in _LINK.findall(without_code(document)):
+        target, _, anchor = link.partition("#")
+        if "://" in link or link.startswith("mailto:"):
+            continue
+        path = (ROOT / document).parent / target if target else ROOT / document
+        if not path.exists():
+            wrong.append(link)
+        elif anchor and path.suffix == ".md" and anchor not in anchors(path.resolve().relative_to(ROOT)):
+            wrong.append(link)
+    assert wrong == []
+
+
+@pytest.mark.parametrize("document", [d for d in DOCUMENTS if d.name != "CHANGELOG.md"], ids=str)
+def test_every_source_file_that_is_named_exists(document: Path) -> None:
+    written = (ROOT / document).read_text(encoding="utf-8")  # what the code says of itself is not the document's fault
+    wrong = []
+    for name, test in _SOURCE.findall(written):
+        if name in _OWN_NAMES:
+            continue
+        places = [place for place in sources() if place.endswith(f"/{name.lstrip('./')}")]
+        if not places:
+            wrong.append(name)
+        elif test and not any(f"def {test}(" in (ROOT / place[1:]).read_text("utf-8") for place in places):
+            wrong.append(f"{name}::{test}")
+    assert wrong == []
