@@ -11,8 +11,8 @@ from collections.abc import Sequence
 from itertools import product
 
 from shipcollision_fmu.fmi.arrays import TIME, ArrayVariable, arrays
+from shipcollision_fmu.fmi.builder.model_description import start
 from shipcollision_fmu.fmi.interface import SHIPS, Interface
-from shipcollision_fmu.fmi.model_description import start
 from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
 from shipcollision_fmu.fmi.variables import Causality, Variable

@@ -1,6 +1,6 @@
 """Two hulls touch: who is near, where they touch, the rival responses, the impulse ledger, energy and events.
 
-model           a step, readable as its stages; README.md has the equations
+model           a step, readable as its stages; docs/theory/contact.md has the equations
 
 what it is of   ports, checks, bodies, obstacles
 where to        state, ahead, drift, ledger: poses and twists within a step, and what ships were given

@@ -23,8 +23,8 @@ import shipcollision_fmu
 from docs.generate.parts import PARTS, filled
 from shipcollision_fmu import load_scenario, simulate
 from shipcollision_fmu.cli import main
+from shipcollision_fmu.fmi.builder.package import VERSIONS
 from shipcollision_fmu.fmi.interface import SHIPS, Interface
-from shipcollision_fmu.fmi.package import VERSIONS
 from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
 from shipcollision_fmu.scenario.scenario import Scenario
