@@ -14,7 +14,8 @@ import pytest
 from docs.generate.frames import FIGURE, GLTF_FROM_N, svg
 from shipcollision_fmu.encounters.imazu import KNOT
 from shipcollision_fmu.results.published import world_state
-from shipcollision_fmu.scenario.tables import Environment, ShipStart
+from shipcollision_fmu.scenario.tables.environment import Environment
+from shipcollision_fmu.scenario.tables.ship_start import ShipStart
 from shipcollision_fmu.ship.frames import SWAP, Array, quaternion, quaternion_w, rotation, swapped
 from shipcollision_fmu.show.osg.zup import attitudes, places
 

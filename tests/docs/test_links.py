@@ -34,6 +34,7 @@ _OWN_NAMES = {
     "vessel.fmu",
     "barge.toml",
     "FILE.toml",
+    "NAME.toml",
     "three.js",
 }
 """Files of the reader's, and a library that is called like a file."""
