@@ -1,21 +1,37 @@
-"""Settings of the whole suite, and two barges that meet: the scenario that most tests run, in a folder of its own."""
+"""Settings of the whole suite, and two barges that meet: the scenario that most tests run, in a folder of its own.
+
+What property tests draw depends on the test itself and on nothing else.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
+from hypothesis.internal.conjecture import providers
 
 from shipcollision_fmu.cosim import fmu_files
 
-# Examples vary in cost by orders of magnitude, and machines in speed: time is not what these tests are about.
-# The same examples every time, so that red means a change; `--hypothesis-profile=search` looks for new ones.
-settings.register_profile("shipcollision", deadline=None, max_examples=25, derandomize=True)
+# Hypothesis draws some values from the constants in the sources of this project's modules that are imported so far: an
+# edit anywhere, or another selection of tests, would change all examples. Here it finds none (test_examples_drawn.py).
+# Releases before 6.131 do not look for any.
+if hasattr(providers, "_get_local_constants"):
+    providers._get_local_constants = lambda: providers._local_constants  # as it is at first: empty
+
+# Examples vary in cost by orders of magnitude, and machines in speed: time is not what these tests are about, neither
+# that of one example (deadline) nor that of drawing them (too_slow).
+ALWAYS: dict[str, Any] = {
+    "deadline": None, "database": None, "print_blob": True, "suppress_health_check": [HealthCheck.too_slow],
+}  # fmt: skip
+
+# The same examples every time, so that red means a change. Random search is test_search.py's.
+settings.register_profile("shipcollision", max_examples=25, derandomize=True, **ALWAYS)
 # CI's slow stage takes more of them for the laws of contact: `--hypothesis-profile=thorough`.
-settings.register_profile("thorough", deadline=None, max_examples=250, derandomize=True)
-settings.register_profile("search", deadline=None, max_examples=400)
+settings.register_profile("thorough", max_examples=250, derandomize=True, **ALWAYS)
+settings.register_profile("search", max_examples=400, derandomize=False, **ALWAYS)
 settings.load_profile("shipcollision")
 
 BARGE = """

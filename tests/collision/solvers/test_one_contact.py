@@ -37,7 +37,7 @@ def test_head_on_against_a_slope_friction_helps_at_its_limit(slope: float, mu: f
     assert abs(P[2]) == pytest.approx(mu * P[0], rel=1e-10)
 
 
-@settings(suppress_health_check=[HealthCheck.filter_too_much])
+@settings(suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow])
 @given(impacts(**PLANE, mu=floats(0.3, 1.0)))
 def test_no_smaller_impulse_would_stop_them(impact: Impact) -> None:
     W, v, mu = impact.W, impact.v, impact.mu
