@@ -67,7 +67,7 @@ def fresh(*arguments: str, cwd: Path, prelude: str = "") -> subprocess.Completed
     code = f"{prelude}\nfrom shipcollision_fmu.cli import main\nmain()"
     environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(fmu_files._PACKAGE.parent), *sys.path])}
     return subprocess.run(
-        [sys.executable, "-c", code, *arguments], cwd=cwd, env=environment, capture_output=True, text=True, timeout=120
+        [sys.executable, "-c", code, *arguments], cwd=cwd, env=environment, capture_output=True, text=True, timeout=1200
     )  # fmt: skip
 
 

@@ -93,7 +93,7 @@ def test_what_was_taken_back_left_no_trace(example: ModuleType, unpacked: dict[s
 def test_the_command() -> None:
     done = subprocess.run(
         [sys.executable, "-W", "error", EXAMPLE, "--finest", "0.001"],
-        capture_output=True, text=True, timeout=60, check=False,
+        capture_output=True, text=True, timeout=600, check=False,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     said = re.match(r"impact at t = (\S+) s\n", done.stdout)

@@ -27,7 +27,7 @@ NUMBER = r"(-?\d+(?:\.\d+)?(?:e[-+]?\d+)?)"
 def said(*command: object, **environment: str) -> str:
     """What a command prints; it must end well."""
     done = subprocess.run(
-        list(map(str, command)), capture_output=True, text=True, check=False, timeout=120,
+        list(map(str, command)), capture_output=True, text=True, check=False, timeout=1200,
         env=os.environ | environment, cwd="/",
     )  # fmt: skip
     assert done.returncode == 0, done.stdout + done.stderr

@@ -53,7 +53,7 @@ def host(code: str, *folders: Path) -> str:
     clean = {key: value for key, value in os.environ.items() if not key.startswith("PYTHON")}
     done = subprocess.run(
         [sys.executable, "-X", "faulthandler", "-c", HOST + code, Path(__file__).parent, *folders],
-        env=clean, cwd="/", capture_output=True, text=True, timeout=60, check=False,
+        env=clean, cwd="/", capture_output=True, text=True, timeout=600, check=False,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     return done.stdout
@@ -76,7 +76,7 @@ def other(tmp_path_factory: pytest.TempPathFactory) -> Path:
     edit(package / "fmi" / "interface.py", "step_size: float = 0.05", "step_size: float = 0.07")
     code = "import sys; sys.path.insert(0, sys.argv[1]); from shipcollision_fmu import build_fmus\n"
     code += "[build_fmus(sys.argv[1] + '/build', fmi=fmi) for fmi in (2, 3)]"
-    subprocess.run([sys.executable, "-c", code, home], check=True, timeout=60, cwd="/")
+    subprocess.run([sys.executable, "-c", code, home], check=True, timeout=600, cwd="/")
     return home
 
 
@@ -218,7 +218,7 @@ def foreign(folder: Path, name: str, fmi: int, answer: float) -> Path:
     )  # fmt: skip
     (folder / f"{name}.py").write_text(FOREIGN.format(name=name, **words))
     build = [sys.executable, "-m", words["wrapper"], "build", "-f", f"{name}.py", "helper.py", "models.py"]
-    subprocess.run(build, check=True, cwd=folder, capture_output=True, timeout=60)
+    subprocess.run(build, check=True, cwd=folder, capture_output=True, timeout=600)
     return unpack(folder / f"{name}.fmu", folder / "unpacked")
 
 

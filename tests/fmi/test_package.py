@@ -48,7 +48,7 @@ def in_a_process(code: str, *arguments: object, **environment: str) -> str:
         cwd="/",
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=600,
         check=False,
     )
     assert done.returncode == 0, done.stderr

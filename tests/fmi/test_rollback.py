@@ -197,7 +197,7 @@ def test_a_new_process_goes_on_from_bytes(
     fmus = json.dumps([[name, version, str(path)] for (name, version), path in real_fmus.items()])
     done = subprocess.run(
         [sys.executable, "-c", GO_ON, Path(__file__).parents[2], fmus, str(fmi), str(k + 1)],
-        input=json.dumps([one.hex() for one in data]), capture_output=True, text=True, timeout=60, check=False,
+        input=json.dumps([one.hex() for one in data]), capture_output=True, text=True, timeout=600, check=False,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     assert json.loads(done.stdout.splitlines()[-1]) == rest

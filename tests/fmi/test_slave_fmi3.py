@@ -348,7 +348,7 @@ ABORTING = [
 
 def called(unpacked3: Path, name: str) -> subprocess.CompletedProcess[str]:
     arguments = [sys.executable, "-c", CALL, str(unpacked3), name]
-    return subprocess.run(arguments, capture_output=True, text=True, timeout=60, check=False)
+    return subprocess.run(arguments, capture_output=True, text=True, timeout=600, check=False)
 
 
 def test_a_call_that_the_wrapper_does_not_have_ends_the_process(unpacked3: Path) -> None:

@@ -103,7 +103,7 @@ def run_master(host: str, cases: list[dict[str, Any]], folder: Path) -> list[dic
     given.write_text(json.dumps(cases))
     done = subprocess.run(
         [sys.executable, str(MASTERS), host, str(given), str(taken)],
-        capture_output=True, text=True, check=False, timeout=120,
+        capture_output=True, text=True, check=False, timeout=1200,
     )  # fmt: skip
     assert done.returncode == 0, f"{host} ended with {done.returncode}\n{done.stdout}\n{done.stderr}"
     found: list[dict[str, Any]] = json.loads(taken.read_text())

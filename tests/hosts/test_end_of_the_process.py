@@ -40,7 +40,7 @@ def test_a_process_ends_well_in_every_host(encounters: dict[str, Encounter], gua
         cases.write_text(json.dumps([encounters["guan2014"].case() | {"steps": 12}]))
         return subprocess.run(
             [sys.executable, "-c", before + RUN, SCRIPT, host, cases, results],
-            env=os.environ | {"LD_PRELOAD": str(guard)}, capture_output=True, check=False, timeout=60,
+            env=os.environ | {"LD_PRELOAD": str(guard)}, capture_output=True, check=False, timeout=600,
         ).returncode  # fmt: skip
 
     with ThreadPoolExecutor(2) as pool:

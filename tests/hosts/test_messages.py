@@ -24,7 +24,7 @@ def said_by(code: str, *arguments: object, **environment: str) -> tuple[int, str
     """Exit status and output of Python code in a process of its own."""
     done = subprocess.run(
         [sys.executable, "-c", code, *map(str, arguments)],
-        capture_output=True, text=True, check=False, timeout=60, env=os.environ | environment,
+        capture_output=True, text=True, check=False, timeout=600, env=os.environ | environment,
     )  # fmt: skip
     return done.returncode, done.stdout + done.stderr
 

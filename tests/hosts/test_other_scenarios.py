@@ -123,6 +123,6 @@ for name in (None, "scenario"):
     simulation.free()
 """
     done = subprocess.run(
-        [sys.executable, "-c", code, tmp_path / "edited.ssp"], capture_output=True, text=True, check=True, timeout=60
+        [sys.executable, "-c", code, tmp_path / "edited.ssp"], capture_output=True, text=True, check=True, timeout=600
     )
     assert done.stdout.split() == [str(friction), "0.5"]

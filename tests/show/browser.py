@@ -21,8 +21,8 @@ FLAGS = (
     "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update",
     "--disable-sync", "--disable-dev-shm-usage",
 )  # fmt: skip
-LONGEST_START = 30.0
-"""Wait for a page [s]: the machine may be busy with other tests."""
+PATIENCE = 300.0
+"""Wait for a page [s], a hundred times what it takes: the machine may be busy with other work."""
 AROUND = """
     const [x, y, half] = arguments;
     const canvas = document.getElementById("picture");
@@ -62,10 +62,12 @@ class Page:
         for kind in ("performance", "browser"):
             self._logged(kind)  # of the page before
         self.driver.get(self._address)
-        WebDriverWait(self.driver, LONGEST_START, poll_frequency=0.05).until(
-            lambda d: d.execute_script("return document.body?.dataset.ready")
-        )
+        self.wait("return document.body?.dataset.ready")
         assert self.run("return document.body.dataset.ready") == "true", self.complaints()
+
+    def wait(self, script: str) -> None:
+        """Until JavaScript returns something true."""
+        WebDriverWait(self.driver, PATIENCE, poll_frequency=0.05).until(lambda d: d.execute_script(script))
 
     def run(self, script: str, *arguments: Any) -> Any:
         """Runs JavaScript in the page; its `return` comes back."""
@@ -119,7 +121,7 @@ def chromium(profile: Path) -> Iterator[Chrome]:
     options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
     driver = Chrome(options=options, service=Service(programs["chromedriver"]))
     try:
-        driver.set_script_timeout(60)
+        driver.set_script_timeout(PATIENCE)
         yield driver
     finally:
         driver.quit()

@@ -182,12 +182,9 @@ def test_table_keys_and_curves_lead_to_their_times(page: Page, scene: Scene) -> 
 def test_playing_goes_on_to_the_end_and_stops(page: Page, scene: Scene) -> None:
     page.slide(scene.end - 0.02)
     page.driver.find_element(By.ID, "play").click()
-    for _ in range(100):
-        if page.run("return replay.time") == scene.end:
-            break
-        time.sleep(0.05)
+    page.wait(f"return replay.time >= {scene.end!r}")
+    page.wait("return document.getElementById('play').getAttribute('aria-label') === 'Play'")
     assert page.run("return replay.time") == scene.end
-    assert page.run("return document.getElementById('play').getAttribute('aria-label')") == "Play"
 
 
 @pytest.mark.slow
@@ -245,24 +242,34 @@ def test_a_hundred_collisions_are_listed_and_shown(browser: Chrome, guan2014: Pa
     assert many.complaints() == []
 
 
-@pytest.mark.slow
-def test_ten_minutes_open_in_five_seconds_and_stay_small(browser: Chrome, tmp_path: Path) -> None:
+@pytest.fixture
+def ten_minutes(tmp_path: Path) -> Path:
+    """Folder of a run of 12 000 steps."""
     text = load_scenario_text("kvlcc2_crossing").replace("duration = 150.0", "duration = 600.0")
     (tmp_path / "long.toml").write_text(text)
-    before = time.perf_counter()
     simulate(load_scenario(tmp_path / "long.toml"), in_process=True, out=tmp_path / "run")
-    ran = time.perf_counter() - before
-    before = time.perf_counter()
-    path = write_page(tmp_path / "run")
-    written = time.perf_counter() - before
-    assert len(rows_of(tmp_path / "run")) == 12_001
+    return tmp_path / "run"
+
+
+@pytest.mark.slow
+def test_ten_minutes_open_and_stay_small(browser: Chrome, ten_minutes: Path) -> None:
+    path = write_page(ten_minutes)
+    assert len(rows_of(ten_minutes)) == 12_001
     assert path.stat().st_size < 10e6
-    assert written < ran
-    before = time.perf_counter()
     page = Page(browser, path)
-    assert time.perf_counter() - before < 5.0
     assert page.slide(600.0)["time"] == 600.0
     assert page.complaints() == []
+
+
+@pytest.mark.soak
+def test_ten_minutes_are_written_and_open_in_five_seconds_each(browser: Chrome, ten_minutes: Path) -> None:
+    """On a machine that does nothing else."""
+    before = time.perf_counter()
+    path = write_page(ten_minutes)
+    written = time.perf_counter()
+    Page(browser, path)
+    assert written - before < 5.0
+    assert time.perf_counter() - written < 5.0
 
 
 def load_scenario_text(name: str) -> str:

@@ -5,8 +5,11 @@ from __future__ import annotations
 import csv
 import io
 import json
+import shutil
 import subprocess
+from contextlib import suppress
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
@@ -43,9 +46,9 @@ def written(scene: Scene) -> bytes:
     return glb(scene)
 
 
-def called(program: Any, *arguments: str) -> str:
+def called(program: Any, *arguments: str, folder: Path = HERE) -> str:
     done: subprocess.CompletedProcess[str] = program(
-        list(arguments), return_completed_process=True, cwd=HERE, capture_output=True, text=True
+        list(arguments), return_completed_process=True, cwd=folder, capture_output=True, text=True
     )
     assert done.returncode == 0, done.stderr
     return done.stdout
@@ -53,10 +56,17 @@ def called(program: Any, *arguments: str) -> str:
 
 @pytest.fixture(scope="session")
 def validator() -> Path:
-    """Khronos' validator, from npm by the lock file beside this test; installed once."""
-    installed = HERE / "node_modules" / "gltf-validator"
-    if not installed.is_dir():
-        called(npm, "ci", "--ignore-scripts", "--no-audit", "--no-fund")
+    """Khronos' validator, from npm by the lock file beside this test; installed once, aside, and put in place whole:
+    another run may be looking for it."""
+    place = HERE / "node_modules"
+    if not place.is_dir():
+        with TemporaryDirectory(dir=HERE, prefix=".node_modules.") as aside:
+            for name in ("package.json", "package-lock.json"):
+                shutil.copyfile(HERE / name, Path(aside, name))
+            called(npm, "ci", "--ignore-scripts", "--no-audit", "--no-fund", folder=Path(aside))
+            with suppress(OSError):  # another run was first
+                Path(aside, "node_modules").rename(place)
+    assert (place / "gltf-validator").is_dir(), f"{place} has no gltf-validator: delete that folder"
     return HERE / "validate.cjs"
 
 

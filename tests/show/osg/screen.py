@@ -14,8 +14,8 @@ from pathlib import Path
 import numpy as np
 
 SIZE = (640, 360)
-START = 20.0
-"""How long Xvfb may take to come up [s]."""
+START = 200.0
+"""How long Xvfb may take to come up [s]: a hundred times what it takes on a quiet machine."""
 
 
 class Screen:
@@ -68,4 +68,4 @@ def screen(folder: Path) -> Iterator[Screen]:
     finally:
         os.close(reading)
         server.terminate()
-        server.wait(timeout=20)
+        server.wait(timeout=200)

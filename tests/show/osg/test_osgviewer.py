@@ -1,8 +1,9 @@
 """Debian's stock osgviewer plays the scene: no complaint, and before, during and after the impact the right picture.
 
 osgviewer runs by the clock, and a busy machine is late. So pictures are compared only where the clock does not matter:
-before the ships start to move, and after the run's end, when they stay where they are. In between it is enough that
-fire is seen at some time where the ships touch. What should be seen comes from our own depth buffer (raster.py).
+before the ships start to move, which is put off for that, and after the run's end, when they stay where they are. In
+between it is enough that fire is seen at some time where the ships touch. Each is waited for until it is as wanted, as
+a picture may be taken while it is drawn. What should be seen comes from our own depth buffer (raster.py).
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ import pytest
 
 from shipcollision_fmu.ship.frames import rotation_from_quaternion
 from shipcollision_fmu.show.film.raster import Eye, nearest
-from shipcollision_fmu.show.osg import zup
+from shipcollision_fmu.show.osg import osg, zup
 from shipcollision_fmu.show.osg.osg import osg_files, viewer_line, write_osg
 from shipcollision_fmu.show.scene.palette import display, paint_of
 from shipcollision_fmu.show.scene.parts import ship_parts
@@ -33,8 +34,10 @@ pytestmark = pytest.mark.slow
 
 ANGLE = float(np.degrees(2.0 * np.arctan(0.26)))
 """Vertical angle that osgviewer sees: OSG takes a screen 0.26 m high, 0.5 m away."""
-PATIENCE = 60.0
-"""What a busy machine may take for a run of six seconds [s]."""
+PATIENCE = 300.0
+"""What a busy machine may take for a run of some seconds [s]."""
+LYING_STILL = 12.0
+"""First contact after the window opens [s]: a busy machine must see the ships before they move."""
 
 
 @contextmanager
@@ -57,18 +60,15 @@ def viewer(scene: Scene, folder: Path) -> Iterator[tuple[Screen, list[str]]]:
             yield shown, said
         finally:
             program.terminate()
-            said += [line for line in program.communicate(timeout=20)[0].splitlines() if line.strip()]
+            said += [line for line in program.communicate(timeout=PATIENCE)[0].splitlines() if line.strip()]
 
 
-def wait(shown: Screen, wanted: Callable[[np.ndarray], bool], what: str) -> np.ndarray:
-    """The first picture that is as wanted."""
+def wait(shown: Screen, wanted: Callable[[np.ndarray], bool]) -> np.ndarray:
+    """The first picture that is as wanted, or the last one there is patience for."""
     end = time.monotonic() + PATIENCE
-    while time.monotonic() < end:
-        pixels = shown.pixels()
-        if wanted(pixels):
-            return pixels
+    while not wanted(pixels := shown.pixels()) and time.monotonic() < end:
         time.sleep(0.1)
-    raise AssertionError(f"{what} is not seen within {PATIENCE:g} s")
+    return pixels
 
 
 def eye_at(folder: Path, time_there: float) -> Eye:
@@ -99,7 +99,7 @@ def expected(scene: Scene, eye: Eye, time: float, paint: str) -> np.ndarray:
 
 def agreement(a: np.ndarray, b: np.ndarray) -> float:
     """What two sets of pixels have in common, over all of both."""
-    return float((a & b).sum() / (a | b).sum())
+    return float((a & b).sum() / max((a | b).sum(), 1))
 
 
 def red(pixels: np.ndarray) -> np.ndarray:
@@ -128,20 +128,29 @@ def around(eye: Eye, point: np.ndarray, radius: float) -> np.ndarray:
     return np.hypot(columns + 0.5 - x, rows + 0.5 - y) < radius
 
 
-def test_the_impact_is_seen(guan2014: Path, tmp_path: Path) -> None:
+def test_the_impact_is_seen(guan2014: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Before: two ships. During: fire where they touch. Nothing is complained of. The decks are bare: some containers
     have the colour of fire."""
     scene = load_scene(guan2014)
     scene = replace(scene, ships=tuple(replace(ship, fittings=()) for ship in scene.ships))
+    monkeypatch.setattr(osg, "FIRST_CONTACT", LYING_STILL)
     with viewer(scene, tmp_path) as (shown, said):
         eye = eye_at(tmp_path, 0.0)
-        before = wait(shown, lambda pixels: bool(red(pixels).sum() > 500), "the target")
+        reds, blues = (expected(scene, eye, scene.start, f"topsides {k}") for k in (1, 0))
         place = around(eye, scene.events[0].point, 45.0)
-        during = wait(shown, lambda pixels: bool((fire(pixels, before) & place).sum() > 150), "fire")
+
+        def lying_still(pixels: np.ndarray) -> bool:
+            return agreement(red(pixels), reds) > 0.9 and agreement(blue(pixels), blues) > 0.85
+
+        before = wait(shown, lying_still)
+        assert lying_still(before)
+
+        def burning(pixels: np.ndarray) -> bool:
+            flames = fire(pixels, before)
+            return bool(150 < (flames & place).sum() > 2 * (flames & ~place).sum())
+
+        assert burning(wait(shown, burning))
     assert said == []
-    assert agreement(red(before), expected(scene, eye, scene.start, "topsides 1")) > 0.9
-    assert agreement(blue(before), expected(scene, eye, scene.start, "topsides 0")) > 0.85
-    assert (fire(during, before) & ~place).sum() < 0.5 * (fire(during, before) & place).sum()
 
 
 def test_the_end_is_seen(guan2014: Path, tmp_path: Path) -> None:
@@ -150,19 +159,21 @@ def test_the_end_is_seen(guan2014: Path, tmp_path: Path) -> None:
     paint = np.array(display(paint_of("scratch").colour)) * 255
     scratch = next(scratch for scratch in scene.scratches if scratch.ship == "target")
     with viewer(scene, tmp_path) as (shown, said):
-        before = wait(shown, lambda pixels: bool(red(pixels).sum() > 500), "the target")
         eye = eye_at(tmp_path, scene.end + osg_files(scene).delay)
-        wanted = expected(scene, eye, scene.end, "topsides 1")
-        after = wait(shown, lambda pixels: agreement(red(pixels), wanted) > 0.93, "the target's last place")
+        reds, blues = (expected(scene, eye, scene.end, f"topsides {k}") for k in (1, 0))
+        seen = eye.project(placed(scene.ship("target"), scene.end, scratch.points))
+
+        def ended(pixels: np.ndarray) -> bool:
+            """Ships in their last places, the scratch drawn, and none where there is none."""
+            rows, columns = np.nonzero(np.abs(pixels.astype(int) - paint).max(axis=2) <= 3)
+            away = np.hypot(columns[:, None] + 0.5 - seen[:, 0], rows[:, None] + 0.5 - seen[:, 1]).min(axis=1)
+            in_place = agreement(red(pixels), reds) > 0.93 and agreement(blue(pixels), blues) > 0.85
+            return in_place and 10 < len(rows) < 400 and bool(away.max() < 6.0)
+
+        assert ended(wait(shown, ended))
     assert said == []
-    assert agreement(red(before), wanted) < 0.8
-    assert agreement(blue(after), expected(scene, eye, scene.end, "topsides 0")) > 0.85
-    painted = np.abs(after.astype(int) - paint).max(axis=2) <= 3
-    seen = eye.project(placed(scene.ship("target"), scene.end, scratch.points))
-    assert 10 < painted.sum() < 400
-    rows, columns = np.nonzero(painted)
-    away = np.hypot(columns[:, None] + 0.5 - seen[:, 0], rows[:, None] + 0.5 - seen[:, 1]).min(axis=1)
-    assert away.max() < 6.0, "a scratch is drawn where there is none"
+    there = expected(scene, eye_at(tmp_path, 0.0), scene.start, "topsides 1")
+    assert agreement(there, reds) < 0.8  # before the run the same picture would not do
 
 
 def test_osgconv_reads_it_and_makes_a_binary_scene(kvlcc2_crossing: Path, tmp_path: Path) -> None:
