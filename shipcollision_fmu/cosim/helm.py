@@ -18,27 +18,12 @@ from dataclasses import dataclass
 from math import atan2, cos, hypot, pi, remainder, sin
 from typing import NamedTuple
 
+from ..ship.ship_state import ShipState
+
 __all__ = [
-    "Autopilot", "Evasion", "HelmState", "Route", "Seen", "Steering", "closest_approach", "helmed", "line_of_sight",
+    "Autopilot", "Evasion", "HelmState", "Route", "Steering", "closest_approach", "helmed", "line_of_sight",
     "steered",
 ]  # fmt: skip
-
-
-class Seen(NamedTuple):
-    """A ship as it is seen at a communication point: CO in n [m], heading [rad], velocity in b [m/s], r [rad/s]."""
-
-    north: float
-    east: float
-    heading: float
-    surge: float
-    sway: float
-    yaw_rate: float
-
-    @property
-    def velocity(self) -> tuple[float, float]:
-        """Over ground, north and east [m/s]."""
-        c, s = cos(self.heading), sin(self.heading)
-        return self.surge * c - self.sway * s, self.surge * s + self.sway * c
 
 
 @dataclass(frozen=True)
@@ -95,7 +80,7 @@ class HelmState(NamedTuple):
 
 
 def helmed(
-    steering: Steering, state: HelmState, orders: tuple[float, float], own: Seen, other: Seen | None, h: float
+    steering: Steering, state: HelmState, orders: tuple[float, float], own: ShipState, other: ShipState | None, h: float
 ) -> tuple[tuple[float, float], HelmState]:
     """(rudder_order [rad], propeller_order [1/s]) for the next h [s], and the helm's new state.
 
@@ -118,7 +103,7 @@ def helmed(
     return (rudder, revolutions), state
 
 
-def steered(autopilot: Autopilot, wanted: float, integral: float, own: Seen, h: float) -> tuple[float, float]:
+def steered(autopilot: Autopilot, wanted: float, integral: float, own: ShipState, h: float) -> tuple[float, float]:
     """Rudder order [rad] towards the heading `wanted` [rad], and the integral of the error [rad s] after h [s]."""
     error = remainder(wanted - own.heading, 2.0 * pi)
     limit = autopilot.rudder_limit
@@ -128,7 +113,7 @@ def steered(autopilot: Autopilot, wanted: float, integral: float, own: Seen, h: 
     return min(limit, max(-limit, order)), integral
 
 
-def line_of_sight(route: Route, leg: int, own: Seen) -> tuple[float, int]:
+def line_of_sight(route: Route, leg: int, own: ShipState) -> tuple[float, int]:
     """Heading to steer [rad] and the leg that it is for, counted from 0."""
     while True:
         (north, east), (end_north, end_east) = (route.start, *route.waypoints)[leg : leg + 2]
@@ -142,17 +127,17 @@ def line_of_sight(route: Route, leg: int, own: Seen) -> tuple[float, int]:
     return bearing - atan2(cross_track, route.lookahead), leg
 
 
-def closest_approach(own: Seen, other: Seen) -> tuple[float, float]:
+def closest_approach(own: ShipState, other: ShipState) -> tuple[float, float]:
     """Time to and distance at the closest approach of two midships on present courses [s, m]; negative: it is over."""
     x, y = other.north - own.north, other.east - own.east
-    (own_n, own_e), (other_n, other_e) = own.velocity, other.velocity
+    (own_n, own_e), (other_n, other_e) = own.plan_velocity, other.plan_velocity
     u, v = other_n - own_n, other_e - own_e
     square = u * u + v * v
     time = -(x * u + y * v) / square if square > 0.0 else 0.0
     return time, hypot(x + u * time, y + v * time)
 
 
-def _too_near(evasion: Evasion, own: Seen, other: Seen) -> bool:
+def _too_near(evasion: Evasion, own: ShipState, other: ShipState) -> bool:
     if evasion.distance > 0.0:
         return hypot(other.north - own.north, other.east - own.east) <= evasion.distance
     time, _ = closest_approach(own, other)

@@ -19,8 +19,9 @@ from ..scenario.scenario import Scenario
 from ..scenario.tables.autopilot import AutopilotTable
 from ..scenario.tables.ship_start import ShipStart
 from ..ship.loading.library import load_ship
+from ..ship.ship_state import ShipState
 from .component import Buffer, Component, Group, Value
-from .helm import Autopilot, Evasion, HelmState, Route, Seen, Steering, helmed
+from .helm import Autopilot, Evasion, HelmState, Route, Steering, helmed
 from .master import System, Wire
 
 __all__ = [
@@ -65,8 +66,10 @@ class Helm:
         if k in self.headings:
             self.state = self.state._replace(heading=self.headings[k], on_route=False, integral=0.0)
         assert self.own is not None
-        other = None if self.other is None else _seen(self.other)
-        ordered, self.state = helmed(self.steering, self.state, self._by_hand, _seen(self.own), other, self.step)
+        other = None if self.other is None else ShipState(*self.other[: len(STATE)])
+        ordered, self.state = helmed(
+            self.steering, self.state, self._by_hand, ShipState(*self.own[: len(STATE)]), other, self.step
+        )
         self.group.values[:] = list(ordered)
         self.group.write()
 
@@ -144,11 +147,6 @@ def _helm(scenario: Scenario, name: str, start: ShipStart, ship: Component) -> H
     helm.headings, helm.state = dict(headings), HelmState(on_route=route is not None)
     helm.steering = Steering(autopilot, route, evasion)
     return helm
-
-
-def _seen(state: Buffer) -> Seen:
-    """From a buffer with the variables of STATE."""
-    return Seen(state[0], state[1], state[5], state[6], state[7], state[11])
 
 
 def surroundings(scenario: Scenario) -> list[float]:

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from math import cos, degrees, radians, sin
-from typing import NamedTuple
 
 import numpy as np
 
@@ -18,9 +17,10 @@ from ..manoeuvring.model import ShipManoeuvring
 from ..scenario.order_schedule import schedule_orders
 from ..scenario.scenario import Scenario
 from ..ship.frames import Array
+from ..ship.ship_state import ShipState
 from .approaching_ship import ApproachingShip
 
-__all__ = ["POINTS_AFTER", "Pose", "compute_relative_velocity", "make_track", "sail_as_in_run", "shift_track"]
+__all__ = ["POINTS_AFTER", "compute_relative_velocity", "make_track", "sail_as_in_run", "shift_track"]
 
 POINTS_AFTER = 2
 """Communication points of a track after the impact, computed as if there were no contact. With fewer, an impact that
@@ -31,26 +31,9 @@ HEADING_CORRECTIONS = 50
 """Corrections of the heading at the start in a current, after which the encounter is refused."""
 
 
-class Pose(NamedTuple):
-    """CO in n [m], attitude [rad], velocity over ground in b [m/s], rate [rad/s]."""
-
-    north: float
-    east: float
-    down: float
-    roll: float
-    pitch: float
-    heading: float
-    surge: float
-    sway: float
-    heave: float
-    roll_rate: float
-    pitch_rate: float
-    yaw_rate: float
-
-
 def make_track(
     ship: ApproachingShip, end: Array, heading: float, current: tuple[float, float], steps: int, h: float
-) -> list[Pose]:  # fmt: skip
+) -> list[ShipState]:  # fmt: skip
     """Poses at the communication points 0 to steps + POINTS_AFTER, with CO at `end` (2,) in n [m] at `steps`.
 
     heading [rad] at `steps`, current (north, east) [m/s], communication step h [s]. Raises ScenarioError for a heading
@@ -72,15 +55,15 @@ def make_track(
     )
 
 
-def _make_straight_track(ship: ApproachingShip, end: Array, heading: float, steps: int, h: float) -> list[Pose]:
+def _make_straight_track(ship: ApproachingShip, end: Array, heading: float, steps: int, h: float) -> list[ShipState]:
     c, s = cos(heading), sin(heading)
     north, east = ship.surge * c - ship.sway * s, ship.surge * s + ship.sway * c
     times = [(k - steps) * h for k in range(steps + POINTS_AFTER + 1)]
     constant = (0.0, 0.0, 0.0, heading, ship.surge, ship.sway, 0.0, 0.0, 0.0, 0.0)
-    return [Pose(float(end[0] + north * t), float(end[1] + east * t), *constant) for t in times]
+    return [ShipState(float(end[0] + north * t), float(end[1] + east * t), *constant) for t in times]
 
 
-def _sail(ship: ApproachingShip, heading: float, current: tuple[float, float], steps: int, h: float) -> list[Pose]:
+def _sail(ship: ApproachingShip, heading: float, current: tuple[float, float], steps: int, h: float) -> list[ShipState]:
     """The manoeuvring model's track from n's origin, in the same steps as a run takes."""
     model, (north, east) = ShipManoeuvring(), current
     parameters = model.parameters
@@ -94,7 +77,7 @@ def _sail(ship: ApproachingShip, heading: float, current: tuple[float, float], s
     return _step_model(model, orders, steps, h)
 
 
-def sail_as_in_run(scenario: Scenario, name: str, steps: int) -> list[Pose]:
+def sail_as_in_run(scenario: Scenario, name: str, steps: int) -> list[ShipState]:
     """The track of a scenario's ship without contact, to the bit as in a run, up to steps + POINTS_AFTER."""
     table = scenario.ships[name]
     model, start = ShipManoeuvring(), table.start
@@ -108,14 +91,14 @@ def sail_as_in_run(scenario: Scenario, name: str, steps: int) -> list[Pose]:
     return _step_model(model, dict(schedule_orders(table, scenario.step)), steps, scenario.step)
 
 
-def _step_model(model: ShipManoeuvring, orders: Mapping[int, list[float]], steps: int, h: float) -> list[Pose]:
+def _step_model(model: ShipManoeuvring, orders: Mapping[int, list[float]], steps: int, h: float) -> list[ShipState]:
     """Poses at the communication points; `orders` (rudder [rad], revolutions [1/s]) by communication point."""
     inputs = model.inputs
     inputs.rudder_order, inputs.propeller_order = orders.get(0, (0.0, 0.0))
     model.initialise()
     o, poses = model.outputs, []
     for k in range(steps + POINTS_AFTER + 1):
-        poses.append(Pose(*o.position, *o.attitude, *o.velocity, *o.rate))
+        poses.append(ShipState(*o.position, *o.attitude, *o.velocity, *o.rate))
         if k in orders:
             inputs.rudder_order, inputs.propeller_order = orders[k]
         if k < steps + POINTS_AFTER:
@@ -123,7 +106,7 @@ def _step_model(model: ShipManoeuvring, orders: Mapping[int, list[float]], steps
     return poses
 
 
-def _turn_track(poses: Sequence[Pose], angle: float) -> list[Pose]:
+def _turn_track(poses: Sequence[ShipState], angle: float) -> list[ShipState]:
     """The track turned about n's origin by an angle [rad]."""
     c, s = cos(angle), sin(angle)
     return [
@@ -132,27 +115,25 @@ def _turn_track(poses: Sequence[Pose], angle: float) -> list[Pose]:
     ]
 
 
-def _end_track_at(poses: Sequence[Pose], end: Array, steps: int) -> list[Pose]:
+def _end_track_at(poses: Sequence[ShipState], end: Array, steps: int) -> list[ShipState]:
     """The track shifted so that CO is at `end` (2,) in n [m] at the communication point `steps`."""
     return shift_track(poses, np.array([end[0] - poses[steps].north, end[1] - poses[steps].east]))
 
 
-def shift_track(poses: Sequence[Pose], shift: Array) -> list[Pose]:
+def shift_track(poses: Sequence[ShipState], shift: Array) -> list[ShipState]:
     """The track shifted by (2,) in n [m]."""
     north, east = float(shift[0]), float(shift[1])
     return [p._replace(north=p.north + north, east=p.east + east) for p in poses]
 
 
-def compute_relative_velocity(own: Pose, target: Pose) -> Array:
+def compute_relative_velocity(own: ShipState, target: ShipState) -> Array:
     """Velocity of own's material point at n's origin relative to the target's there, in plan; (2,) in n [m/s].
 
     v = v_CO + omega x (origin - CO) for each ship.
     """
     velocities = []
     for pose in (own, target):
-        c, s = cos(pose.heading), sin(pose.heading)
-        north = pose.surge * c - pose.sway * s + pose.yaw_rate * pose.east
-        east = pose.surge * s + pose.sway * c - pose.yaw_rate * pose.north
-        velocities.append(np.array([north, east]))
+        north, east = pose.plan_velocity
+        velocities.append(np.array([north + pose.yaw_rate * pose.east, east - pose.yaw_rate * pose.north]))
     relative: Array = velocities[0] - velocities[1]
     return relative

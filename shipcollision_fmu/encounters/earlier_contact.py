@@ -12,7 +12,7 @@ import numpy as np
 
 from ..errors import ScenarioError
 from ..ship.frames import Array
-from .approach_track import Pose
+from ..ship.ship_state import ShipState
 from .plan_contact import measure_gap, move_polygon
 from .request import FASTEST
 
@@ -26,7 +26,12 @@ LAST = 0.01
 
 
 def check_no_earlier_contact(
-    own: Sequence[Pose], target: Sequence[Pose], sections: Mapping[str, Array], deck: float, steps: int, h: float
+    own: Sequence[ShipState],
+    target: Sequence[ShipState],
+    sections: Mapping[str, Array],
+    deck: float,
+    steps: int,
+    h: float,
 ) -> None:
     """Raise ScenarioError unless the hulls are apart from the start until the impact at `steps`.
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..scenario.toml_writer import format_toml
-from .approach_track import Pose
+from ..ship.ship_state import ShipState
 from .approaching_ship import ApproachingShip
 from .plan_contact import PlanContact
 from .planned_impact import PlannedImpact
@@ -25,8 +25,8 @@ class Approach(NamedTuple):
 
     own: ApproachingShip
     target: ApproachingShip
-    own_track: list[Pose]
-    target_track: list[Pose]
+    own_track: list[ShipState]
+    target_track: list[ShipState]
     contact: PlanContact
     closing_speed: float
 
@@ -63,7 +63,7 @@ def write_encounter(
     return format_toml(comment, tables)
 
 
-def _ship_table(ship: ApproachingShip, start: Pose, step: float, sailed: bool, directory: Path) -> dict[str, Any]:
+def _ship_table(ship: ApproachingShip, start: ShipState, step: float, sailed: bool, directory: Path) -> dict[str, Any]:
     return build_ship_table(
         refer_to_ship(ship.file, directory),
         (round_off(start.north, 5), round_off(start.east, 5)),

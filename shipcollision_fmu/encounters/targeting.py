@@ -17,7 +17,8 @@ import numpy as np
 
 from ..collision.model import ShipCollision
 from ..ship.frames import Array, rotation, rotation_vector
-from .approach_track import POINTS_AFTER, Pose, shift_track
+from ..ship.ship_state import ShipState
+from .approach_track import POINTS_AFTER, shift_track
 from .approaching_ship import ApproachingShip
 
 __all__ = ["ACCEPTED", "Hit", "ImpactFinder", "aim_track"]
@@ -60,7 +61,7 @@ class ImpactFinder:
             parameters.ship, parameters.degrees_of_freedom = ship.file, ship.degrees_of_freedom
         self._initial_state: dict[str, object] | None = None
 
-    def find_impact(self, own: Sequence[Pose], target: Sequence[Pose]) -> Hit | None:
+    def find_impact(self, own: Sequence[ShipState], target: Sequence[ShipState]) -> Hit | None:
         """The first contact of these tracks; None when there is none until POINTS_AFTER the impact."""
         model, h = self._model, self._h
         first = max(0, self._steps - POINTS_BEFORE)
@@ -82,7 +83,7 @@ class ImpactFinder:
         """Disconnect from Bullet."""
         self._model.close()
 
-    def _convert_impact(self, target: Pose, k: int) -> Hit:
+    def _convert_impact(self, target: ShipState, k: int) -> Hit:
         """The model's latest impact, found in the step from k, in the target's b."""
         time, point = self._model.outputs.impact.time, np.array(self._model.outputs.impact.point)
         since = time - k * self._h
@@ -93,9 +94,9 @@ class ImpactFinder:
 
 
 def aim_track(
-    finder: ImpactFinder, own: Sequence[Pose], target: Sequence[Pose], place: Array, normal: Array,
+    finder: ImpactFinder, own: Sequence[ShipState], target: Sequence[ShipState], place: Array, normal: Array,
     closing_speed: float, steps: int, h: float,
-) -> tuple[list[Pose], float]:  # fmt: skip
+) -> tuple[list[ShipState], float]:  # fmt: skip
     """Own's track shifted so that the impact is found at `place`, and the distance from it that remains [m].
 
     place, normal (2,) in the target's b; closing_speed along the normal [m/s]. The distance is infinite when no contact
@@ -105,7 +106,7 @@ def aim_track(
     R = np.array([[cos(psi), -sin(psi)], [sin(psi), cos(psi)]])
     outwards, along = R @ normal, np.array([-normal[1], normal[0]])
     track = shift_track(own, -outwards * (OVERLAP + HALF_A_SUBSTEP * closing_speed))
-    best: tuple[float, list[Pose]] = (float("inf"), list(track))
+    best: tuple[float, list[ShipState]] = (float("inf"), list(track))
     for attempt in range(CORRECTIONS):
         hits = _find_impacts_nearby(finder, track, target, outwards)
         if hits is None:  # they pass within centimetres, or meet later
@@ -128,7 +129,7 @@ def aim_track(
 
 
 def _find_impacts_nearby(
-    finder: ImpactFinder, own: Sequence[Pose], target: Sequence[Pose], outwards: Array
+    finder: ImpactFinder, own: Sequence[ShipState], target: Sequence[ShipState], outwards: Array
 ) -> list[Hit] | None:  # fmt: skip
     """The impacts of the track and of the track shifted by each of NUDGES; None when one of them has no impact.
 

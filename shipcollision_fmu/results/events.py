@@ -31,8 +31,9 @@ from ..collision.collisions import heading_angle
 from ..fmi.names import STATE, named
 from ..scenario.tables.collision import DamageTable
 from ..ship.degrees_of_freedom import free_inverse, tilted_inverse
-from ..ship.frames import Array, rotation, rotation_vector
+from ..ship.frames import Array, rotation_vector
 from ..ship.ship import Ship
+from ..ship.ship_state import ShipState
 from .damage import BOW, indicative_damage
 from .record import Impact, Record
 
@@ -82,7 +83,7 @@ def _collision(
     pair = [str(first["ship_a"]), str(first["ship_b"])]
     first_point = _middle(first, start, record)
     v_a, v_b = (
-        _velocity(state, np.array(first_point[b]))
+        state.velocity_at(np.array(first_point[b]))
         for state, b in zip(_states_before(first, record, obstacles), ("b_a", "b_b"), strict=True)
     )
     return {
@@ -107,10 +108,10 @@ def _start(touching: Rows, record: Record, obstacles: Mapping[str, float]) -> Im
     states = _states_before(touching[0], record, obstacles)
     closing = 0.0
     for row in touching:
-        v_a, v_b = (_velocity(state, _triple(row, group, _XYZ)) for state, group in zip(states, "ab", strict=True))
+        v_a, v_b = (state.velocity_at(_triple(row, group, _XYZ)) for state, group in zip(states, "ab", strict=True))
         closing = max(closing, float((v_a - v_b) @ _triple(row, "normal", _NED)))
     n, e, d = (sum((_triple(row, None, _NED) for row in touching), start=np.zeros(3)) / len(touching)).tolist()
-    return Impact(float(touching["time"][0]), closing, heading_angle(*(rotation(s[3:6]) for s in states)), (n, e, d))
+    return Impact(float(touching["time"][0]), closing, heading_angle(*(state.R_nb for state in states)), (n, e, d))
 
 
 def _before(row: Any, record: Record) -> Any:
@@ -118,20 +119,18 @@ def _before(row: Any, record: Record) -> Any:
     return record.states[max(0, int(np.searchsorted(record.states["time"], row["time"])) - 1)]
 
 
-def _states_before(row: Any, record: Record, obstacles: Mapping[str, float]) -> list[Array]:
-    """Those of the pair that a row is of; (12,) each: position, attitude, velocity, rate."""
+def _states_before(row: Any, record: Record, obstacles: Mapping[str, float]) -> list[ShipState]:
+    """Those of the pair that a row is of."""
     before = _before(row, record)
     return [
-        np.array([float(before[f"{body}.{variable}"]) for variable in STATE]) if body not in obstacles
-        else np.array([0.0] * 5 + [obstacles[body]] + [0.0] * 6)
+        _state(before, body) if body not in obstacles else ShipState.upright(0.0, 0.0, obstacles[body])
         for body in (str(row["ship_a"]), str(row["ship_b"]))
     ]  # fmt: skip
 
 
-def _velocity(state: Array, r_b: Array) -> Array:
-    """Of the point r_b [m] (in b) of a body, in n [m/s]."""
-    v: Array = rotation(state[3:6]) @ (state[6:9] + np.cross(state[9:], r_b))
-    return v
+def _state(states: Any, ship: str) -> ShipState:
+    """Of a ship, in a row of the states."""
+    return ShipState(*(float(states[f"{ship}.{variable}"]) for variable in STATE))
 
 
 def _damage(collision: Mapping[str, Any], ships: Mapping[str, Ship], table: DamageTable) -> dict[str, Any]:
@@ -181,15 +180,15 @@ def _velocity_gains(record: Record, ships: Mapping[str, Ship], free: Mapping[str
         rows = record.contacts[record.contacts["time"] == record.states["time"][k]]
         at = record.states[k - 1]
         for i, name in enumerate(names):
-            attitude = [float(at[f"{name}.attitude.{angle}"]) for angle in ("roll", "pitch", "yaw")]
-            R_nb = rotation(attitude)
+            state = _state(at, name)
+            R_nb = state.R_nb
             on_ship = rows[(rows["ship_a"] == name) | (rows["ship_b"] == name)]
             collisions = np.unique(on_ship["impact"])
             for number in collisions:
                 wrench = issued[i] - issued_before[i]
                 if len(collisions) > 1:
                     wrench = _wrench(on_ship[on_ship["impact"] == number], name, R_nb)
-                gain = R_nb @ (tilted_inverse(upright[name], free[name], attitude) @ wrench)[:3]
+                gain = R_nb @ (tilted_inverse(upright[name], free[name], state.attitude) @ wrench)[:3]
                 gains[int(number), name] = gains.get((int(number), name), np.zeros(3)) + gain
         issued_before = issued
     return gains
@@ -226,11 +225,11 @@ def _middle(row: Any, start: Impact, record: Record) -> dict[str, list[float]]:
     for body, group in ((str(row["ship_a"]), "a"), (str(row["ship_b"]), "b")):
         places[f"b_{group}"] = _triple(row, group, _XYZ).tolist()
         if f"{body}.{STATE[0]}" in before.dtype.names:
-            state = [float(before[f"{body}.{variable}"]) for variable in STATE]
+            state = _state(before, body)
             since = start.time - float(before["time"])
-            R_nb = rotation(state[3:6])
-            x = np.array(state[:3]) + R_nb @ np.array(state[6:9]) * since
-            places[f"b_{group}"] = (rotation_vector(np.array(state[9:]) * -since) @ R_nb.T @ (n - x)).tolist()
+            R_nb = state.R_nb
+            x = np.array(state.position) + R_nb @ np.array(state.velocity) * since
+            places[f"b_{group}"] = (rotation_vector(np.array(state.rate) * -since) @ R_nb.T @ (n - x)).tolist()
     return {"n": n.tolist(), **places}
 
 

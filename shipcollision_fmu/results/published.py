@@ -22,8 +22,9 @@ import numpy.typing as npt
 
 from ..fmi.names import STATE
 from ..scenario.tables.reference import Quantity, Reference
-from ..ship.frames import Array, quaternion_w, rotation, swapped
+from ..ship.frames import Array, quaternion_w, swapped
 from ..ship.ship import Ship
+from ..ship.ship_state import ShipState
 
 __all__ = ["compared", "state_at", "world_state"]
 
@@ -61,19 +62,18 @@ def compared(reference: Reference, states: npt.NDArray[Any], ships: Mapping[str,
     return rows
 
 
-def state_at(states: npt.NDArray[Any], name: str, time: float) -> Array:
-    """The 12 states of a ship at a time [s], interpolated linearly between communication points; (12,)."""
-    return np.array([float(np.interp(time, states["time"], states[f"{name}.{variable}"])) for variable in STATE])
+def state_at(states: npt.NDArray[Any], name: str, time: float) -> ShipState:
+    """State of a ship at a time [s], interpolated linearly between communication points."""
+    return ShipState(*(float(np.interp(time, states["time"], states[f"{name}.{variable}"])) for variable in STATE))
 
 
-def world_state(state: Array, r_bg: Array) -> dict[Quantity, float]:
-    """The paper's twelve quantities of a ship's 12 states about CO."""
-    x_nb, attitude, v_nb, omega = state[:3], state[3:6], state[6:9], state[9:12]
-    R_nb = rotation(attitude)
-    x, y, z = swapped(x_nb + R_nb @ r_bg)
+def world_state(state: ShipState, r_bg: Array) -> dict[Quantity, float]:
+    """The paper's twelve quantities of a ship's state about CO."""
+    R_nb = state.R_nb
+    x, y, z = swapped(np.array(state.position) + R_nb @ r_bg)
     p, r, h, _ = quaternion_w(R_nb)
-    v_x, v_y, v_z = swapped(R_nb @ (v_nb + np.cross(omega, r_bg)))
-    w_x, w_y, w_z = swapped(R_nb @ omega)
+    v_x, v_y, v_z = swapped(state.velocity_at(r_bg))
+    w_x, w_y, w_z = swapped(R_nb @ np.array(state.rate))
     values: dict[Quantity, float] = {
         "x": x, "y": y, "z": z, "h": h, "p": p, "r": r,
         "v_x": v_x, "v_y": v_y, "v_z": v_z, "w_x": w_x, "w_y": w_y, "w_z": w_z,

@@ -15,7 +15,6 @@ from shipcollision_fmu.cosim.helm import (
     Evasion,
     HelmState,
     Route,
-    Seen,
     Steering,
     closest_approach,
     helmed,
@@ -24,14 +23,17 @@ from shipcollision_fmu.cosim.helm import (
 )
 from shipcollision_fmu.cosim.run import Run
 from shipcollision_fmu.errors import ScenarioError
+from shipcollision_fmu.ship.ship_state import ShipState
 from tests.conftest import BARGE, Write
 
 PILOT = Autopilot(gain=1.5, rate_gain=60.0, integral_gain=0.01, rudder_limit=radians(20))
 ROUTE = Route((0.0, 0.0), ((1000.0, 0.0), (1000.0, 1000.0)), lookahead=200.0, acceptance=100.0)
 
 
-def seen(north: float = 0.0, east: float = 0.0, heading_deg: float = 0.0, surge: float = 5.0, r: float = 0.0) -> Seen:
-    return Seen(north, east, radians(heading_deg), surge, 0.0, r)
+def seen(
+    north: float = 0.0, east: float = 0.0, heading_deg: float = 0.0, surge: float = 5.0, r: float = 0.0
+) -> ShipState:
+    return ShipState.upright(north, east, radians(heading_deg), surge, 0.0, r)
 
 
 def test_a_heading_to_starboard_takes_starboard_rudder() -> None:
@@ -216,5 +218,5 @@ def test_a_ship_that_coasts_has_no_helm(scenario_file: Write, key: str) -> None:
 
 
 def test_speed_over_ground_of_what_is_seen() -> None:
-    assert Seen(0, 0, pi / 2, 3.0, 4.0, 0.0).velocity == (pytest.approx(-4.0), pytest.approx(3.0))
-    assert hypot(*Seen(0, 0, 0.3, 3.0, 4.0, 0.0).velocity) == pytest.approx(5.0)
+    assert ShipState.upright(0, 0, pi / 2, 3.0, 4.0).plan_velocity == (pytest.approx(-4.0), pytest.approx(3.0))
+    assert hypot(*ShipState.upright(0, 0, 0.3, 3.0, 4.0).plan_velocity) == pytest.approx(5.0)
