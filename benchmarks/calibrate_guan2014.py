@@ -24,7 +24,7 @@ import numpy as np
 from rich.console import Console
 
 from shipcollision_fmu import load_scenario, load_ship, simulate
-from shipcollision_fmu.cli.run_table import table
+from shipcollision_fmu.cli.table import make_table
 from shipcollision_fmu.ship.frames import rotation
 from shipcollision_fmu.ship.loading.library import models_directory
 from shipcollision_fmu.ship.ship import Ship
@@ -112,7 +112,9 @@ def main() -> None:
             options = {"initial_simplex": simplex, "maxfev": 600, "xatol": 1e-3, "fatol": 1e-4}
             found = minimize(cost, x, args=(folder,), method="Nelder-Mead", options=options)
             x = found.x.tolist()
-        here = table("free number", ">value", ">step", ">cost, step less", ">cost", ">cost, step more", ">worst number")
+        here = make_table(
+            "free number", ">value", ">step", ">cost, step less", ">cost", ">cost, step more", ">worst number"
+        )
         for i, free in enumerate(FREE):
             less, more = (cost([v + side * free.step * (k == i) for k, v in enumerate(x)], folder) for side in (-1, 1))
             worst = float(np.abs(differences(x, folder)).max())

@@ -22,7 +22,7 @@ from time import perf_counter
 import numpy as np
 from rich.console import Console
 
-from shipcollision_fmu.cli.run_table import table
+from shipcollision_fmu.cli.table import make_table
 from shipcollision_fmu.collision.geometry.bullet import bullet_module
 from shipcollision_fmu.collision.model import ShipCollision
 from shipcollision_fmu.cosim.fmi2_component import Fmi2Component
@@ -163,7 +163,7 @@ def bullet_step(gap: float) -> float:
 
 def main() -> None:
     """Measure, and print the ratios."""
-    shown = table("case", ">ours [us]", ">beside [us]", ">ratio", ">goal", title="collision step")
+    shown = make_table("case", ">ours [us]", ">beside [us]", ">ratio", ">goal", title="collision step")
     near, contact = near_substep(0.5), contact_substep()
     beside_near, beside_contact = bullet_step(0.5), bullet_step(-0.001)
     fmu, empty = far()

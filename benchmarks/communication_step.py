@@ -20,7 +20,7 @@ from time import perf_counter
 from rich.console import Console
 
 from shipcollision_fmu import load_scenario
-from shipcollision_fmu.cli.run_table import table
+from shipcollision_fmu.cli.table import make_table
 from shipcollision_fmu.cosim.component import Buffer, Component, Group, Value
 from shipcollision_fmu.cosim.fmu_files import ready_fmus
 from shipcollision_fmu.cosim.simulate import stepped, through_fmus
@@ -145,7 +145,7 @@ def main() -> None:
                 before = best.get(name, parts)
                 best[name] = {part: min(value, before[part]) for part, value in parts.items()}
     instances = len(ships) + 1
-    shown = table(
+    shown = make_table(
         "part", ">ours [us/step]", ">empty [us/step]", ">ratio",
         title=f"{scenario.name}: {scenario.steps} steps, {instances} instances, {contact:.0%} of the steps in contact",
     )  # fmt: skip

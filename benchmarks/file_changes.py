@@ -22,7 +22,7 @@ from rich.console import Console
 
 import shipcollision_fmu
 from shipcollision_fmu import load_scenario, simulate
-from shipcollision_fmu.cli.run_table import table
+from shipcollision_fmu.cli.table import make_table
 from shipcollision_fmu.collision.model import ShipCollision
 
 __all__ = ["count_file_changes", "file_changes_of_a_contact_step"]
@@ -79,7 +79,7 @@ def file_changes_of_a_contact_step() -> Counter[Change]:
 def main() -> None:
     """Count, and print the changes by file, the most frequent first."""
     changes = file_changes_of_a_contact_step()
-    shown = table("from", "into", "function", ">changes", title=f"file changes: {sum(changes.values())}")
+    shown = make_table("from", "into", "function", ">changes", title=f"file changes: {sum(changes.values())}")
     for (source, target, name), number in changes.most_common():
         shown.add_row(source, target, name, str(number))
     Console().print(shown)

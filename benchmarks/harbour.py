@@ -17,7 +17,7 @@ from time import perf_counter
 
 from rich.console import Console
 
-from shipcollision_fmu.cli.run_table import table
+from shipcollision_fmu.cli.table import make_table
 from shipcollision_fmu.collision.geometry.broad_phase import near_pairs
 from shipcollision_fmu.collision.model import ShipCollision
 
@@ -64,7 +64,7 @@ def main() -> None:
             for _ in range(steps):
                 near_pairs(rectangles, n)
             broad[n] = min(broad[n], (perf_counter() - begin) / steps)
-    shown = table(">ships", ">step [us]", ">per ship [us]", ">of which broad phase [us]", title="harbour")
+    shown = make_table(">ships", ">step [us]", ">per ship [us]", ">of which broad phase [us]", title="harbour")
     for n in counts:
         shown.add_row(str(n), f"{1e6 * best[n]:.0f}", f"{1e6 * best[n] / n:.1f}", f"{1e6 * broad[n]:.0f}")
     console = Console()

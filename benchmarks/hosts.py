@@ -36,14 +36,14 @@ from rich.console import Console
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
 
-from shipcollision_fmu.cli.run_table import table
+from shipcollision_fmu.cli.table import make_table
 from shipcollision_fmu.cosim.master import jacobi
 from shipcollision_fmu.cosim.simulate import Factories, as_models, through_fmus
 from shipcollision_fmu.cosim.wiring import connected
 from shipcollision_fmu.encounters.encounter import encounter
 from shipcollision_fmu.fmi.builder.package import build_fmus
 from shipcollision_fmu.fmi.ship_collision import INTERFACE
-from shipcollision_fmu.packaging.system_structure import COLLISION, system_structure
+from shipcollision_fmu.packaging.system_structure import COLLISION, build_system_structure
 from shipcollision_fmu.scenario.scenario import Scenario, parse_scenario
 from tests.hosts.encounter import Encounter, run_master
 from tests.hosts.masters import MASTERS
@@ -162,7 +162,7 @@ def _hosts(scenario: Scenario, folder: Path, console: Console) -> None:
     slaves, rows = min(alone), {host: min(found) for host, found in walls.items()}
     ours = rows[OURS]
     title = f"{scenario.steps} steps of three instances; the slaves alone {1e6 * slaves / scenario.steps:.0f} us"
-    shown = table("host", ">steps/s", ">to ours", ">us per step", ">share of the slaves", title=title)
+    shown = make_table("host", ">steps/s", ">to ours", ">us per step", ">share of the slaves", title=title)
     for host, wall in rows.items():
         said = f"{host} (with start)" if host in NOT_A_LOOP else host
         rate = scenario.steps / wall
@@ -171,7 +171,7 @@ def _hosts(scenario: Scenario, folder: Path, console: Console) -> None:
 
 
 def _set_and_get(scenario: Scenario, folder: Path, console: Console) -> None:
-    connections = system_structure(scenario).connections
+    connections = build_system_structure(scenario).connections
     inputs = [c.input for c in connections if c.target == COLLISION]
     outputs = [c.output for c in connections if c.source == COLLISION]
     reals = {v.name: v.causality for v in INTERFACE.table(tuple(scenario.ships)) if v.kind == "Real"}
@@ -190,7 +190,7 @@ def _set_and_get(scenario: Scenario, folder: Path, console: Console) -> None:
         for kind, calls in found.items():
             costs[kind].append((timed(calls.set), timed(calls.get)))
     title = f"set of {len(inputs)} and get of {len(outputs)} Reals through FMI (goal: ours at most 1.3 times empty)"
-    shown = table("slave", ">set [us]", ">get [us]", ">to empty", ">to bare", title=title)
+    shown = make_table("slave", ">set [us]", ">get [us]", ">to empty", ">to bare", title=title)
     both = {kind: median(sum(pair) for pair in pairs) for kind, pairs in costs.items()}
     for kind, pairs in costs.items():
         set_, get = (median(column) for column in zip(*pairs, strict=True))
@@ -206,7 +206,7 @@ def _plain(names: Iterable[str]) -> list[str]:
 
 def _collision(scenario: Scenario, folder: Path, inputs: list[str], outputs: list[str]) -> Calls:
     """The packaged FMU: it starts from the scenario's values."""
-    start = next(i for i in system_structure(scenario).instances if i.name == COLLISION).start
+    start = next(i for i in build_system_structure(scenario).instances if i.name == COLLISION).start
     return Calls(folder / "osp" / f"{COLLISION}.fmu", folder / "ours", inputs, outputs, **start)
 
 

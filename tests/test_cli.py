@@ -408,8 +408,8 @@ def test_a_package_is_a_file_or_a_folder(folder: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "line"),
     [
-        (["encounter.toml"], "error: say which one to make: --ssp or --osp (see "),
-        (["encounter.toml", "--ssp", "--out", "x"], "error: --out x: hosts know the file by its suffix; call it x.ssp"),
+        (["encounter.toml"], "error: choose one form: --ssp or --osp (see "),
+        (["encounter.toml", "--ssp", "--out", "x"], "error: --out x: hosts recognise the file by its suffix; call it"),
         (["encountr", "--ssp"], "error: unknown scenario 'encountr'"),
         (["kvlcc2_crossing", "--ssp"], "error: kvlcc2_crossing cannot be packaged whole: [ships.own] gives orders at"),
         (["encounter.toml", "--osp", "--out", "barge.toml"], "error: cannot write to barge.toml: it is a file"),

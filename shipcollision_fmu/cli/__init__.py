@@ -2,10 +2,12 @@
 
 Exit status: 0 done, 1 the run or the check failed, 2 bad usage or input.
 
-The library is imported inside the commands: help is fast, and a missing package is one clear line too.
+    runs.py, fmus.py, encounters.py, trials.py, lists.py   the commands, grouped by subject
+    run_table.py      what `run` prints                    trial_table.py   what `trial` prints
+    table.py          the form of all tables               console.py       stdout, and progress on stderr
+    mistakes.py       one line for every mistake           options.py       options of several commands
 
-mistakes    how they are told            console, options    what commands share
-runs, fmus, lists, trials, encounters    the commands, by what they are about
+Imports from every room, but inside the commands: help is fast, and a missing package becomes one clear line.
 """
 
 from __future__ import annotations

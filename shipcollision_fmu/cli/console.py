@@ -1,4 +1,4 @@
-"""What is written where: results to stdout, progress to stderr, both plain when not a terminal."""
+"""Output of the commands: results on stdout, progress on stderr, both plain when not a terminal."""
 
 from __future__ import annotations
 
@@ -20,30 +20,30 @@ PLAIN_PAUSE = 2.0
 
 
 def console() -> Console:
-    """For tables on stdout."""
+    """The console for tables on stdout."""
     return Console() if sys.stdout.isatty() else Console(width=PLAIN_WIDTH)
 
 
 @contextmanager
 def progress(name: str) -> Iterator[Callable[[int, int], None]]:
-    """A bar on stderr; a line now and then when stderr is not a terminal."""
+    """A function of (done, total) that draws a bar on stderr, or prints a line now and then without a terminal."""
     if not sys.stderr.isatty():
         last = monotonic()
 
-        def tell(done: int, total: int) -> None:
+        def print_line(done: int, total: int) -> None:
             nonlocal last
             if monotonic() - last >= PLAIN_PAUSE:
                 last = monotonic()
                 click.echo(f"{name}: {done} of {total} steps", err=True)
 
-        yield tell
+        yield print_line
         return
     columns = (TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task(name, total=None)
 
-        def show(done: int, total: int) -> None:
+        def move_bar(done: int, total: int) -> None:
             if done == total or done % max(1, total // 200) == 0:  # drawing costs more than stepping
                 bar.update(task, completed=done, total=total)
 
-        yield show
+        yield move_bar

@@ -1,4 +1,4 @@
-"""`encounter` and `import`: scenarios made backwards from an impact, or from a traffic situation."""
+"""`encounter` and `import`: make scenarios backwards from an impact, or from a traffic situation."""
 
 from __future__ import annotations
 
@@ -26,7 +26,12 @@ __all__ = ["encounter", "import_"]
 @click.option("--before", type=float, metavar="S", help="Of the rudder order: late-evasive, loss-of-steering.")
 @click.option("--rudder-deg", type=float, metavar="DEG", help="That order, positive to starboard.")
 @click.option("--drift-speed", type=float, metavar="M/S", help="Of a drifting target.")
-@click.option("--drift-deg", type=float, metavar="DEG", help="Where she drifts, from her bow.  [default: 90]")
+@click.option(
+    "--drift-deg",
+    type=float,
+    metavar="DEG",
+    help="Its direction, from the bow clockwise.  [default: 90]",
+)
 @click.option("--case", type=int, metavar="N", help="Of imazu: 1 to 22.")
 @click.option("--hydrodynamics/--coasting", default=None, help="Sail the ships, or let them coast.  [default: by TYPE]")
 @click.option("--degrees-of-freedom", type=click.Choice(["3", "4", "6"]), help="Of all ships.  [default: 3]")
@@ -34,7 +39,7 @@ __all__ = ["encounter", "import_"]
 @click.option("--name", help="Of the scenario.")
 @click.option("--out", type=PATH, metavar="FILE.toml", help="Store it; else it is printed.")
 def encounter(kind: str, out: Path | None, case: int | None, degrees_of_freedom: str | None, **options: Any) -> None:
-    """Make a scenario in which two ships collide as wanted.
+    """Make a scenario in which two ships collide as requested.
 
     TYPE is head-on, crossing, overtaking, glancing, t-bone, drifting-target, late-evasive, loss-of-steering, or imazu
     with --case: one of the 22 cases of Imazu's problem, with one to three targets.
@@ -63,7 +68,7 @@ def encounter(kind: str, out: Path | None, case: int | None, degrees_of_freedom:
 @click.argument("file", type=PATH)
 @click.option("--ship", metavar="SHIP", help="Plays every ship.  [default: ships made from the file's dimensions]")
 @click.option("--own", metavar="SHIP", help="Plays own ship.")
-@click.option("--duration", type=float, metavar="S", help="[default: what own ship's route takes]")
+@click.option("--duration", type=float, metavar="S", help="[default: the time of own ship's route]")
 @click.option("--step", type=float, default=0.05, show_default=True, metavar="S", help="Communication step.")
 @click.option("--hydrodynamics", is_flag=True, help="Sail the ships along their waypoints; else they coast.")
 @click.option("--out", type=PATH, required=True, metavar="FILE.toml", help="Scenario to write.")
@@ -72,18 +77,18 @@ def import_(
 ) -> None:
     """Make a scenario of a traffic situation in JSON.
 
-    FILE is one of DNV's trafficgen or maritime-schema, version 0.1 or 0.2. Ships of which it gives the size only get a
-    ship file beside the scenario.
+    FILE comes from DNV's trafficgen or maritime-schema, version 0.1 or 0.2. A ship without --ship gets a ship file of
+    its dimensions beside the scenario.
     """
     from ..encounters.traffic.situation import traffic_scenario
     from ..files import check_writable, write_files
 
-    made = traffic_scenario(
+    traffic = traffic_scenario(
         file, out=out, ship=ship, own=own, duration=duration, step=step, hydrodynamics=hydrodynamics
     )
     check_writable(out.parent)
-    write_files(out.parent, {**made.ship_files, out.name: made.text})
-    for name in (*made.ship_files, out.name):
+    write_files(out.parent, {**traffic.ship_files, out.name: traffic.text})
+    for name in (*traffic.ship_files, out.name):
         click.echo(out.parent / name)
-    for note in made.notes:
+    for note in traffic.notes:
         click.echo(f"note: {note}", err=True)

@@ -1,4 +1,4 @@
-"""`build`, `package` and `validate`: FMUs made, put together for other hosts, and checked."""
+"""`build`, `package` and `validate`: build FMUs, put them together for other hosts, and check them."""
 
 from __future__ import annotations
 
@@ -34,25 +34,27 @@ def build(out: Path, fmi: str) -> None:
 @click.option("--ssp", is_flag=True, help="One .ssp file: System Structure and Parameterization 1.0.")
 @click.option("--osp", is_flag=True, help="A folder for the Open Simulation Platform.")
 @click.option("--out", type=PATH, metavar="FILE|FOLDER", help="[default: NAME.ssp or NAME-osp]")
-@click.option("--initial-orders", is_flag=True, help="Hold the orders of time 0, leave out what a helm does later.")
+@click.option(
+    "--initial-orders", is_flag=True, help="Hold the orders of time 0, leave out the later ones and autopilots."
+)
 def package(scenario: str, ssp: bool, osp: bool, out: Path | None, initial_orders: bool) -> None:
     """Make a system of FMUs of SCENARIO for other hosts.
 
     SCENARIO is a name that `shipcollision scenarios` lists, or the path of a TOML file. The package holds an FMU for
-    each ship and one for the collision, with the scenario's values as their start values. What a host cannot be told
-    in that way, such as a route, is refused, or left out and said so.
+    each ship and one for the collision, with the scenario's values as their start values. Settings that a
+    package cannot hold, such as a route, are refused, or left out with a note.
     """
     from ..packaging.osp import write_osp
     from ..packaging.ssp import write_ssp
     from ..scenario.scenario import load_scenario
 
     if ssp == osp:
-        raise click.UsageError("say which one to make: --ssp or --osp")
+        raise click.UsageError("choose one form: --ssp or --osp")
     loaded = load_scenario(scenario)
     if ssp:
         place = out if out is not None else Path(f"{loaded.name}.ssp")
         if place.suffix != ".ssp":
-            raise click.UsageError(f"--out {place}: hosts know the file by its suffix; call it {place.name}.ssp")
+            raise click.UsageError(f"--out {place}: hosts recognise the file by its suffix; call it {place.name}.ssp")
         left_out = write_ssp(loaded, place, initial_orders=initial_orders)
     else:
         place = out if out is not None else Path(f"{loaded.name}-osp")
@@ -69,15 +71,15 @@ def package(scenario: str, ssp: bool, osp: bool, out: Path | None, initial_order
 def validate(fmu: Path, no_calls: bool, ignore: tuple[str, ...]) -> None:
     """Check that FMU complies with FMI; exit status 1 when it does not.
 
-    FMU is any FMI 2.0 or 3.0 FMU. FMPy's validator is followed by checks of what it leaves out, and by calls that an
-    FMU must refuse; these run its code, in a process beside this one. Notes are good practice and do not count.
+    FMU is any FMI 2.0 or 3.0 FMU. FMPy's validator is followed by further checks of the file, and by calls that an
+    FMU must refuse; the calls run its code in another process. Notes are good practice and do not count.
     """
-    from ..compliance.report import findings
+    from ..compliance.report import validate as find_breaches
 
-    found = findings(fmu, calls=not no_calls, ignore=ignore)
-    for one in found:
-        click.echo(f"{fmu}: {'' if one.binding else 'note: '}{one}")
-    count = sum(one.binding for one in found)
+    found = find_breaches(fmu, calls=not no_calls, ignore=ignore)
+    for finding in found:
+        click.echo(f"{fmu}: {'' if finding.binding else 'note: '}{finding}")
+    count = sum(finding.binding for finding in found)
     if count:
         fail(f"{fmu} has {count} problem{'s' if count > 1 else ''}", 1)
     click.echo(f"{fmu}: no problem found")

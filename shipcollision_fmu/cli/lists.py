@@ -1,4 +1,4 @@
-"""`ships` and `scenarios`: what there is to run."""
+"""`ships` and `scenarios`: lists of the shipped ships and scenarios."""
 
 from __future__ import annotations
 
@@ -14,27 +14,27 @@ __all__ = ["scenarios", "ships"]
 def ships() -> None:
     """List the shipped ships."""
     from ..ship.loading.library import load_ship, ship_names
-    from .run_table import table
+    from .table import make_table
 
-    listed = table("name", "kind", ">L_pp [m]", ">B [m]", ">T [m]", ">mass [t]", "under way")
+    table = make_table("name", "kind", ">L_pp [m]", ">B [m]", ">T [m]", ">mass [t]", "under way")
     for name in ship_names():
         ship = load_ship(name)
         under_way = "coasts" if ship.manoeuvring is None else "manoeuvres"
         sizes = (f"{ship.L_pp:g}", f"{ship.B:g}", f"{ship.T:g}", f"{ship.mass / 1e3:.0f}")
-        listed.add_row(name, escape(ship.kind), *sizes, under_way)
-    console().print(listed)
+        table.add_row(name, escape(ship.kind), *sizes, under_way)
+    console().print(table)
 
 
 @click.command()
 def scenarios() -> None:
     """List the shipped scenarios."""
     from ..scenario.scenario import list_scenario_names, load_scenario
-    from .run_table import table
+    from .table import make_table
 
-    listed = table("name", "ships", ">duration [s]", ">step [s]", "description")
+    table = make_table("name", "ships", ">duration [s]", ">step [s]", "description")
     for name in list_scenario_names():
         loaded = load_scenario(name)
         header = loaded.scenario
         who = ", ".join(f"{role}: {ship.ship}" for role, ship in loaded.ships.items())
-        listed.add_row(name, who, f"{header.duration:g}", f"{header.step:.6g}", escape(header.description))
-    console().print(listed)
+        table.add_row(name, who, f"{header.duration:g}", f"{header.step:.6g}", escape(header.description))
+    console().print(table)

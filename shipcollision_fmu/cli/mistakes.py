@@ -1,4 +1,4 @@
-"""A mistake is one line on stderr, without a traceback, and an exit status."""
+"""Every mistake of a user becomes one line on stderr, without a traceback, and an exit status."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ _OURS = __name__.partition(".")[0]
 
 
 def fail(message: str, status: int) -> NoReturn:
-    """End with this line and this exit status."""
+    """End the process with a line on stderr and an exit status."""
     click.echo(f"error: {' '.join(message.split())}", err=True)
     sys.exit(status)
 
 
 class Commands(click.Group):
-    """A group of commands that ends on every mistake with one line, and knows near misses."""
+    """A group of commands that ends with one line on every mistake, and suggests names for unknown commands."""
 
     def main(self, *args: Any, **extra: Any) -> Any:
-        """As click's, but with all errors told in one way."""
+        """click's main, with all errors printed in one form."""
         try:
             status: Any = super().main(*args, **{**extra, "standalone_mode": False})
         except click.UsageError as error:
@@ -35,7 +35,7 @@ class Commands(click.Group):
             fail(str(error), error.exit_status)
         except ModuleNotFoundError as error:
             if (error.name or "").startswith(_OURS):
-                raise  # a fault of ours, not of the installation
+                raise  # a fault of this package, not of the installation
             fail(f"the package {error.name!r} is not installed: run `python -m pip install {error.name}`", 1)
         except (click.Abort, KeyboardInterrupt):
             fail("interrupted; nothing is written", 1)
@@ -47,7 +47,7 @@ class Commands(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """As click's, with a suggestion for a name that is nearly right."""
+        """click's look-up, with a suggestion for a misspelt name."""
         names = self.list_commands(ctx)
         if args[0] not in names and not args[0].startswith("-"):
             from ..ship.loading.messages import suggestion

@@ -1,4 +1,4 @@
-"""What options and arguments of several commands are."""
+"""Types of options and arguments that several commands share."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ __all__ = ["FMI", "PATH"]
 
 
 class _Path(click.Path):
-    """A path; an empty one (an unset variable of the shell) is a mistake, not the current folder."""
+    """A path; an empty path (an unset variable of the shell) is a mistake, not the current folder."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         if value == "":

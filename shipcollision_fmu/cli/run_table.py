@@ -1,4 +1,4 @@
-"""A run's result as tables for people."""
+"""What `shipcollision run` prints: tables of a run and lines below them."""
 
 from __future__ import annotations
 
@@ -6,44 +6,33 @@ from collections.abc import Iterator
 from math import degrees, hypot
 from typing import TYPE_CHECKING, Any
 
-from rich.box import SIMPLE_HEAD
 from rich.table import Table
-from rich.text import Text
 
 from ..fmi.names import named
+from .table import make_table
 
 if TYPE_CHECKING:
     from ..cosim.run import Run
 
-__all__ = ["comparison", "lines", "table", "tables"]
-
+__all__ = ["make_comparison_table", "make_run_tables", "summarise_run"]
 
 _LINEAR = ("surge", "sway", "heave")
+LARGE_HEEL = 30.0
+"""[deg] Heel from which a coasting ship is unrealistic: real ships right themselves."""
 
 
-def table(*columns: str, title: str | None = None) -> Table:
-    """An empty table; a column whose heading begins with '>' is of numbers. Units go below: 80 characters are few."""
-    heading = None if title is None else Text(title)  # Text: a unit in brackets is not a style
-    empty = Table(title=heading, title_justify="left", box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
-    for column in columns:
-        name = Text(column.removeprefix(">").replace(" [", "\n["))
-        # Folded where the terminal is narrow: half a ship's name is of no use to anybody.
-        empty.add_column(name, justify="right" if column.startswith(">") else "left", overflow="fold")
-    return empty
-
-
-def tables(run: Run) -> Iterator[Table]:
-    """What a run has to show: the published numbers if there are any, else its collisions and its books."""
+def make_run_tables(run: Run) -> Iterator[Table]:
+    """The comparison with published numbers where there are any, else collisions and ships with their ledger."""
     if "paper" in run.summary:
-        yield comparison(run.summary)
+        yield make_comparison_table(run.summary)
         return
     if run.events["collisions"]:
-        yield _collisions(run.events["collisions"])
-    yield _ships(run)
+        yield _make_collision_table(run.events["collisions"])
+    yield _make_ship_table(run)
 
 
-def lines(run: Run) -> Iterator[str]:
-    """What is said below the tables."""
+def summarise_run(run: Run) -> Iterator[str]:
+    """Lines below the tables: tolerance, clearance, energy, heel, solver, time."""
     summary = run.summary
     if "paper" in summary:
         within = sum(row["within"] for row in summary["paper"])
@@ -58,7 +47,7 @@ def lines(run: Run) -> Iterator[str]:
     rest = after + lost - before
     rest = 0.0 if abs(rest) < 0.05 else rest
     yield f"  {lost:.1f} MJ dissipated in contact, {rest:+.1f} MJ from {between} between contacts"
-    yield from _rolled(run)
+    yield from _warn_of_heel(run)
     if summary["solver"]["unconverged"]:
         yield f"  the contact solver missed its residual {summary['solver']['unconverged']} times: see solver.residual"
     yield (
@@ -67,21 +56,21 @@ def lines(run: Run) -> Iterator[str]:
     )
 
 
-def _rolled(run: Run) -> Iterator[str]:
-    """Ships that coast far over: nothing rights them."""
+def _warn_of_heel(run: Run) -> Iterator[str]:
+    """Lines on coasting ships that heel by more than LARGE_HEEL, since no buoyancy rights them."""
     for name, ship in run.summary["ships"].items():
         heel = degrees(float(abs(run.states[f"{name}.attitude.roll"]).max()))
-        if not ship["hydrodynamics"] and heel > 30.0:
+        if not ship["hydrodynamics"] and heel > LARGE_HEEL:
             yield (
                 f"  {name} heeled by {heel:.0f} deg: a ship that coasts has no buoyancy; give degrees_of_freedom = 3, "
                 "or hydrodynamics = true"
             )
 
 
-def comparison(summary: dict[str, Any]) -> Table:
-    """Published and computed numbers; a star where the printed one had to be corrected."""
+def make_comparison_table(summary: dict[str, Any]) -> Table:
+    """Table of published and computed numbers; a star marks a printed number that had to be corrected."""
     reference = summary["reference"]
-    rows = table(
+    rows = make_table(
         "ship", "", "unit", ">printed", ">paper", ">computed", ">difference", ">tolerance", "within",
         title=f"{summary['scenario']}: {reference['source']}, at {reference['time']:g} s",
     )  # fmt: skip
@@ -99,35 +88,35 @@ def comparison(summary: dict[str, Any]) -> Table:
     return rows
 
 
-def _collisions(collisions: list[dict[str, Any]]) -> Table:
-    rows = table(
+def _make_collision_table(collisions: list[dict[str, Any]]) -> Table:
+    rows = make_table(
         "ships", ">start [s]", ">end [s]", ">closing [m/s]", ">angle [deg]", ">impulse [MN s]", ">energy [MJ]",
         ">delta v [m/s]", title="collisions",
     )  # fmt: skip
     for c in collisions:
-        gained = ", ".join(f"{hypot(*c['delta_v'][name]):.3f}" for name in (c["ship_a"], c["ship_b"]))
+        delta_v = ", ".join(f"{hypot(*c['delta_v'][name]):.3f}" for name in (c["ship_a"], c["ship_b"]))
         rows.add_row(
-            f"{c['ship_a']} - {c['ship_b']}", f"{c['start']:.2f}", f"{c['end']:.2f}", _or_dash(c["closing_speed"]),
-            "-" if c["angle"] is None else f"{degrees(c['angle']):.1f}", f"{c['impulse']['magnitude'] / 1e6:.2f}",
-            f"{c['energy'] / 1e6:.2f}", gained,
+            f"{c['ship_a']} - {c['ship_b']}", f"{c['start']:.2f}", f"{c['end']:.2f}",
+            _format_or_dash(c["closing_speed"]), "-" if c["angle"] is None else f"{degrees(c['angle']):.1f}",
+            f"{c['impulse']['magnitude'] / 1e6:.2f}", f"{c['energy'] / 1e6:.2f}", delta_v,
         )  # fmt: skip
     return rows
 
 
-def _ships(run: Run) -> Table:
-    """Speed and heading before and after, and the ledger of impulses."""
-    rows = table("ship", ">speed [m/s]", ">heading [deg]", ">impulse pending [MN s]", title="ships")
+def _make_ship_table(run: Run) -> Table:
+    """Table of speed and heading before and after, and of pending impulses."""
+    rows = make_table("ship", ">speed [m/s]", ">heading [deg]", ">impulse pending [MN s]", title="ships")
     first, last = run.states[0], run.states[-1]
-    for name, books in run.summary["ledger"].items():
+    for name, ledger in run.summary["ledger"].items():
         columns = named(f"{name}.velocity", _LINEAR)
         speeds = [hypot(*(float(row[column]) for column in columns)) for row in (first, last)]
         headings = [degrees(float(row[f"{name}.attitude.yaw"])) for row in (first, last)]
         rows.add_row(
             name, f"{speeds[0]:.3f} > {speeds[1]:.3f}", f"{headings[0]:.2f} > {headings[1]:.2f}",
-            f"{hypot(*books['pending'][:3]) / 1e6:.2g}",
+            f"{hypot(*ledger['pending'][:3]) / 1e6:.2g}",
         )  # fmt: skip
     return rows
 
 
-def _or_dash(value: float | None) -> str:
+def _format_or_dash(value: float | None) -> str:
     return "-" if value is None else f"{value:.3f}"

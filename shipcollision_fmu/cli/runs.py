@@ -1,4 +1,4 @@
-"""`run` and `show`: a scenario co-simulated, and the finished run made visible."""
+"""`run` and `show`: co-simulate a scenario, and write pictures of a finished run."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def run(
     fmi: str,
     page: bool,
 ) -> None:
-    """Co-simulate SCENARIO and store what happened.
+    """Co-simulate SCENARIO and store the results.
 
     SCENARIO is a name that `shipcollision scenarios` lists, or the path of a TOML file. Without one it is guan2014, the
     published collision. The FMUs are built first when they are missing or older than the sources.
@@ -39,22 +39,22 @@ def run(
     from ..cosim.fmu_files import require_pybullet
     from ..cosim.simulate import simulate
     from ..scenario.scenario import load_scenario
-    from .run_table import lines, tables
+    from .run_table import make_run_tables, summarise_run
 
     if in_process and fmi != "2":
         raise click.UsageError("--in-process runs without FMI: leave out --fmi")
     require_pybullet()
     loaded = load_scenario(scenario)
     folder = out if out is not None else Path("runs") / loaded.name
-    with progress(loaded.name) as told:
+    with progress(loaded.name) as report:
         finished = simulate(
-            loaded, algorithm=algorithm, step=step, in_process=in_process, fmi=int(fmi), out=folder, progress=told
+            loaded, algorithm=algorithm, step=step, in_process=in_process, fmi=int(fmi), out=folder, progress=report
         )
     _remove_pictures(folder)
     stdout = console()
-    for table in tables(finished):
+    for table in make_run_tables(finished):
         stdout.print(table)
-    for line in lines(finished):
+    for line in summarise_run(finished):
         click.echo(line)
     click.echo(f"stored in {folder}")
     if page:
@@ -75,39 +75,39 @@ def show(
 ) -> None:
     """Show the finished run in the folder DIR.
 
-    Without an option its page, replay.html, is written anew and what there is to see is listed. With options, what they
-    name is written into the folder.
+    Without an option the page, replay.html, is written again, and the pictures in the folder are listed. With options
+    the pictures that they name are written into the folder.
     """
     import webbrowser
 
     from ..show import outputs
 
     scene = outputs.load_scene(folder)
-    asked = {"osg": osg, "glb": glb, "plots": plots, "gif": gif, "mp4": mp4, "still": still is not None}
-    kinds = [kind for kind, wanted in asked.items() if wanted]
+    chosen = {"osg": osg, "glb": glb, "plots": plots, "gif": gif, "mp4": mp4, "still": still is not None}
+    kinds = [kind for kind, is_chosen in chosen.items() if is_chosen]
     for kind in kinds or ["page"]:
-        with progress(kind) as told:
-            made = outputs.made(kind, scene, folder, still, told)
-        for line in made:
+        with progress(kind) as report:
+            lines = outputs.write(kind, scene, folder, still, report)
+        for line in lines:
             click.echo(line)
     if in_browser:
-        page = folder / outputs.PAGE if not kinds else outputs.page(scene, folder)
+        page = folder / outputs.PAGE if not kinds else outputs.write_page(scene, folder)
         if not webbrowser.open(page.resolve().as_uri()):
             fail(f"found no browser to open {page}: open it yourself", 1)
     elif not kinds:
-        for line in outputs.listed(scene, folder):
+        for line in outputs.describe(scene, folder):
             click.echo(line)
 
 
 def _remove_pictures(folder: Path) -> None:
-    """What shows an earlier run in the same folder is of another run now."""
+    """Remove pictures of an earlier run from the folder."""
     from ..show.outputs import remove
 
     remove(folder)
 
 
 def _write_page(folder: Path) -> None:
-    """Write the page of a run and say where it is. The run is stored by now: if there is no page, that is said."""
+    """Write the page of a stored run and print its path; a page that cannot be written does not fail the run."""
     from ..show.page import write_page
 
     try:

@@ -1,4 +1,4 @@
-"""`trial`: a standard manoeuvre of one ship."""
+"""`trial`: a standard manoeuvre of a ship."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ __all__ = ["trial"]
 @click.option("--starboard/--port", default=True, help="Side of the first rudder.  [default: --starboard]")
 @click.option("--speed", type=float, metavar="M/S", help="Approach speed.  [default: the service speed]")
 @click.option(
-    "--rev-per-s", type=float, metavar="REV/S", help="Propeller on the approach.  [default: as the speed asks]"
+    "--rev-per-s", type=float, metavar="REV/S", help="Propeller on the approach.  [default: those that keep the speed]"
 )
 @click.option("--degrees-of-freedom", type=click.Choice(["3", "4", "6"]), default="3", show_default=True)
 @click.option("--out", type=PATH, metavar="FILE.csv", help="Store the track.")
@@ -43,7 +43,7 @@ def trial(
     from ..files import check_writable, write_file
     from ..manoeuvring.trials.steady_course import approach
     from ..manoeuvring.trials.trials import crash_stop, turning_circle, zigzag
-    from .trial_table import figures, track_csv
+    from .trial_table import format_track_csv, make_trial_table
 
     if manoeuvre != "zigzag" and heading_deg is not None:
         raise click.UsageError("--heading-deg goes with a zigzag only")
@@ -53,14 +53,14 @@ def trial(
     if out is not None:
         check_writable(out.parent)
     if manoeuvre == "turning-circle":
-        sailed = turning_circle(start, 35.0 if rudder_deg is None else rudder_deg, port=not starboard)
+        trial_run = turning_circle(start, 35.0 if rudder_deg is None else rudder_deg, port=not starboard)
     elif manoeuvre == "zigzag":
         by, to = (10.0 if angle is None else angle for angle in (rudder_deg, heading_deg))
-        sailed = zigzag(start, by, to, port=not starboard)
+        trial_run = zigzag(start, by, to, port=not starboard)
     else:
-        sailed = crash_stop(start)
+        trial_run = crash_stop(start)
     if out is not None:
-        write_file(out, track_csv(sailed))
-    console().print(figures(start, sailed))
+        write_file(out, format_track_csv(trial_run))
+    console().print(make_trial_table(start, trial_run))
     if out is not None:
         click.echo(f"stored in {out}")

@@ -1,10 +1,10 @@
-"""What only calls show: an FMU for co-simulation refuses what it must, and goes on afterwards.
+"""Probes: calls that an FMU for co-simulation must refuse, or must answer in the same way again.
 
-    found = findings(fmu)
+    findings = run_probes(fmu)
 
-Each probe makes an instance of its own, in a process beside this one: an FMU that crashes there ends that process
-only, and that is then what is found; the other probes are made in the next. FMI wants an error status for a call in
-the wrong order; some wrappers can give it only from doStep, so a refusal may also come with the next step.
+Each probe makes its own instance in another process. An FMU that crashes ends that process only; the crash is then the
+finding, and the other probes run in the next process. FMI requires an error status for a call in the wrong order. Some
+wrappers can give it only from doStep, so a refusal may also come with the next step.
 
     python -m shipcollision_fmu.compliance.calls FOLDER PROBE ...      probes on an unpacked FMU; prints findings
 """
@@ -28,23 +28,23 @@ from fmpy import extract, platform_tuple, read_model_description
 from fmpy.fmi2 import FMU2Slave
 from fmpy.fmi3 import FMU3Slave
 
-__all__ = ["PROBES", "Probe", "findings"]
+__all__ = ["PROBES", "Probe", "run_probes"]
 
 OK, WARNING = 0, 1
 TIME_OUT = 60.0
-"""Seconds that the probes may take."""
+"""[s] Limit of a process; an FMU that hangs is then reported. Python FMUs need up to 20 s to start."""
 _MARK = "finding "
-"""Before a line of the process beside; the FMU may print lines of its own."""
+"""Beginning of a line with findings, since the FMU may print lines of its own."""
 
 
 class Instance:
-    """An FMU instance with the calls that the probes need, in one form for both versions of FMI."""
+    """An FMU instance with the calls of the probes, in one form for both versions of FMI."""
 
     def __init__(self, folder: Path, token: str | None = None) -> None:
         self.description = read_model_description(str(folder), validate=False)
         self.fmi = 3 if self.description.fmiVersion.startswith("3") else 2
-        made: type = FMU3Slave if self.fmi == 3 else FMU2Slave
-        self.fmu: Any = made(
+        slave: type = FMU3Slave if self.fmi == 3 else FMU2Slave
+        self.fmu: Any = slave(
             guid=self.description.guid if token is None else token,
             unzipDirectory=str(folder),
             modelIdentifier=self.description.coSimulation.modelIdentifier,
@@ -54,44 +54,44 @@ class Instance:
         self.dll, self.component = self.fmu.dll, self.fmu.component
 
     def call(self, name: str, *arguments: Any) -> int:
-        """Status of a function; `name` without its prefix."""
+        """Call a function, by its name without prefix; returns its status."""
         status: int = getattr(self.dll, f"fmi{self.fmi}{name}")(self.component, *arguments)
         return status
 
     def enter(self) -> int:
-        """Into initialisation."""
+        """Enter initialisation; returns the status."""
         if self.fmi == 3:
             return self.call("EnterInitializationMode", False, 0.0, 0.0, False, 0.0)
         status = self.call("SetupExperiment", 0, 0.0, 0.0, 0, 0.0)
         return status if status > WARNING else self.call("EnterInitializationMode")
 
     def begin(self) -> int:
-        """Through initialisation with the start values."""
+        """Enter and leave initialisation with the start values; returns the status."""
         status = self.enter()
         return status if status > WARNING else self.call("ExitInitializationMode")
 
     def step(self, t: float, h: float) -> int:
-        """One step."""
+        """Step from t by h; returns the status."""
         if self.fmi == 2:
             return self.call("DoStep", t, h, 1)
         flags = [byref(c_bool()) for _ in range(3)]
         return self.call("DoStep", t, h, True, *flags, byref(c_double()))
 
-    def h(self) -> float:
-        """The step size that the FMU proposes [s]."""
+    def step_size(self) -> float:
+        """The step size in the FMU's default experiment [s], else 0.01."""
         proposed = self.description.defaultExperiment and self.description.defaultExperiment.stepSize
         return float(proposed or 0.01)
 
     def set(self, variable: Any, value: float) -> int:
-        """Set a Float64 or Real, an Integer or Int32, all elements the same."""
+        """Set all elements of a Float64, Real, Int32 or Integer to a value; returns the status."""
         real = variable.type in ("Real", "Float64")
         size = math.prod(variable.shape) if self.fmi == 3 else 1
         values: Any = (c_double * size)(*[value] * size) if real else (c_int * size)(*[int(value)] * size)
         sizes = (size,) if self.fmi == 3 else ()
         return self.call(f"Set{variable.type}", (c_uint * 1)(variable.valueReference), 1, values, *sizes)
 
-    def reals(self) -> list[str]:
-        """Every real output, exactly."""
+    def read_outputs(self) -> list[str]:
+        """All real outputs as hexadecimal text, which is exact."""
         found = []
         for variable in self.description.modelVariables:
             if variable.type in ("Real", "Float64") and variable.causality == "output":
@@ -101,8 +101,8 @@ class Instance:
                 found += [value.hex() for value in values]
         return found
 
-    def one(self, causality: str) -> Any:
-        """A number of that causality to set; None when there is none."""
+    def find_variable(self, causality: str) -> Any:
+        """The first numeric variable of a causality, or None."""
         for variable in self.description.modelVariables:
             if variable.causality == causality and variable.type in ("Real", "Float64", "Integer", "Int32"):
                 return variable
@@ -111,179 +111,185 @@ class Instance:
 
 @dataclass(frozen=True)
 class Probe:
-    """A name to call it by, what it demands, whether a breach is a problem or only a note, and the function."""
+    """A probe: its name, its demand in words, whether a breach is a problem (else a note), its function."""
 
     name: str
     demand: str
     binding: bool
-    broken: Callable[[Path], Iterator[str]]
+    run: Callable[[Path], Iterator[str]]
 
 
-def runs(folder: Path) -> Iterator[str]:
-    """With its start values it initialises and makes a step."""
-    one = Instance(folder)
-    status = one.begin()
+def probe_run(folder: Path) -> Iterator[str]:
+    """It initialises with its start values and makes a step."""
+    instance = Instance(folder)
+    status = instance.begin()
     if status > WARNING:
         yield f"initialisation with the start values answers status {status}"
         return
-    status = one.step(0.0, one.h())
+    status = instance.step(0.0, instance.step_size())
     if status > WARNING:
         yield f"the first step answers status {status}"
 
 
-def step_first(folder: Path) -> Iterator[str]:
+def probe_step_first(folder: Path) -> Iterator[str]:
     """doStep before initialisation is refused."""
-    one = Instance(folder)
-    if one.step(0.0, one.h()) <= WARNING:
+    instance = Instance(folder)
+    if instance.step(0.0, instance.step_size()) <= WARNING:
         yield "doStep before initialisation is not refused"
 
 
-def exit_first(folder: Path) -> Iterator[str]:
+def probe_exit_first(folder: Path) -> Iterator[str]:
     """exitInitializationMode that was not entered is refused."""
     if Instance(folder).call("ExitInitializationMode") <= WARNING:
         yield "exitInitializationMode without enterInitializationMode is not refused"
 
 
-def enter_twice(folder: Path) -> Iterator[str]:
+def probe_enter_twice(folder: Path) -> Iterator[str]:
     """Initialisation is entered once."""
-    one = Instance(folder)
-    one.enter()
-    if one.enter() <= WARNING and one.call("ExitInitializationMode") <= WARNING:
+    instance = Instance(folder)
+    instance.enter()
+    if instance.enter() <= WARNING and instance.call("ExitInitializationMode") <= WARNING:
         yield "enterInitializationMode twice is not refused"
 
 
-def step_after_the_end(folder: Path) -> Iterator[str]:
+def probe_step_after_terminate(folder: Path) -> Iterator[str]:
     """doStep after terminate is refused."""
-    one = Instance(folder)
-    one.begin()
-    one.call("Terminate")
-    if one.step(0.0, one.h()) <= WARNING:
+    instance = Instance(folder)
+    instance.begin()
+    instance.call("Terminate")
+    if instance.step(0.0, instance.step_size()) <= WARNING:
         yield "doStep after terminate is not refused"
 
 
-def steps_that_are_none(folder: Path) -> Iterator[str]:
-    """A step backwards, or of no number, is refused, and a proper one follows."""
-    one = Instance(folder)
-    one.begin()
-    for h in (-one.h(), math.nan):
-        if one.step(0.0, h) <= WARNING:
+def probe_step_sizes(folder: Path) -> Iterator[str]:
+    """A step of negative size or NaN is refused, and a proper step follows."""
+    instance = Instance(folder)
+    instance.begin()
+    for h in (-instance.step_size(), math.nan):
+        if instance.step(0.0, h) <= WARNING:
             yield f"a step of {h} s is not refused"
-    if one.step(0.0, one.h()) > WARNING:
-        yield "after a step that was refused there are no more: set back by reset or a saved state is all that is left"
+    if instance.step(0.0, instance.step_size()) > WARNING:
+        yield "after a refused step no further step succeeds: only reset or a saved state helps"
 
 
-def outputs_are_not_set(folder: Path) -> Iterator[str]:
+def probe_setting_outputs(folder: Path) -> Iterator[str]:
     """An output cannot be set."""
-    yield from _refused_when_running(folder, "output", "setting output {} is not refused")
+    yield from _set_when_running(folder, "output", "setting output {} is not refused")
 
 
-def parameters_are_fixed(folder: Path) -> Iterator[str]:
+def probe_setting_parameters(folder: Path) -> Iterator[str]:
     """A fixed parameter cannot be set after initialisation."""
-    one = Instance(folder)
-    found = one.one("parameter")
+    instance = Instance(folder)
+    found = instance.find_variable("parameter")
     if found is not None and found.variability == "fixed":
-        yield from _refused_when_running(folder, "parameter", "setting parameter {}, fixed, after initialisation")
+        yield from _set_when_running(folder, "parameter", "setting parameter {}, fixed, after initialisation")
 
 
-def unknown_references(folder: Path) -> Iterator[str]:
+def probe_unknown_references(folder: Path) -> Iterator[str]:
     """A value reference that is not in the model description is refused."""
-    one = Instance(folder)
-    one.begin()
-    values, kind = (c_double * 1)(), "Float64" if one.fmi == 3 else "Real"
-    sizes = (1,) if one.fmi == 3 else ()
-    status = one.call(f"Get{kind}", (c_uint * 1)(4_294_967_294), 1, values, *sizes)
-    if status <= WARNING and one.step(0.0, one.h()) <= WARNING:
+    instance = Instance(folder)
+    instance.begin()
+    values, kind = (c_double * 1)(), "Float64" if instance.fmi == 3 else "Real"
+    sizes = (1,) if instance.fmi == 3 else ()
+    status = instance.call(f"Get{kind}", (c_uint * 1)(4_294_967_294), 1, values, *sizes)
+    if status <= WARNING and instance.step(0.0, instance.step_size()) <= WARNING:
         yield "reading a value reference that does not exist is not refused"
 
 
-def reset(folder: Path) -> Iterator[str]:
-    """After reset it runs again as it did the first time, to the bit."""
-    one = Instance(folder)
+def probe_reset(folder: Path) -> Iterator[str]:
+    """After reset it repeats the first step to the bit."""
+    instance = Instance(folder)
     results = []
     for _ in range(2):
-        if one.begin() > WARNING or one.step(0.0, one.h()) > WARNING:
+        if instance.begin() > WARNING or instance.step(0.0, instance.step_size()) > WARNING:
             yield "after terminate and reset it does not run again"
             return
-        results.append(one.reals())
-        one.call("Terminate")
-        one.call("Reset")
+        results.append(instance.read_outputs())
+        instance.call("Terminate")
+        instance.call("Reset")
     if results[0] != results[1]:
-        yield "after reset the outputs of the first step are others than the first time"
+        yield "after reset the outputs of the first step differ from the first time"
 
 
-def instances(folder: Path) -> Iterator[str]:
-    """Two instances run side by side, unless the description says that there may be one only."""
-    one = Instance(folder)
-    if one.description.coSimulation.canBeInstantiatedOnlyOncePerProcess:
+def probe_instances(folder: Path) -> Iterator[str]:
+    """Two instances run side by side, unless the description allows only instance."""
+    instance = Instance(folder)
+    if instance.description.coSimulation.canBeInstantiatedOnlyOncePerProcess:
         return
-    two = Instance(folder)
-    for each in (one, two):
-        if each.begin() > WARNING or each.step(0.0, each.h()) > WARNING:
+    other = Instance(folder)
+    for each in (instance, other):
+        if each.begin() > WARNING or each.step(0.0, each.step_size()) > WARNING:
             yield "two instances do not run side by side"
             return
-    one.fmu.freeInstance()
-    if two.step(two.h(), two.h()) > WARNING:
-        yield "an instance does not go on when another is freed"
+    instance.fmu.freeInstance()
+    if other.step(other.step_size(), other.step_size()) > WARNING:
+        yield "an instance fails when another is freed"
 
 
-def state(folder: Path) -> Iterator[str]:
-    """A state that can be saved and restored, also as bytes, gives the same step again, to the bit."""
-    one = Instance(folder)
-    able = one.description.coSimulation
+def probe_state(folder: Path) -> Iterator[str]:
+    """A saved and restored state, also as bytes, repeats the step to the bit."""
+    instance = Instance(folder)
+    able = instance.description.coSimulation
     if not able.canGetAndSetFMUstate:  # fmpy calls it so for both versions
         return
-    get, put, h = ("getFMUState", "setFMUState", one.h()) if one.fmi == 3 else ("getFMUstate", "setFMUstate", one.h())
-    one.begin()
-    one.step(0.0, h)
-    saved = getattr(one.fmu, get)()
-    one.step(h, h)
-    ahead = one.reals()
-    getattr(one.fmu, put)(saved)
-    if one.step(h, h) > WARNING or one.reals() != ahead:
-        yield "a restored state gives another step than the first time"
+    get, put, h = (
+        ("getFMUState", "setFMUState", instance.step_size())
+        if instance.fmi == 3
+        else ("getFMUstate", "setFMUstate", instance.step_size())
+    )
+    instance.begin()
+    instance.step(0.0, h)
+    saved = getattr(instance.fmu, get)()
+    instance.step(h, h)
+    expected = instance.read_outputs()
+    getattr(instance.fmu, put)(saved)
+    if instance.step(h, h) > WARNING or instance.read_outputs() != expected:
+        yield "a restored state gives a step that differs from the first time"
     if able.canSerializeFMUstate:
         serialise, read = (
-            ("serializeFMUState", "deserializeFMUState") if one.fmi == 3
+            ("serializeFMUState", "deserializeFMUState") if instance.fmi == 3
             else ("serializeFMUstate", "deSerializeFMUstate")
         )  # fmt: skip
-        data = getattr(one.fmu, serialise)(saved)
-        two = Instance(folder)
-        getattr(two.fmu, put)(getattr(two.fmu, read)(data))
-        if two.step(h, h) > WARNING or two.reals() != ahead:
-            yield "a serialised state, restored in a fresh instance, gives another step"
+        data = getattr(instance.fmu, serialise)(saved)
+        other = Instance(folder)
+        getattr(other.fmu, put)(getattr(other.fmu, read)(data))
+        if other.step(h, h) > WARNING or other.read_outputs() != expected:
+            yield "a serialised state, restored in a fresh instance, gives a step that differs"
 
 
-def wrong_token(folder: Path) -> Iterator[str]:
-    """Another guid or instantiation token than the description's is refused."""
+def probe_wrong_token(folder: Path) -> Iterator[str]:
+    """A guid or instantiation token that differs from the description's is refused."""
     try:
         Instance(folder, token="not the token of this FMU")
     except Exception:
         return
-    yield "it is instantiated with a guid (instantiationToken) that is not its own"
+    yield "it is instantiated with a wrong guid (instantiationToken)"
 
 
 PROBES = (
-    Probe("runs", "initialises with its start values and steps", True, runs),
-    Probe("step-first", "no step before initialisation", True, step_first),
-    Probe("exit-first", "no end of initialisation before its start", True, exit_first),
-    Probe("enter-twice", "initialisation starts once", True, enter_twice),
-    Probe("step-after-end", "no step after terminate", True, step_after_the_end),
-    Probe("step-size", "no step backwards", True, steps_that_are_none),
-    Probe("set-output", "outputs cannot be set", True, outputs_are_not_set),
-    Probe("set-parameter", "fixed parameters stay", True, parameters_are_fixed),
-    Probe("reference", "unknown value references are refused", True, unknown_references),
-    Probe("reset", "reset is a fresh start", True, reset),
-    Probe("instances", "two instances do not disturb each other", True, instances),
-    Probe("state", "a restored state repeats to the bit", True, state),
-    # No wrapper in Python passes the token on, so this is a fault that nobody behind them can mend.
-    Probe("wrong-token", "another token is refused", False, wrong_token),
+    Probe("runs", "initialises with its start values and steps", True, probe_run),
+    Probe("step-first", "no step before initialisation", True, probe_step_first),
+    Probe("exit-first", "no end of initialisation before its start", True, probe_exit_first),
+    Probe("enter-twice", "initialisation starts once", True, probe_enter_twice),
+    Probe("step-after-end", "no step after terminate", True, probe_step_after_terminate),
+    Probe("step-size", "no step backwards", True, probe_step_sizes),
+    Probe("set-output", "outputs cannot be set", True, probe_setting_outputs),
+    Probe("set-parameter", "fixed parameters stay", True, probe_setting_parameters),
+    Probe("reference", "unknown value references are refused", True, probe_unknown_references),
+    Probe("reset", "reset is a fresh start", True, probe_reset),
+    Probe("instances", "two instances do not disturb each other", True, probe_instances),
+    Probe("state", "a restored state repeats to the bit", True, probe_state),
+    # Not binding: no wrapper in Python passes the token on, so the author of a Python FMU cannot comply.
+    Probe("wrong-token", "another token is refused", False, probe_wrong_token),
 )
-"""Every probe, in the order in which findings are told."""
+"""Every probe, in the order of the report."""
 
 
-def findings(fmu: Path) -> list[tuple[Probe, str]]:
-    """What the probes find in an FMU file, each in a process of its own; nothing for an FMU that is not for
-    co-simulation, or has no library for this platform."""
+def run_probes(fmu: Path) -> list[tuple[Probe, str]]:
+    """Findings of all probes on an FMU file, with the probe of each.
+
+    Empty for an FMU that is not for co-simulation, or has no library for this platform.
+    """
     folder = Path(mkdtemp(prefix="shipcollision-"))
     try:
         extract(fmu, folder)
@@ -292,16 +298,16 @@ def findings(fmu: Path) -> list[tuple[Probe, str]]:
         platform = platform_tuple if fmi3 else {"x86_64-linux": "linux64"}.get(platform_tuple, platform_tuple)
         if description.coSimulation is None or not (folder / "binaries" / platform).is_dir():
             return []
-        return list(_probed(folder))
+        return list(_run_all(folder))
     finally:
         shutil.rmtree(folder, ignore_errors=True)
 
 
-def _probed(folder: Path) -> Iterator[tuple[Probe, str]]:
-    """Findings of all probes; after one that ends its process the rest are made in another."""
+def _run_all(folder: Path) -> Iterator[tuple[Probe, str]]:
+    """Findings of all probes; after a probe that ends its process the others run in a new process."""
     left = list(PROBES)
     while left:
-        said, ended = _process(folder, [probe.name for probe in left])
+        said, ended = _run_process(folder, [probe.name for probe in left])
         for line in said:
             probe = left.pop(0)
             yield from ((probe, finding) for finding in line)
@@ -309,8 +315,8 @@ def _probed(folder: Path) -> Iterator[tuple[Probe, str]]:
             yield left.pop(0), ended
 
 
-def _process(folder: Path, names: list[str]) -> tuple[list[list[str]], str]:
-    """Findings of the probes that came to an end, and how the process ended."""
+def _run_process(folder: Path, names: list[str]) -> tuple[list[list[str]], str]:
+    """Findings of each probe that ended, and a line on a process that ended early."""
     with TemporaryFile("w+", encoding="utf-8", errors="replace") as errors:
         command = [sys.executable, "-m", __name__, str(folder), *names]
         with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=errors, text=True, errors="replace") as process:
@@ -329,21 +335,21 @@ def _process(folder: Path, names: list[str]) -> tuple[list[list[str]], str]:
     return [json.loads(line) for line in marked], ended or f"cannot be tried: {last[0]}"
 
 
-def _refused_when_running(folder: Path, causality: str, finding: str) -> Iterator[str]:
-    one = Instance(folder)
-    found = one.one(causality)
-    if found is None or one.begin() > WARNING:
+def _set_when_running(folder: Path, causality: str, finding: str) -> Iterator[str]:
+    instance = Instance(folder)
+    found = instance.find_variable(causality)
+    if found is None or instance.begin() > WARNING:
         return
-    if one.set(found, 1.0) <= WARNING and one.step(0.0, one.h()) <= WARNING:
+    if instance.set(found, 1.0) <= WARNING and instance.step(0.0, instance.step_size()) <= WARNING:
         yield finding.format(found.name)
 
 
 def main() -> None:
-    """Make probes; findings of each as a list in JSON, on a line of its own behind a mark."""
+    """Run probes; print the findings of each as a JSON list on a marked line."""
     folder, *names = sys.argv[1:]
     for name in names:
         probe = next(probe for probe in PROBES if probe.name == name)
-        print(f"{_MARK}{json.dumps(list(probe.broken(Path(folder))))}", flush=True)  # noqa: T201 - for who asked
+        print(f"{_MARK}{json.dumps(list(probe.run(Path(folder))))}", flush=True)  # noqa: T201 - read by _run_process
 
 
 if __name__ == "__main__":

@@ -1,5 +1,4 @@
-"""FMI compliance of an FMU file: FMPy's checks (schema, names, structure, start values, units), and what they leave
-out (rules.py: the description and the file; calls.py: what calls show)."""
+"""Findings about an FMU file: FMPy's checks (schema, names, structure, start values, units), rules.py and calls.py."""
 
 from __future__ import annotations
 
@@ -11,19 +10,18 @@ from zipfile import is_zipfile
 from fmpy.validation import validate_fmu
 
 from ..errors import InputError
-from .calls import PROBES
-from .calls import findings as found_by_calls
+from .calls import PROBES, run_probes
 from .rules import RULES, Subject
 
-__all__ = ["NAMES", "Finding", "findings", "problems"]
+__all__ = ["NAMES", "Finding", "find_problems", "validate"]
 
 NAMES = ("fmpy", *(rule.name for rule in RULES), *(probe.name for probe in PROBES))
-"""Names of all checks."""
+"""Names of all checks; --ignore accepts them."""
 
 
 @dataclass(frozen=True)
 class Finding:
-    """Something that a check found: the check's name, a line, and whether the standard is broken or good practice."""
+    """A finding: the name of the check, a line, and whether the standard is broken (else good practice)."""
 
     check: str
     line: str
@@ -33,10 +31,10 @@ class Finding:
         return f"{self.check}: {self.line}"
 
 
-def findings(fmu: Path, *, calls: bool = True, ignore: Collection[str] = ()) -> list[Finding]:
-    """What is wrong with an FMU, problems and notes. With calls = False the FMU's code is not run.
+def validate(fmu: Path, *, calls: bool = True, ignore: Collection[str] = ()) -> list[Finding]:
+    """Findings about an FMU, problems and notes. With calls = False the FMU's code is not run.
 
-    Raises InputError for a file that is no FMU, and for a check to ignore that is none.
+    ignore: names of checks to leave out. Raises InputError for a file that is no FMU, and for an unknown name.
     """
     unknown = [name for name in ignore if name not in NAMES]
     if unknown:
@@ -50,20 +48,22 @@ def findings(fmu: Path, *, calls: bool = True, ignore: Collection[str] = ()) -> 
     found = [Finding("fmpy", " ".join(problem.split()), True) for problem in validate_fmu(str(fmu))]
     try:
         subject = Subject(fmu)
-    except Exception as error:  # what cannot be read has been told by fmpy, unless it can read it
-        return [one for one in found if one.check not in ignore] or [Finding("fmpy", _line(error), True)]
+    except Exception as error:  # reported by FMPy already, unless FMPy could read the file
+        return [finding for finding in found if finding.check not in ignore] or [
+            Finding("fmpy", _describe_error(error), True)
+        ]
     for rule in RULES:
         if rule.name not in ignore:
-            found += [Finding(rule.name, line, rule.binding) for line in rule.broken(subject)]
+            found += [Finding(rule.name, line, rule.binding) for line in rule.check(subject)]
     if calls:
-        found += [Finding(probe.name, line, probe.binding) for probe, line in found_by_calls(fmu)]
-    return [one for one in found if one.check not in ignore]
+        found += [Finding(probe.name, line, probe.binding) for probe, line in run_probes(fmu)]
+    return [finding for finding in found if finding.check not in ignore]
 
 
-def problems(fmu: Path, *, calls: bool = True) -> list[str]:
-    """What breaks the standard, a line each; empty when nothing does. Raises InputError for a file that is no FMU."""
-    return [str(one) for one in findings(fmu, calls=calls) if one.binding]
+def find_problems(fmu: Path, *, calls: bool = True) -> list[str]:
+    """Lines on breaches of the standard, empty for an FMU that complies. Raises InputError as validate() does."""
+    return [str(finding) for finding in validate(fmu, calls=calls) if finding.binding]
 
 
-def _line(error: BaseException) -> str:
+def _describe_error(error: BaseException) -> str:
     return " ".join(f"{type(error).__name__}: {error}".split())

@@ -1,7 +1,6 @@
-"""What FMPy's validator leaves out of modelDescription.xml and of the file, one function a rule.
+"""Rules for modelDescription.xml and the archive that FMPy's validator does not check, a function for each rule.
 
-A rule takes a Subject and gives lines, one for each thing that is wrong; it says nothing when there is nothing to say.
-RULES is the table. What only calls can show is in calls.py.
+A rule takes a Subject and yields a line for each breach. RULES is the table of all rules.
 """
 
 from __future__ import annotations
@@ -29,8 +28,10 @@ _LIBRARY = re.compile(r"binaries/([^/]+)/([^/]+)\.(so|dll|dylib)$")
 
 
 class Subject:
-    """An FMU file, as the rules look at it. Raises what FMPy and ElementTree raise for a description that cannot be
-    read."""
+    """An FMU file in the forms that the rules need.
+
+    Raises the errors of FMPy and ElementTree for a description that cannot be read.
+    """
 
     def __init__(self, file: Path) -> None:
         self.file = file
@@ -42,24 +43,23 @@ class Subject:
 
     @cached_property
     def contents(self) -> dict[str, bytes]:
-        """All files in the archive."""
+        """All files in the archive by name."""
         with ZipFile(self.file) as archive:
             return {name: archive.read(name) for name in archive.namelist()}
 
 
 @dataclass(frozen=True)
 class Rule:
-    """A name to call it by, what it demands, whether the standard demands it too (else it is good practice: a note),
-    and the function."""
+    """A rule: its name, its demand in words, whether the standard demands it (else good practice), its function."""
 
     name: str
     demand: str
     binding: bool
-    broken: Callable[[Subject], Iterable[str]]
+    check: Callable[[Subject], Iterable[str]]
 
 
-def units(subject: Subject) -> Iterator[str]:
-    """A Real without a unit is taken for whatever the importer has. '1' is the unit of a mere number."""
+def check_units(subject: Subject) -> Iterator[str]:
+    """Every Real has a unit, since importers assume their own otherwise. '1' is the unit of a mere number."""
     bare = [
         v.name
         for v in subject.variables
@@ -67,43 +67,43 @@ def units(subject: Subject) -> Iterator[str]:
         and not (v.unit or (v.declaredType is not None and v.declaredType.unit))
     ]  # fmt: skip
     if bare:
-        yield f"without a unit: {_some(bare)}; give each a unit, '1' where it is a mere number"
+        yield f"without a unit: {_join_some(bare)}; give each a unit, '1' where it is a mere number"
 
 
-def unit_exponents(subject: Subject) -> Iterator[str]:
-    """Importers convert by the exponents of a unit, not by its name."""
+def check_unit_exponents(subject: Subject) -> Iterator[str]:
+    """Every unit has exponents of the SI base units, by which importers convert; its name is not used."""
     bare = [unit.name for unit in subject.description.unitDefinitions if unit.baseUnit is None]
     if bare:
-        yield f"units without exponents of the SI base units: {_some(bare)}; add a BaseUnit to each"
+        yield f"units without exponents of the SI base units: {_join_some(bare)}; add a BaseUnit to each"
 
 
-def start_values(subject: Subject) -> Iterator[str]:
-    """A start value is a value of its type, within min and max, and one of the items of an enumeration."""
+def check_start_values(subject: Subject) -> Iterator[str]:
+    """Start values exist, have their variable's type, and lie within min and max or among the items."""
     for v in subject.variables:
         if v.start is None:
             if v.causality in ("input", "parameter", "structuralParameter") and v.type != "Clock":
                 yield f"{v.name} has no start value"
             continue
-        for text in _numbers(v):
+        for text in _list_numbers(v):
             try:
-                value = _number(v.type, text)
+                value = _parse_number(v.type, text)
             except ValueError:
                 yield f"the start value {text!r} of {v.name} is no {v.type}"
                 break
-            low, high = (None if limit is None else _number(v.type, str(limit)) for limit in _limits(v))
+            low, high = (None if limit is None else _parse_number(v.type, str(limit)) for limit in _find_limits(v))
             if (low is not None and value < low) or (high is not None and value > high):
                 yield f"the start value {text} of {v.name} is outside its limits {low} to {high}"
 
 
-def limits(subject: Subject) -> Iterator[str]:
-    """min is below max: a range without values can never be kept."""
+def check_limits(subject: Subject) -> Iterator[str]:
+    """min is at most max."""
     for v in subject.variables:
-        low, high = _limits(v)
-        if low is not None and high is not None and _number(v.type, str(low)) > _number(v.type, str(high)):
+        low, high = _find_limits(v)
+        if low is not None and high is not None and _parse_number(v.type, str(low)) > _parse_number(v.type, str(high)):
             yield f"min = {low} of {v.name} is above its max = {high}"
 
 
-def initial(subject: Subject) -> Iterator[str]:
+def check_initial(subject: Subject) -> Iterator[str]:
     """FMI 2.0, section 2.2.7: inputs and the independent variable have no attribute `initial`."""
     for node in subject.root.iter():
         if node.get("causality") in ("input", "independent") and node.get("initial") is not None:
@@ -112,27 +112,27 @@ def initial(subject: Subject) -> Iterator[str]:
             yield f"{node.get('name')} is {node.get('causality')} and must not have initial = {node.get('initial')!r}"
 
 
-def dependencies(subject: Subject) -> Iterator[str]:
-    """An output without `dependencies` depends on all inputs: importers then see algebraic loops that are not there."""
+def check_dependencies(subject: Subject) -> Iterator[str]:
+    """Outputs declare `dependencies`; without them an output depends on all inputs, and importers find false loops."""
     if not any(v.causality == "input" for v in subject.variables):
         return
     silent = [unknown.variable.name for unknown in subject.description.outputs if unknown.dependencies is None]
     if silent:
         yield (
-            f"outputs that do not say what they depend on, and so depend on every input: {_some(silent)}; add "
+            f"outputs without dependencies, which then depend on every input: {_join_some(silent)}; add "
             'dependencies, "" where an output follows from the last step alone'
         )
 
 
-def dependency_kinds(subject: Subject) -> Iterator[str]:
-    """An output depends on inputs, states and the time; parameters and other outputs are not among its knowns."""
+def check_dependency_kinds(subject: Subject) -> Iterator[str]:
+    """Knowns of an output are inputs, states and the time, not parameters or other outputs."""
     for unknown in subject.description.outputs:
         for known in unknown.dependencies or []:
             if known.causality in ("parameter", "output", "structuralParameter") and known.derivative is None:
                 yield f"output {unknown.variable.name} depends on {known.name}, which is a {known.causality}"
 
 
-def enumerations(subject: Subject) -> Iterator[str]:
+def check_enumerations(subject: Subject) -> Iterator[str]:
     """Items have different names and values; every Enumeration has a type with items."""
     for v in subject.variables:
         if v.type == "Enumeration" and (v.declaredType is None or not v.declaredType.items):
@@ -144,8 +144,8 @@ def enumerations(subject: Subject) -> Iterator[str]:
                 yield f"two items of type {kind.name} have the same {what}"
 
 
-def library(subject: Subject) -> Iterator[str]:
-    """There is a library, and it has the name of the model identifier: importers look for no other."""
+def check_library(subject: Subject) -> Iterator[str]:
+    """There is a library with the name of the model identifier, the only name that importers load."""
     identifiers = {
         one.modelIdentifier
         for one in (subject.description.coSimulation, subject.description.modelExchange)
@@ -157,17 +157,18 @@ def library(subject: Subject) -> Iterator[str]:
     if not found and not sources:
         yield "no library under binaries/ and no sources"
     if found and not identifiers <= named:
-        yield f"the libraries are called {_some(sorted(named))}, the model identifier is {_some(sorted(identifiers))}"
+        libraries, expected = _join_some(sorted(named)), _join_some(sorted(identifiers))
+        yield f"the libraries are called {libraries}, the model identifier is {expected}"
 
 
-def token(subject: Subject) -> Iterator[str]:
-    """The guid of FMI 2.0, the instantiation token of 3.0, tells one build from another: it must not be empty."""
+def check_token(subject: Subject) -> Iterator[str]:
+    """The guid of FMI 2.0, or instantiation token of 3.0, is not empty: it distinguishes builds."""
     if not (subject.description.guid or "").strip():
         yield "guid (instantiationToken) is empty"
 
 
-def token_of_content(subject: Subject) -> Iterator[str]:
-    """In an FMU of this project the guid is a digest of everything else in it, and its record says the same."""
+def check_token_of_content(subject: Subject) -> Iterator[str]:
+    """In an FMU of this project the guid is a digest of all other content, and equals the guid in its record."""
     record = f"resources/{RECORD}"
     if record not in subject.contents:
         return
@@ -183,7 +184,7 @@ def token_of_content(subject: Subject) -> Iterator[str]:
         yield f"guid is {guid}, but the content gives {made}: the file was changed after it was built"
 
 
-def reproducible(subject: Subject) -> Iterator[str]:
+def check_reproducible(subject: Subject) -> Iterator[str]:
     """The same inputs should give the same bytes: no date of the build anywhere."""
     if subject.root.get("generationDateAndTime") is not None:
         yield "generationDateAndTime makes every build another file"
@@ -192,40 +193,40 @@ def reproducible(subject: Subject) -> Iterator[str]:
 
 
 RULES = (
-    Rule("units", "every Real has a unit", False, units),
-    Rule("exponents", "every unit has its SI exponents", False, unit_exponents),
-    Rule("start", "start values are there, of their type and within limits", True, start_values),
-    Rule("limits", "min is not above max", True, limits),
-    Rule("initial", "inputs have no `initial`", True, initial),
-    Rule("dependencies", "outputs say what they depend on", False, dependencies),
-    Rule("knowns", "outputs depend on knowns only", True, dependency_kinds),
-    Rule("enumerations", "enumerations have items, all different", True, enumerations),
-    Rule("library", "a library with the name of the model identifier", True, library),
-    Rule("token", "guid or instantiation token", True, token),
-    Rule("content", "the guid of our own FMUs is that of their content", True, token_of_content),
-    Rule("reproducible", "same inputs, same bytes", False, reproducible),
+    Rule("units", "every Real has a unit", False, check_units),
+    Rule("exponents", "every unit has its SI exponents", False, check_unit_exponents),
+    Rule("start", "start values are there, of their type and within limits", True, check_start_values),
+    Rule("limits", "min is not above max", True, check_limits),
+    Rule("initial", "inputs have no `initial`", True, check_initial),
+    Rule("dependencies", "outputs say what they depend on", False, check_dependencies),
+    Rule("knowns", "outputs depend on knowns only", True, check_dependency_kinds),
+    Rule("enumerations", "enumerations have items, all different", True, check_enumerations),
+    Rule("library", "a library with the name of the model identifier", True, check_library),
+    Rule("token", "guid or instantiation token", True, check_token),
+    Rule("content", "the guid of our own FMUs is that of their content", True, check_token_of_content),
+    Rule("reproducible", "same inputs, same bytes", False, check_reproducible),
 )
-"""Every rule, in the order in which findings are told."""
+"""Every rule, in the order of the report."""
 
 
-def _some(names: list[str]) -> str:
-    """A few of them, and how many more."""
+def _join_some(names: list[str]) -> str:
+    """The first five names and the count of the others."""
     return ", ".join(names[:5]) + (f" and {len(names) - 5} more" if len(names) > 5 else "")
 
 
-def _numbers(v: Any) -> list[str]:
-    """The texts of the start values that are numbers."""
+def _list_numbers(v: Any) -> list[str]:
+    """Start values that are numbers, as text."""
     if v.type not in (*_REALS, *_WHOLE):
         return []
     return str(v.start).split() if v.dimensions else [str(v.start)]
 
 
-def _number(kind: str, text: str) -> float:
+def _parse_number(kind: str, text: str) -> float:
     return float(text.replace("INF", "inf")) if kind in _REALS else int(text)
 
 
-def _limits(v: Any) -> tuple[Any, Any]:
-    """Of the variable, or of its type."""
+def _find_limits(v: Any) -> tuple[Any, Any]:
+    """min and max of a numeric variable, or of its type; None where there is none."""
     declared = v.declaredType
     low = v.min if v.min is not None or declared is None else declared.min
     high = v.max if v.max is not None or declared is None else declared.max

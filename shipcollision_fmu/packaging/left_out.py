@@ -1,4 +1,4 @@
-"""What of a scenario a package does not hold: refused, or said where people read it."""
+"""Contents of a scenario that a package does not hold: refused, or described in notes."""
 
 from __future__ import annotations
 
@@ -7,30 +7,33 @@ from collections.abc import Sequence
 from ..errors import ScenarioError
 from .system_structure import SystemStructure, TimedOrder
 
-__all__ = ["notes", "refuse_orders"]
+__all__ = ["check_orders_fit", "describe_left_out"]
 
 OPTION = "--initial-orders"
-"""Of `shipcollision package`: go on without what a helm does after time 0."""
+"""Option of `shipcollision package` that leaves out everything a helm does after time 0."""
 
 
-def refuse_orders(system: SystemStructure, what: str, orders: Sequence[TimedOrder]) -> None:
-    """Raises ScenarioError when the system has orders that `what` cannot hold, or a helm that no FMU is."""
-    lost = [*system.helm, *_ordered(orders)]
+def check_orders_fit(system: SystemStructure, form: str, orders: Sequence[TimedOrder]) -> None:
+    """Raise ScenarioError when the system has an autopilot, route or evasion, or `orders`, which the form cannot hold.
+
+    form: the package, in words, for the message.
+    """
+    lost = [*system.helm, *_describe_orders(orders)]
     if lost:
         raise ScenarioError(
-            f"{system.scenario.name} cannot be packaged whole: {'; '.join(lost)}; that is done by our own master, "
-            f"and {what} has no place for it. Take {OPTION} to hold the orders of time 0"
+            f"{system.scenario.name} cannot be packaged whole: {'; '.join(lost)}; only our own master does this, and "
+            f"{form} has no place for it. Take {OPTION} to hold the orders of time 0"
         )
 
 
-def notes(system: SystemStructure, orders: Sequence[TimedOrder]) -> tuple[str, ...]:
-    """What is not in the package, a sentence each; `orders` are those left out."""
-    lost = [*system.helm, *_ordered(orders)]
+def describe_left_out(system: SystemStructure, orders: Sequence[TimedOrder]) -> tuple[str, ...]:
+    """Sentences on everything that is not in the package; `orders` are the orders left out."""
+    lost = [*system.helm, *_describe_orders(orders)]
     return tuple(f"Left out: {phrase}; the orders of time 0 are held." for phrase in lost) + system.left_out
 
 
-def _ordered(orders: Sequence[TimedOrder]) -> list[str]:
-    """A phrase per ship."""
+def _describe_orders(orders: Sequence[TimedOrder]) -> list[str]:
+    """A phrase for each ship with its times."""
     phrases = []
     for ship in dict.fromkeys(order.ship for order in orders):
         times = dict.fromkeys(f"{order.time:g}" for order in orders if order.ship == ship)

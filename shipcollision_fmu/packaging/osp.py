@@ -1,12 +1,13 @@
-"""A system as a folder for the Open Simulation Platform (libcosim, cosim).
+"""Writes a system as a folder for the Open Simulation Platform (libcosim, cosim).
 
     OspSystemStructure.xml              simulators, initial values, connections of variable groups
     NAME.fmu                            an FMU for each instance, with the scenario's values as its start values
     MODEL_OspModelDescription.xml       the variable groups of both models
     scenario.json                       orders after time 0, where there are any: for libcosim's scenario manager
 
-Initial values of enumerations are left out, libcosim refuses them; the FMU's start values hold them. A heading
-autopilot, a route or an evasion has no place in it: such a scenario is refused, or that is left out on request.
+Initial values of enumerations are left out because libcosim refuses them; the FMU's start values hold them. An OSP
+system has no place for a heading autopilot, a route or an evasion: a scenario with one of these is refused, or packaged
+without it on request.
 """
 
 from __future__ import annotations
@@ -18,86 +19,86 @@ from xml.etree.ElementTree import Comment, Element, SubElement
 from ..errors import HostError
 from ..files import check_writable, write_files
 from ..scenario.scenario import Scenario
-from .left_out import notes, refuse_orders
-from .osp_groups import NAMESPACE, group_pairs, model_description
-from .system_structure import COLLISION, Instance, SystemStructure, system_structure
-from .xml_file import xml_bytes, xml_value
+from .left_out import check_orders_fit, describe_left_out
+from .osp_groups import NAMESPACE, build_model_description, connect_groups
+from .system_structure import COLLISION, Instance, SystemStructure, build_system_structure
+from .xml_file import format_document, format_value
 
-__all__ = ["osp_files", "write_osp"]
+__all__ = ["build_osp_files", "write_osp"]
 
 SYSTEM_NAMESPACE = "http://opensimulationplatform.com/MSMI/OSPSystemStructure"
 SCENARIO_FILE = "scenario.json"
 
 
 def write_osp(scenario: Scenario, out: Path, *, initial_orders: bool = False) -> tuple[str, ...]:
-    """Write the scenario into the folder `out`, and return what it does not hold, a line each.
+    """Write the scenario into the folder `out`; returns sentences on what the folder does not hold.
 
-    With `initial_orders` the orders of time 0 are held and everything that a helm does later is left out; else orders
-    in time go into scenario.json, and a scenario with more than that is refused. Raises ScenarioError, and HostError
-    when the folder cannot be written.
+    With `initial_orders` the orders of time 0 are held and everything that a helm does later is left out. Otherwise
+    later orders go into scenario.json, and an autopilot, a route or an evasion is refused. Raises ScenarioError, and
+    HostError when the folder cannot be written.
     """
     if out.is_file():
         raise HostError(f"cannot write to {out}: it is a file; give the name of a folder with --out")
     check_writable(out)
-    system = system_structure(scenario)
+    system = build_system_structure(scenario)
     if not initial_orders:
-        refuse_orders(system, "an OSP system", ())
-    left_out = list(notes(system, system.orders if initial_orders else ()))
+        check_orders_fit(system, "an OSP system", ())
+    left_out = list(describe_left_out(system, system.orders if initial_orders else ()))
     if system.orders and not initial_orders:
         left_out.insert(0, f"Orders after time 0 are in {SCENARIO_FILE}: load it into the host as its scenario.")
-    write_files(out, osp_files(system, tuple(left_out), with_orders=not initial_orders))
+    write_files(out, build_osp_files(system, tuple(left_out), with_orders=not initial_orders))
     return tuple(left_out)
 
 
-def osp_files(
+def build_osp_files(
     system: SystemStructure, left_out: tuple[str, ...] = (), *, with_orders: bool = True
 ) -> dict[str, str | bytes]:
     """The files of the folder by name; the same system gives the same bytes."""
-    files: dict[str, str | bytes] = {"OspSystemStructure.xml": _system(system, left_out)}
+    files: dict[str, str | bytes] = {"OspSystemStructure.xml": _build_system(system, left_out)}
     for instance in system.instances:
-        files[f"{instance.name}.fmu"] = instance.fmu()
-        files[f"{instance.model}_OspModelDescription.xml"] = xml_bytes(
-            model_description(instance.model, instance.ships),
+        files[f"{instance.name}.fmu"] = instance.build_fmu()
+        files[f"{instance.model}_OspModelDescription.xml"] = format_document(
+            build_model_description(instance.model, instance.ships),
             (f"Variable groups of {instance.model}.fmu after OSP-IS.",),
             {"": NAMESPACE},
         )
     if system.orders and with_orders:
-        files[SCENARIO_FILE] = _orders(system)
+        files[SCENARIO_FILE] = _format_orders(system)
     return files
 
 
-def _system(system: SystemStructure, left_out: tuple[str, ...]) -> bytes:
+def _build_system(system: SystemStructure, left_out: tuple[str, ...]) -> bytes:
     scenario = system.scenario
     root = Element("OspSystemStructure", {"version": "0.1"})
     SubElement(root, "StartTime").text = "0.0"
-    SubElement(root, "EndTime").text = xml_value(scenario.scenario.duration)
-    SubElement(root, "BaseStepSize").text = xml_value(scenario.step)
+    SubElement(root, "EndTime").text = format_value(scenario.scenario.duration)
+    SubElement(root, "BaseStepSize").text = format_value(scenario.step)
     SubElement(root, "Algorithm").text = "fixedStep"
     simulators = SubElement(root, "Simulators")
     for instance in system.instances:
-        _simulator(simulators, instance)
+        _add_simulator(simulators, instance)
     connections = SubElement(root, "Connections")
     for name in scenario.ships:
-        for group in group_pairs(scenario.collision.feedback or "ledger"):
+        for group in connect_groups(scenario.collision.feedback or "ledger"):
             node = SubElement(connections, "VariableGroupConnection")
             SubElement(node, "VariableGroup", {"simulator": name, "name": group})
             SubElement(node, "VariableGroup", {"simulator": COLLISION, "name": f"{name}.{group}"})
-    return xml_bytes(root, (system.title, "", *left_out), {"": SYSTEM_NAMESPACE})
+    return format_document(root, (system.title, "", *left_out), {"": SYSTEM_NAMESPACE})
 
 
-def _simulator(simulators: Element, instance: Instance) -> None:
+def _add_simulator(simulators: Element, instance: Instance) -> None:
     node = SubElement(simulators, "Simulator", {"name": instance.name, "source": f"{instance.name}.fmu"})
     values = SubElement(node, "InitialValues")
-    for variable, value in instance.shown_values():
+    for variable, value in instance.list_shown_values():
         if variable.items:
             values.append(Comment(f" {variable.name} = {value}: in the FMU alone "))
         else:
             initial = SubElement(values, "InitialValue", {"variable": variable.name})
-            SubElement(initial, variable.kind, {"value": xml_value(value)})
+            SubElement(initial, variable.kind, {"value": format_value(value)})
 
 
-def _orders(system: SystemStructure) -> str:
-    """libcosim's scenario: an override holds until the next one of the same variable."""
+def _format_orders(system: SystemStructure) -> str:
+    """libcosim's scenario in JSON: an override holds until the next override of the same variable."""
     events = [
         {"time": o.time, "model": o.ship, "variable": o.variable, "action": "override", "value": o.value}
         for o in system.orders

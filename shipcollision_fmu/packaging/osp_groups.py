@@ -1,12 +1,12 @@
 """Variable groups of the FMUs after OSP-IS, the interface specification of the Open Simulation Platform.
 
-A group says what its variables are together: a Force, a LinearVelocity, or a port that pairs them. Groups of the same
-kind connect in one line, and in the right order. An impulse is no kind of OSP-IS: it is Generic.
+A group gives its variables a common kind: a Force, a LinearVelocity, or a port of two groups. Groups of the same kind
+connect in one line and in the right order. OSP-IS has no kind for an impulse, which is Generic here.
 
     linear_port     Force against LinearVelocity     angular_port     Torque against AngularVelocity
 
-Schema: https://open-simulation-platform.com/OspModelDescription/1.0.1 (a name, nothing is fetched). There kinds come
-in a fixed order, and the three axes are x, y, z: forward, starboard, down in b; north, east, down in n.
+Schema: https://open-simulation-platform.com/OspModelDescription/1.0.1 (a name, not an address). It fixes the order of
+the kinds. The axes x, y, z are forward, starboard, down in b, and north, east, down in n.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from ..fmi.ship_collision import INTERFACE as COLLISION_INTERFACE
 from ..fmi.ship_manoeuvring import INTERFACE as SHIP_INTERFACE
 from ..fmi.variables import ANGLES, LINEAR, NED, Table
 
-__all__ = ["KINDS", "Group", "collision_groups", "group_pairs", "model_description", "ship_groups"]
+__all__ = ["KINDS", "Group", "build_model_description", "connect_groups", "list_collision_groups", "list_ship_groups"]
 
 Kind = Literal[
     "Generic", "Force", "Torque", "LinearVelocity", "AngularVelocity", "LinearDisplacement", "AngularDisplacement",
@@ -32,7 +32,7 @@ KINDS: tuple[Kind, ...] = (
     "Generic", "Force", "Torque", "LinearVelocity", "AngularVelocity", "LinearDisplacement", "AngularDisplacement",
     "LinearMechanicalPort", "AngularMechanicalPort",
 )  # fmt: skip
-"""In the order of the schema."""
+"""All kinds, in the order that the schema requires."""
 NAMESPACE = "https://open-simulation-platform.com/OspModelDescription/1.0.1"
 _AXES = ("x", "y", "z")
 
@@ -47,11 +47,11 @@ class Group:
     groups: tuple[Group, ...] = ()
 
 
-def ship_groups() -> list[Group]:
-    """Of ShipManoeuvring."""
+def list_ship_groups() -> list[Group]:
+    """The groups of ShipManoeuvring."""
     forces = [("hull", "hull"), ("propeller", "propeller"), ("rudder", "rudder"), ("wind", "wind")]
     return [
-        *_ports("", "force", "moment", "velocity", "rate"),
+        *_list_ports("", "force", "moment", "velocity", "rate"),
         Group("LinearDisplacement", "position", named("position", NED)),
         Group("AngularDisplacement", "attitude", named("attitude", ANGLES)),
         Group("Generic", "impulse", IMPULSE),
@@ -64,14 +64,14 @@ def ship_groups() -> list[Group]:
     ]
 
 
-def collision_groups(ships: Sequence[str]) -> list[Group]:
-    """Of ShipCollision, built for these ships."""
+def list_collision_groups(ships: Sequence[str]) -> list[Group]:
+    """The groups of ShipCollision built for these ships."""
     groups = [Group("LinearDisplacement", "impact", named("impact", NED))]
     for k in range(1, contact_point_count(len(ships)) + 1):
         groups.append(Group("LinearDisplacement", f"contact[{k}]", named(f"contact[{k}]", NED)))
     for s in ships:
         groups += [
-            *_ports(f"{s}.", f"{s}.force", f"{s}.moment", f"{s}.velocity", f"{s}.rate"),
+            *_list_ports(f"{s}.", f"{s}.force", f"{s}.moment", f"{s}.velocity", f"{s}.rate"),
             Group("LinearDisplacement", f"{s}.position", named(f"{s}.position", NED)),
             Group("AngularDisplacement", f"{s}.attitude", named(f"{s}.attitude", ANGLES)),
             Group("Generic", f"{s}.impulse", named(s, IMPULSE)),
@@ -84,29 +84,29 @@ def collision_groups(ships: Sequence[str]) -> list[Group]:
     return groups
 
 
-def group_pairs(feedback: str) -> tuple[str, ...]:
-    """Groups of a ship that connect with the collision's group SHIP.name, for a feedback."""
+def connect_groups(feedback: str) -> tuple[str, ...]:
+    """Names of a ship's groups that connect with the collision's group SHIP.name, for a feedback."""
     if feedback == "force":
         return ("position", "attitude", "impulse_applied", "linear_port", "angular_port")
     state = ("position", "attitude", "velocity", "rate", "impulse_applied")
     return (*state, "impulse") if feedback == "ledger" else state
 
 
-def model_description(model: str, ships: tuple[str, ...]) -> Element:
+def build_model_description(model: str, ships: tuple[str, ...]) -> Element:
     """OspModelDescription of ShipManoeuvring or ShipCollision."""
     of_a_ship = model == SHIP_INTERFACE.name
-    groups = ship_groups() if of_a_ship else collision_groups(ships)
+    groups = list_ship_groups() if of_a_ship else list_collision_groups(ships)
     table = (SHIP_INTERFACE if of_a_ship else COLLISION_INTERFACE).table(ships)
     root = Element("OspModelDescription", {"version": "1.0"})
     parent = SubElement(root, "VariableGroups")
     for kind in KINDS:
         for group in groups:
             if group.kind == kind:
-                _write(parent, group, table)
+                _add_group(parent, group, table)
     return root
 
 
-def _ports(prefix: str, force: str, moment: str, velocity: str, rate: str) -> list[Group]:
+def _list_ports(prefix: str, force: str, moment: str, velocity: str, rate: str) -> list[Group]:
     return [
         Group("LinearMechanicalPort", f"{prefix}linear_port", groups=(
             Group("Force", force, named(force, LINEAR)), Group("LinearVelocity", velocity, named(velocity, LINEAR)),
@@ -117,7 +117,7 @@ def _ports(prefix: str, force: str, moment: str, velocity: str, rate: str) -> li
     ]  # fmt: skip
 
 
-def _write(parent: Element, group: Group, table: Table) -> None:
+def _add_group(parent: Element, group: Group, table: Table) -> None:
     units = {variable.name: variable.unit for variable in table}
     node = SubElement(parent, group.kind, {"name": group.name})
     for i, name in enumerate(group.variables):
@@ -126,4 +126,4 @@ def _write(parent: Element, group: Group, table: Table) -> None:
             attributes["axis"] = _AXES[i]
         SubElement(node, "Variable", attributes)
     for inner in group.groups:
-        _write(node, inner, table)
+        _add_group(node, inner, table)

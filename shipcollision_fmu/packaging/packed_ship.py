@@ -1,8 +1,8 @@
-"""A user's ship file, made ready to travel inside an FMU: one file, and its mesh beside it.
+"""A user's ship file as files inside an FMU: one TOML file, and its mesh beside it.
 
-A ship of the library goes by its name, every FMU carries all of them. A file of the user's own, which may extend others
-and name a mesh anywhere, becomes ships/NAME.toml in the FMU's resources, the tables of all its files laid over each
-other, with the mesh as ships/NAME.obj. The ship loaded from there is the same to the bit.
+A shipped ship keeps its name because every FMU holds all of them. A user's file may extend others and name a mesh
+anywhere. It becomes ships/NAME.toml in the FMU's resources, with the tables of all its files merged, and the mesh
+becomes ships/NAME.obj. The ship loaded from there is the same to the bit.
 """
 
 from __future__ import annotations
@@ -13,16 +13,16 @@ from ..errors import ShipError
 from ..scenario.toml_writer import format_toml
 from ..ship.loading.library import ship_content, ship_names
 
-__all__ = ["FOLDER", "packed_ship"]
+__all__ = ["FOLDER", "pack_ship"]
 
 FOLDER = "ships"
-"""Of ship files, in an FMU's resources."""
+"""Folder of ship files in an FMU's resources; the slave resolves the parameter `ship` from there."""
 
 
-def packed_ship(name: str, ship: str) -> tuple[str, dict[str, bytes]]:
-    """What the parameter `ship` of the ship called `name` says in a package, and the files that it needs there.
+def pack_ship(name: str, ship: str) -> tuple[str, dict[str, bytes]]:
+    """The value of the parameter `ship` inside the FMU for the ship called `name`, and the files it needs there.
 
-    `ship` is what load_ship takes. Raises ShipError when a file cannot be read.
+    ship: the argument of load_ship. Raises ShipError when a file cannot be read.
     """
     if ship in ship_names():
         return ship, {}
@@ -38,5 +38,5 @@ def packed_ship(name: str, ship: str) -> tuple[str, dict[str, bytes]]:
         hull["file"] = f"{name}{mesh.suffix.lower()}"
         files[f"{FOLDER}/{hull['file']}"] = data
     place = str(PurePosixPath(FOLDER, f"{name}.toml"))
-    files[place] = format_toml([f"From {source}, with all that it extends."], content).encode()
+    files[place] = format_toml([f"From {source}, with the tables that it extends."], content).encode()
     return place, files

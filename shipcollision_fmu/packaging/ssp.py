@@ -1,11 +1,11 @@
-"""A system as SSP 1.0 (System Structure and Parameterization): one .ssp file.
+"""Writes a system as SSP 1.0 (System Structure and Parameterization): one .ssp file.
 
     SystemStructure.ssd         components, connectors, connections, units
     resources/NAME.fmu          an FMU for each instance, with the scenario's values as its start values
     resources/NAME.ssv          the same values as a parameter set, bound to the component
 
-SSP 1.0, Modelica Association, 2019. A value of an enumeration is left out of the parameter sets: in SSP it is a name,
-in FMI 2.0 a number, and libcosim ends the process over it. SSP knows no events in time: orders after time 0 are
+SSP 1.0, Modelica Association, 2019. Values of enumerations are left out of the parameter sets: SSP writes a name, FMI
+2.0 a number, and libcosim ends the process over the difference. SSP has no events in time: orders after time 0 are
 refused, or left out on request.
 """
 
@@ -19,11 +19,11 @@ from ..files import check_writable, write_file
 from ..fmi.builder.zip_archive import zip_bytes
 from ..fmi.units import UNITS
 from ..scenario.scenario import Scenario
-from .left_out import notes, refuse_orders
-from .system_structure import Instance, SystemStructure, system_structure
-from .xml_file import xml_bytes, xml_value
+from .left_out import check_orders_fit, describe_left_out
+from .system_structure import Instance, SystemStructure, build_system_structure
+from .xml_file import format_document, format_value
 
-__all__ = ["ssp_bytes", "write_ssp"]
+__all__ = ["build_ssp", "write_ssp"]
 
 NAMESPACES = {
     "ssd": "http://ssp-standard.org/SSP1/SystemStructureDescription",
@@ -35,30 +35,31 @@ _TOOL = f"shipcollision_fmu {__version__}"
 
 
 def write_ssp(scenario: Scenario, out: Path, *, initial_orders: bool = False) -> tuple[str, ...]:
-    """Write the scenario as the file `out` (NAME.ssp), and return what it does not hold, a line each.
+    """Write the scenario as the file `out` (NAME.ssp); returns sentences on what the file does not hold.
 
-    With `initial_orders` the orders of time 0 are held and everything that a helm does later is left out; else a
-    scenario with such is refused. Raises ScenarioError, and HostError when the file cannot be written.
+    With `initial_orders` the orders of time 0 are held and everything that a helm does later is left out. Otherwise a
+    scenario with later orders, an autopilot, a route or an evasion is refused. Raises ScenarioError, and HostError when
+    the file cannot be written.
     """
     check_writable(out.parent)
-    system = system_structure(scenario)
+    system = build_system_structure(scenario)
     if not initial_orders:
-        refuse_orders(system, "an .ssp file", system.orders)
-    left_out = notes(system, system.orders)
-    write_file(out, ssp_bytes(system, left_out))
+        check_orders_fit(system, "an .ssp file", system.orders)
+    left_out = describe_left_out(system, system.orders)
+    write_file(out, build_ssp(system, left_out))
     return left_out
 
 
-def ssp_bytes(system: SystemStructure, left_out: tuple[str, ...] = ()) -> bytes:
+def build_ssp(system: SystemStructure, left_out: tuple[str, ...] = ()) -> bytes:
     """The .ssp file; the same system gives the same bytes."""
-    files = {"SystemStructure.ssd": _ssd(system, left_out)}
+    files = {"SystemStructure.ssd": _build_ssd(system, left_out)}
     for instance in system.instances:
-        files[f"resources/{instance.name}.fmu"] = instance.fmu()
-        files[f"resources/{instance.name}.ssv"] = _ssv(instance)
+        files[f"resources/{instance.name}.fmu"] = instance.build_fmu()
+        files[f"resources/{instance.name}.ssv"] = _build_ssv(instance)
     return zip_bytes(files)
 
 
-def _ssd(system: SystemStructure, left_out: tuple[str, ...]) -> bytes:
+def _build_ssd(system: SystemStructure, left_out: tuple[str, ...]) -> bytes:
     header = system.scenario.scenario
     root = Element("ssd:SystemStructureDescription", {
         "version": "1.0",
@@ -69,19 +70,19 @@ def _ssd(system: SystemStructure, left_out: tuple[str, ...]) -> bytes:
     node = SubElement(root, "ssd:System", {"name": header.name, "description": header.description})
     elements = SubElement(node, "ssd:Elements")
     for instance in system.instances:
-        _component(elements, instance, system)
+        _add_component(elements, instance, system)
     connections = SubElement(node, "ssd:Connections")
     for c in system.connections:
         SubElement(connections, "ssd:Connection", {
             "startElement": c.source, "startConnector": c.output, "endElement": c.target, "endConnector": c.input,
         })  # fmt: skip
-    _units(root, system)
-    _experiment(root, system.scenario)
-    return xml_bytes(root, (system.title, "", *left_out), NAMESPACES)
+    _add_units(root, system)
+    _add_experiment(root, system.scenario)
+    return format_document(root, (system.title, "", *left_out), NAMESPACES)
 
 
-def _component(elements: Element, instance: Instance, system: SystemStructure) -> None:
-    """Only connected variables are connectors: FMPy stumbles over inputs that nothing feeds."""
+def _add_component(elements: Element, instance: Instance, system: SystemStructure) -> None:
+    """Connectors are the connected variables only: FMPy fails on inputs without a connection."""
     node = SubElement(elements, "ssd:Component", {
         "name": instance.name,
         "description": instance.interface.description,
@@ -90,7 +91,7 @@ def _component(elements: Element, instance: Instance, system: SystemStructure) -
         "implementation": "CoSimulation",
     })  # fmt: skip
     connectors = SubElement(node, "ssd:Connectors")
-    used = _connected(instance, system)
+    used = _find_connected(instance, system)
     for variable in instance.table:
         if variable.name in used:
             connector = SubElement(connectors, "ssd:Connector", {"name": variable.name, "kind": variable.causality})
@@ -101,18 +102,18 @@ def _component(elements: Element, instance: Instance, system: SystemStructure) -
     })  # fmt: skip
 
 
-def _connected(instance: Instance, system: SystemStructure) -> set[str]:
+def _find_connected(instance: Instance, system: SystemStructure) -> set[str]:
     return {c.output for c in system.connections if c.source == instance.name} | {
         c.input for c in system.connections if c.target == instance.name
     }
 
 
-def _units(root: Element, system: SystemStructure) -> None:
+def _add_units(root: Element, system: SystemStructure) -> None:
     used = {
         variable.unit
         for instance in system.instances
         for variable in instance.table
-        if variable.unit is not None and variable.name in _connected(instance, system)
+        if variable.unit is not None and variable.name in _find_connected(instance, system)
     }
     units = SubElement(root, "ssd:Units")
     for name in sorted(used):
@@ -122,26 +123,26 @@ def _units(root: Element, system: SystemStructure) -> None:
         SubElement(node, "ssc:BaseUnit", base if unit.factor == 1.0 else {**base, "factor": repr(unit.factor)})
 
 
-def _experiment(root: Element, scenario: Scenario) -> None:
-    """SSP has no place for a communication step; libcosim reads it from its own annotation."""
+def _add_experiment(root: Element, scenario: Scenario) -> None:
+    """SSP has no place for a communication step; libcosim reads it from an annotation of its own."""
     experiment = SubElement(root, "ssd:DefaultExperiment", {
-        "startTime": "0.0", "stopTime": xml_value(scenario.scenario.duration),
+        "startTime": "0.0", "stopTime": format_value(scenario.scenario.duration),
     })  # fmt: skip
     annotations = SubElement(experiment, "ssd:Annotations")
     annotation = SubElement(annotations, "ssc:Annotation", {"type": "com.opensimulationplatform"})
     algorithm = SubElement(annotation, "osp:Algorithm")
-    SubElement(algorithm, "osp:FixedStepAlgorithm", {"baseStepSize": xml_value(scenario.step)})
+    SubElement(algorithm, "osp:FixedStepAlgorithm", {"baseStepSize": format_value(scenario.step)})
 
 
-def _ssv(instance: Instance) -> bytes:
+def _build_ssv(instance: Instance) -> bytes:
     root = Element("ssv:ParameterSet", {"version": "1.0", "name": "scenario", "generationTool": _TOOL})
     parameters = SubElement(root, "ssv:Parameters")
-    for variable, value in instance.shown_values():
+    for variable, value in instance.list_shown_values():
         if not variable.items:
             parameter = SubElement(parameters, "ssv:Parameter", {"name": variable.name})
-            SubElement(parameter, f"ssv:{variable.kind}", {"value": xml_value(value)})
-    only_there = [f"{variable.name} = {value}" for variable, value in instance.shown_values() if variable.items]
-    comment = [f"Start values of {instance.name}. Its FMU starts from the same: for hosts that ignore these."]
+            SubElement(parameter, f"ssv:{variable.kind}", {"value": format_value(value)})
+    only_there = [f"{variable.name} = {value}" for variable, value in instance.list_shown_values() if variable.items]
+    comment = [f"Start values of {instance.name}. Its FMU has the same start values, for hosts that ignore this file."]
     if only_there:
-        comment.append(f"Enumerations, names here and numbers there, are in the FMU alone: {', '.join(only_there)}.")
-    return xml_bytes(root, comment, {key: NAMESPACES[key] for key in ("ssv", "ssc")})
+        comment.append(f"Enumerations are in the FMU alone, as numbers: {', '.join(only_there)}.")
+    return format_document(root, comment, {key: NAMESPACES[key] for key in ("ssv", "ssc")})

@@ -3,13 +3,13 @@
     SHIP           an instance of ShipManoeuvring for each ship, by its name
     collision      the instance of ShipCollision
 
-Some hosts ignore the parameter values of a system description, or know no strings, or no enumerations; what all
-honour is an FMU's own start value. So every instance has an FMU of its own, in which the scenario's values *are* the
-start values; a system description repeats them for people and for the hosts that read them.
+Some hosts ignore the parameter values of a system description, or have no strings or enumerations. All hosts use the
+start values inside an FMU. Therefore every instance has an FMU of its own, whose start values are the scenario's
+values; a system description repeats them for people and for the hosts that read them.
 
-A helm is part of our master, not of an FMU. What it orders at time 0 becomes the start values of the ships' inputs;
-what it orders later, and an autopilot, is not in the system: `helm` and `orders` say what that is, and a writer of a
-format refuses what it cannot carry. Which algorithm steps the instances is the host's affair.
+A helm is part of our master, not of an FMU. Its orders at time 0 become the start values of the ships' inputs. Later
+orders and autopilots are not in the instances: `orders` and `helm` list them, and the writer of a format refuses what
+the format cannot hold. The host chooses the algorithm that steps the instances.
 """
 
 from __future__ import annotations
@@ -30,17 +30,24 @@ from ..fmi.variables import Table, Variable
 from ..scenario.order_schedule import schedule_orders
 from ..scenario.scenario import Scenario
 from ..scenario.tables.ship_start import ShipStart
-from .packed_ship import packed_ship
+from .packed_ship import pack_ship
 
-__all__ = ["COLLISION", "Connection", "Instance", "SystemStructure", "TimedOrder", "number", "system_structure"]
+__all__ = [
+    "COLLISION",
+    "Connection",
+    "Instance",
+    "SystemStructure",
+    "TimedOrder",
+    "build_system_structure",
+]
 
 COLLISION = "collision"
-"""Name of the collision's instance."""
+"""Name of the collision's instance, which no ship may have."""
 
 
 @dataclass(frozen=True)
 class Connection:
-    """A Real output of one instance feeds a Real input of another."""
+    """A connection from a Real output of one instance to a Real input of another."""
 
     source: str
     output: str
@@ -50,7 +57,7 @@ class Connection:
 
 @dataclass(frozen=True)
 class TimedOrder:
-    """What a helm orders after time 0: an input of a ship takes a value at a time [s]."""
+    """An order after time 0: the value of a ship's input from a time [s] on."""
 
     time: float
     ship: str
@@ -60,8 +67,12 @@ class TimedOrder:
 
 @dataclass(frozen=True)
 class Instance:
-    """An FMU of the system. `start` are its start values by variable, items of enumerations by their names; `shown`
-    those of them that a user would change: parameters, orders, wind and current."""
+    """An FMU of the system.
+
+    start   start values by variable; an item of an enumeration by its name
+    shown   variables that a user would change: parameters, orders, wind and current
+    files   files in its resources, by path
+    """
 
     name: str
     interface: Interface
@@ -77,25 +88,25 @@ class Instance:
 
     @property
     def table(self) -> Table:
-        """Its variables."""
+        """The table of its variables."""
         return self.interface.table(self.ships)
 
-    def fmu(self) -> bytes:
+    def build_fmu(self) -> bytes:
         """The FMU file."""
         return instance_fmu(self.model, self.ships, self.start, self.files)
 
-    def shown_values(self) -> list[tuple[Variable, Value]]:
+    def list_shown_values(self) -> list[tuple[Variable, Value]]:
         """The variables of `shown` with their start values, in the order of the table."""
         return [(variable, self.start[variable.name]) for variable in self.table if variable.name in self.shown]
 
 
 @dataclass(frozen=True)
 class SystemStructure:
-    """Instances and connections of a scenario, and what of it they do not hold.
+    """Instances and connections of a scenario, and its contents that they do not hold.
 
     orders     orders after time 0, in order of time
-    helm       how ships are steered by more than orders, a phrase each ("[ships.own] follows a route")
-    left_out   what belongs to our own master and its results, a sentence each
+    helm       autopilots, routes and evasions, a phrase each ("[ships.own] follows a route")
+    left_out   settings of our own master and its results, a sentence each
     """
 
     scenario: Scenario
@@ -107,37 +118,32 @@ class SystemStructure:
 
     @property
     def title(self) -> str:
-        """What it is, in a line."""
+        """Name and description of the scenario, in a line."""
         header = self.scenario.scenario
         said = f": {header.description}" if header.description else ""
         return f"Scenario {header.name}{said}"
 
 
-def system_structure(scenario: Scenario) -> SystemStructure:
-    """The system of a scenario. Raises ScenarioError for one whose names do not fit, ShipError for a ship file."""
+def build_system_structure(scenario: Scenario) -> SystemStructure:
+    """The system of a scenario. Raises ScenarioError for a ship named COLLISION, ShipError for a ship file."""
     if COLLISION in scenario.ships:
         raise ScenarioError(
             f"[ships.{COLLISION}] cannot be packaged: that is the name of the collision's own instance; rename the ship"
         )
     ships = tuple(scenario.ships)
-    packed = {name: packed_ship(name, scenario.ship_file(name)) for name in ships}
-    instances = [_ship(scenario, name, start, packed[name]) for name, start in scenario.ships.items()]
+    packed = {name: pack_ship(name, scenario.ship_file(name)) for name in ships}
+    instances = [_build_ship(scenario, name, start, packed[name]) for name, start in scenario.ships.items()]
     return SystemStructure(
         scenario=scenario,
-        instances=(*instances, _collision(scenario, packed)),
-        connections=tuple(connection for name in ships for connection in _connections(scenario, name)),
-        orders=_orders(scenario),
-        helm=tuple(phrase for name, start in scenario.ships.items() for phrase in _helm(name, start)),
-        left_out=_left_out(scenario),
+        instances=(*instances, _build_collision(scenario, packed)),
+        connections=tuple(connection for name in ships for connection in _list_connections(scenario, name)),
+        orders=_list_orders(scenario),
+        helm=tuple(phrase for name, start in scenario.ships.items() for phrase in _describe_helm(name, start)),
+        left_out=_describe_settings(scenario),
     )
 
 
-def number(variable: Variable, value: Value) -> Value:
-    """The value as FMI holds it: an enumeration's item as its number from 1."""
-    return variable.items.index(str(value)) + 1 if variable.items else value
-
-
-def _ship(scenario: Scenario, name: str, ship: ShipStart, packed: tuple[str, dict[str, bytes]]) -> Instance:
+def _build_ship(scenario: Scenario, name: str, ship: ShipStart, packed: tuple[str, dict[str, bytes]]) -> Instance:
     parameters = {**ship_parameters(scenario, name, ship), "ship": packed[0]}
     at_start = next((ordered for k, ordered in schedule_orders(ship, scenario.step) if k == 0), [0.0, 0.0])
     inputs: dict[str, Value] = {
@@ -148,7 +154,7 @@ def _ship(scenario: Scenario, name: str, ship: ShipStart, packed: tuple[str, dic
     return Instance(name, SHIP_INTERFACE, tuple(scenario.ships), start, tuple(start), packed[1])
 
 
-def _collision(scenario: Scenario, packed: Mapping[str, tuple[str, dict[str, bytes]]]) -> Instance:
+def _build_collision(scenario: Scenario, packed: Mapping[str, tuple[str, dict[str, bytes]]]) -> Instance:
     parameters = {**collision_parameters(scenario), **{f"{name}.ship": place for name, (place, _) in packed.items()}}
     states: dict[str, Value] = {}
     for name, ship in scenario.ships.items():
@@ -161,7 +167,7 @@ def _collision(scenario: Scenario, packed: Mapping[str, tuple[str, dict[str, byt
     )
 
 
-def _connections(scenario: Scenario, name: str) -> list[Connection]:
+def _list_connections(scenario: Scenario, name: str) -> list[Connection]:
     answer = ANSWERS[scenario.collision.feedback or "ledger"]
     return [
         *(Connection(name, variable, COLLISION, f"{name}.{variable}") for variable in (*STATE, *APPLIED)),
@@ -169,7 +175,7 @@ def _connections(scenario: Scenario, name: str) -> list[Connection]:
     ]
 
 
-def _orders(scenario: Scenario) -> tuple[TimedOrder, ...]:
+def _list_orders(scenario: Scenario) -> tuple[TimedOrder, ...]:
     """Rudder and propeller orders after time 0, only where they change."""
     found: list[TimedOrder] = []
     for name, start in scenario.ships.items():
@@ -185,7 +191,7 @@ def _orders(scenario: Scenario) -> tuple[TimedOrder, ...]:
     return tuple(sorted(found, key=lambda order: order.time))
 
 
-def _helm(name: str, start: ShipStart) -> list[str]:
+def _describe_helm(name: str, start: ShipStart) -> list[str]:
     phrases = []
     if any(order.heading_deg is not None for order in start.orders):
         phrases.append(f"[ships.{name}] steers a heading by autopilot")
@@ -196,7 +202,7 @@ def _helm(name: str, start: ShipStart) -> list[str]:
     return phrases
 
 
-def _left_out(scenario: Scenario) -> tuple[str, ...]:
+def _describe_settings(scenario: Scenario) -> tuple[str, ...]:
     lines = [
         f"The host chooses the algorithm; the scenario's own is {scenario.algorithm}.",
         f"The scenario's communication step is {scenario.step!r} s, its duration {scenario.scenario.duration!r} s.",

@@ -1,4 +1,4 @@
-"""XML as the hosts read it: fixed prefixes (some look for the prefix, not for the namespace), a comment on top."""
+"""XML documents with fixed prefixes and a comment on top. Some hosts search for the prefix, not for the namespace."""
 
 from __future__ import annotations
 
@@ -8,19 +8,19 @@ from xml.etree.ElementTree import Element, indent, tostring
 
 from ..cosim.component import Value
 
-__all__ = ["xml_bytes", "xml_value"]
+__all__ = ["format_document", "format_value"]
 
 
-def xml_bytes(root: Element, comment: Sequence[str], namespaces: Mapping[str, str]) -> bytes:
-    """The document, indented. `comment` are its lines; `namespaces` by their prefixes, "" for the default one."""
+def format_document(root: Element, comment: Sequence[str], namespaces: Mapping[str, str]) -> bytes:
+    """The indented document. comment: lines on top; namespaces by prefix, "" for the default namespace."""
     for prefix, uri in namespaces.items():
         root.set(f"xmlns:{prefix}" if prefix else "xmlns", uri)
     indent(root)
-    said = "".join(f"  {re.sub('--+', '-', line)}\n" for line in comment)
-    return f'<?xml version="1.0" encoding="UTF-8"?>\n<!--\n{said}-->\n{tostring(root, encoding="unicode")}\n'.encode()
+    lines = "".join(f"  {re.sub('--+', '-', line)}\n" for line in comment)
+    return f'<?xml version="1.0" encoding="UTF-8"?>\n<!--\n{lines}-->\n{tostring(root, encoding="unicode")}\n'.encode()
 
 
-def xml_value(value: Value) -> str:
+def format_value(value: Value) -> str:
     """A value in the spelling of XML Schema; floats read back as the same double."""
     if isinstance(value, bool):
         return str(value).lower()

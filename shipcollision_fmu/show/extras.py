@@ -1,4 +1,4 @@
-"""Packages that only some pictures need."""
+"""require(): a clear line where a package that only some pictures need is missing."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from ..errors import HostError
 __all__ = ["require"]
 
 _EXTRAS = {"matplotlib": "plots", "PIL": "film", "imageio_ffmpeg": "mp4"}
-"""By name of the module: the extra that brings it."""
+"""Extras of the package by the module that each installs."""
 
 
 def require(module: str, what: str) -> None:
-    """Raise HostError, with the command that helps, when `module` is not installed. `what`: needs it, in words."""
+    """Raise HostError, with the command that installs it, when `module` is missing. what: its user, in words."""
     if find_spec(module) is None:
         extra = _EXTRAS[module]
         raise HostError(

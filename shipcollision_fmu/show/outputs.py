@@ -1,4 +1,4 @@
-"""What a run can be shown as: the kinds that `shipcollision show` knows, and what each one writes beside the run."""
+"""Pictures of a run by kind, as `shipcollision show` offers them, and the files of each kind."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from .page import PAGE, replay_html
 from .plots import FOLDER, write_plots
 from .scene.scene import Scene, load_scene
 
-__all__ = ["PAGE", "listed", "load_scene", "made", "page", "remove"]
+__all__ = ["PAGE", "describe", "load_scene", "remove", "write", "write_page"]
 
-_LISTED = {
+_FILES = {
     PAGE: "the page: open it in a browser",
     "scene.glb": "glTF 2.0, --glb",
     "scene.osgt": "OpenSceneGraph, --osg",
@@ -26,18 +26,20 @@ _LISTED = {
 }
 
 
-def page(scene: Scene, folder: Path) -> Path:
+def write_page(scene: Scene, folder: Path) -> Path:
     """Write the page; returns its path."""
     return write_file(folder / PAGE, replay_html(scene), IN_PLACE)
 
 
-def made(kind: str, scene: Scene, folder: Path, still: float | None, progress: Callable[[int, int], None]) -> list[str]:
-    """Write what `kind` names into `folder` and return the lines that say where it is. `still` [s]: when, of a still.
+def write(
+    kind: str, scene: Scene, folder: Path, still: float | None, progress: Callable[[int, int], None]
+) -> list[str]:
+    """Write the pictures of a kind into `folder`; returns lines with their paths. still: the time of a still [s].
 
-    Raises HostError when it cannot be written or a package is missing, InputError for a time that is not in the run.
+    Raises HostError when a file cannot be written or a package is missing, InputError for a time outside the run.
     """
     if kind == "page":
-        return [str(page(scene, folder))]
+        return [str(write_page(scene, folder))]
     if kind == "glb":
         return [str(write_file(folder / "scene.glb", glb(scene), IN_PLACE))]
     if kind == "osg":
@@ -53,25 +55,25 @@ def made(kind: str, scene: Scene, folder: Path, still: float | None, progress: C
 
 
 def remove(folder: Path) -> None:
-    """Take away what was written of an earlier run; other files stay."""
-    for name in _LISTED:
+    """Remove all pictures from the folder; other files stay."""
+    for name in _FILES:
         place = folder / name
         for file in sorted(place.iterdir()) if place.is_dir() else [place]:
             if file.suffix in (".html", ".glb", ".osgt", ".png", ".svg", ".gif", ".mp4"):
                 file.unlink(missing_ok=True)
 
 
-def listed(scene: Scene, folder: Path) -> list[str]:
-    """Lines on the run and on what there is to see of it in the folder."""
-    ships = ", ".join(_plain(ship.name) for ship in scene.ships)
+def describe(scene: Scene, folder: Path) -> list[str]:
+    """Lines on the run and on the pictures of it in the folder."""
+    ships = ", ".join(_replace_unprintable(ship.name) for ship in scene.ships)
     count = len(scene.events)
     collisions = f"{count or 'no'} collision{'' if count == 1 else 's'}"
-    lines = [f"{_plain(scene.name)}: {scene.end - scene.start:g} s, {collisions}, ships {ships}"]
-    for name, what in _LISTED.items():
+    lines = [f"{_replace_unprintable(scene.name)}: {scene.end - scene.start:g} s, {collisions}, ships {ships}"]
+    for name, what in _FILES.items():
         there = "" if (folder / name).exists() else " (not written yet)"
         lines.append(f"  {name:<12} {what}{there}")
     return lines
 
 
-def _plain(name: str) -> str:
+def _replace_unprintable(name: str) -> str:
     return "".join(c if c.isprintable() else " " for c in name)

@@ -12,9 +12,8 @@ import pytest
 from click.testing import CliRunner
 
 from shipcollision_fmu.cli import main
-from shipcollision_fmu.compliance.calls import PROBES
-from shipcollision_fmu.compliance.calls import findings as found_by_calls
-from shipcollision_fmu.compliance.report import NAMES, findings, problems
+from shipcollision_fmu.compliance.calls import PROBES, run_probes
+from shipcollision_fmu.compliance.report import NAMES, find_problems, validate
 from shipcollision_fmu.compliance.rules import RULES, Subject
 from shipcollision_fmu.cosim.fmu_files import ready_fmus
 from shipcollision_fmu.errors import InputError
@@ -31,29 +30,29 @@ from shipcollision_fmu.errors import InputError
 )
 def test_our_fmus_have_no_problem(name: str, fmi: int) -> None:
     """The one note is a fault of the wrappers: they do not tell a slave which guid the host gave."""
-    assert [one.check for one in findings(ready_fmus(fmi=fmi)[name])] == ["wrong-token"]
+    assert [one.check for one in validate(ready_fmus(fmi=fmi)[name])] == ["wrong-token"]
 
 
 def test_a_problem_is_one_line(tmp_path: Path) -> None:
-    found = problems(changed(tmp_path, 2, 'unit="m/s"', 'unit="knots"'), calls=False)
+    found = find_problems(changed(tmp_path, 2, 'unit="m/s"', 'unit="knots"'), calls=False)
     assert any("knots" in line for line in found)
     assert all(line == " ".join(line.split()) for line in found)
 
 
 def test_what_is_no_fmu_is_refused(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"nothing.fmu does not exist: build the FMUs with `shipcollision build`"):
-        problems(tmp_path / "nothing.fmu")
+        find_problems(tmp_path / "nothing.fmu")
     (tmp_path / "text.fmu").write_text("text")
     with pytest.raises(InputError, match=r"text.fmu is not a zip archive: give the path of a .fmu file"):
-        problems(tmp_path / "text.fmu")
+        find_problems(tmp_path / "text.fmu")
     with pytest.raises(InputError, match=r"'colour' is not a check: one of fmpy, units, "):
-        findings(ready_fmus()["ShipManoeuvring"], ignore=["colour"])
+        validate(ready_fmus()["ShipManoeuvring"], ignore=["colour"])
 
 
 def test_a_description_that_cannot_be_read_is_a_problem(tmp_path: Path) -> None:
     with zipfile.ZipFile(tmp_path / "broken.fmu", "w") as archive:
         archive.writestr("modelDescription.xml", "<fmiModelDescription")
-    assert [one.check for one in findings(tmp_path / "broken.fmu")] == ["fmpy"]
+    assert [one.check for one in validate(tmp_path / "broken.fmu")] == ["fmpy"]
 
 
 # What FMPy leaves out of the description. ---------------------------------------------------------------------------
@@ -100,7 +99,7 @@ BROKEN = {
     "initial": [(2, ('causality="input"', 'causality="input" initial="exact"'), "rudder_order is input and must not"),
                 (3, ('causality="independent"', 'causality="independent" initial="exact"'), "time is independent and")],
     "dependencies": [(2, ('(<Unknown index="1") dependencies=""', r"\1"),
-                      "do not say what they depend on, and so depend on every input: position.north;"),
+                      "outputs without dependencies, which then depend on every input: position.north;"),
                      (3, ('(<Output valueReference="1") dependencies=""', r"\1"), "every input: position;")],
     "knowns": [(3, ('<Output valueReference="1" dependencies=""', '<Output valueReference="1" dependencies="29"'),
                 "output position depends on substep, which is a parameter")],
@@ -119,12 +118,12 @@ BROKEN = {
 )
 def test_a_rule_finds_what_breaks_it(tmp_path: Path, rule: str, fmi: int, replaced: tuple[str, str], line: str) -> None:
     subject = Subject(changed(tmp_path, fmi, *replaced))
-    (broken,) = (one.broken for one in RULES if one.name == rule)
-    assert any(line in found for found in broken(subject)), list(broken(subject))
+    (check,) = (one.check for one in RULES if one.name == rule)
+    assert any(line in found for found in check(subject)), list(check(subject))
 
 
 def test_rules_about_the_archive(tmp_path: Path) -> None:
-    found = {one.check: one.line for one in findings(renamed(tmp_path), calls=False)}
+    found = {one.check: one.line for one in validate(renamed(tmp_path), calls=False)}
     assert found["library"] == "the libraries are called Ship, the model identifier is ShipManoeuvring"
     assert "the files in the archive have different dates" in found["reproducible"]
     assert "the file was changed after it was built" in found["content"]
@@ -190,11 +189,11 @@ def badly_made(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
 
 
 def test_every_probe_finds_what_breaks_it(badly_made: list[Path]) -> None:
-    careless, failing = ([(probe.name, line) for probe, line in found_by_calls(fmu)] for fmu in badly_made)
+    careless, failing = ([(probe.name, line) for probe, line in run_probes(fmu)] for fmu in badly_made)
     assert {name for name, _ in careless + failing} == {probe.name for probe in PROBES}
     assert ("step-size", "a step of -0.01 s is not refused") in careless
     assert ("set-output", "setting output x is not refused") in careless
-    assert ("reset", "after reset the outputs of the first step are others than the first time") in careless
+    assert ("reset", "after reset the outputs of the first step differ from the first time") in careless
     assert ("runs", "initialisation with the start values answers status 4") in failing
     assert ("step-first", "crashes the host (SIGABRT)") in failing
 

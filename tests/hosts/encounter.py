@@ -19,7 +19,7 @@ from shipcollision_fmu.cosim.wiring import connected
 from shipcollision_fmu.fmi.names import APPLIED, IMPULSE, STATE, named
 from shipcollision_fmu.packaging.osp import write_osp
 from shipcollision_fmu.packaging.ssp import write_ssp
-from shipcollision_fmu.packaging.system_structure import system_structure
+from shipcollision_fmu.packaging.system_structure import build_system_structure
 from shipcollision_fmu.scenario.scenario import Scenario
 
 MASTERS = Path(__file__).with_name("masters.py")
@@ -36,7 +36,7 @@ class Encounter:
     @classmethod
     def packaged(cls, scenario: Scenario, folder: Path) -> Encounter:
         write_osp(scenario, folder / "osp")
-        if not system_structure(scenario).orders:
+        if not build_system_structure(scenario).orders:
             write_ssp(scenario, folder / "package.ssp")
         return cls(scenario, folder)
 
@@ -59,7 +59,7 @@ class Encounter:
             "osp": str(self.folder / "osp"), "ssp": str(self.folder / "package.ssp"),
             "instances": [*self.ships, "collision"], "steps": self.scenario.steps, "step": self.scenario.step,
             "connections": [
-                [c.source, c.output, c.target, c.input] for c in system_structure(self.scenario).connections
+                [c.source, c.output, c.target, c.input] for c in build_system_structure(self.scenario).connections
             ],
             "observed": self.observed, "record": record, **more,
         }  # fmt: skip

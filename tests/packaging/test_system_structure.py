@@ -22,11 +22,11 @@ from shipcollision_fmu.fmi.interface import Interface
 from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
 from shipcollision_fmu.packaging import system_structure as structure_module
-from shipcollision_fmu.packaging.osp import osp_files, write_osp
-from shipcollision_fmu.packaging.osp_groups import KINDS, collision_groups, ship_groups
-from shipcollision_fmu.packaging.packed_ship import packed_ship
-from shipcollision_fmu.packaging.ssp import ssp_bytes, write_ssp
-from shipcollision_fmu.packaging.system_structure import TimedOrder, system_structure
+from shipcollision_fmu.packaging.osp import build_osp_files, write_osp
+from shipcollision_fmu.packaging.osp_groups import KINDS, list_collision_groups, list_ship_groups
+from shipcollision_fmu.packaging.packed_ship import pack_ship
+from shipcollision_fmu.packaging.ssp import build_ssp, write_ssp
+from shipcollision_fmu.packaging.system_structure import TimedOrder, build_system_structure
 from shipcollision_fmu.scenario.scenario import list_scenario_names, load_scenario
 from shipcollision_fmu.ship.hull.hull import build_hull
 from shipcollision_fmu.ship.loading.library import load_ship, models_directory
@@ -88,7 +88,7 @@ def test_start_values_are_those_of_the_scenario(scenario_file: Write, tmp_path: 
 
 def test_a_system_can_be_packaged_twice_with_the_same_bytes(scenario_file: Write) -> None:
     scenario = load_scenario(scenario_file())
-    assert ssp_bytes(system_structure(scenario)) == ssp_bytes(system_structure(scenario))
+    assert build_ssp(build_system_structure(scenario)) == build_ssp(build_system_structure(scenario))
 
 
 def test_three_ships_and_obstacles(scenario_file: Write, tmp_path: Path) -> None:
@@ -110,19 +110,19 @@ def test_three_ships_and_obstacles(scenario_file: Write, tmp_path: Path) -> None
 def test_a_ship_file_travels_with_what_it_extends(scenario_file: Write, tmp_path: Path) -> None:
     path = scenario_file(barge=("L_pp = 100.0", "L_pp = 100.25"))
     (path.parent / "longer.toml").write_text('extends = "barge"\n[particulars]\nmass = 8.3e6\n')
-    place, files = packed_ship("own", str(path.parent / "longer.toml"))
+    place, files = pack_ship("own", str(path.parent / "longer.toml"))
     assert list(files) == [place] == ["ships/own.toml"]
     (tmp_path / "elsewhere" / "ships").mkdir(parents=True)
     (tmp_path / "elsewhere" / place).write_bytes(files[place])
     here, there = load_ship(path.parent / "longer.toml"), load_ship(place, tmp_path / "elsewhere")
     np.testing.assert_array_equal(here.M, there.M)
     assert (there.mass, there.L_pp, there.name) == (8.3e6, 100.25, "Barge")
-    assert packed_ship("own", "kcs") == ("kcs", {})
+    assert pack_ship("own", "kcs") == ("kcs", {})
 
 
 def test_a_mesh_travels_with_its_ship(tmp_path: Path) -> None:
     source = models_directory() / "ships" / "mesh_example.toml"
-    place, files = packed_ship("own", str(source))
+    place, files = pack_ship("own", str(source))
     assert sorted(files) == ["ships/own.obj", "ships/own.toml"]
     for name, data in files.items():
         (tmp_path / name).parent.mkdir(exist_ok=True)
@@ -136,7 +136,7 @@ def test_a_mesh_that_is_missing_is_refused(tmp_path: Path) -> None:
     text = (models_directory() / "ships" / "mesh_example.toml").read_text().replace("../hulls/example.obj", "gone.obj")
     (tmp_path / "ship.toml").write_text(text)
     with pytest.raises(ShipError, match=r"ship.toml: mesh file .*gone.obj cannot be read: No such file"):
-        packed_ship("own", str(tmp_path / "ship.toml"))
+        pack_ship("own", str(tmp_path / "ship.toml"))
 
 
 # What it cannot hold. ------------------------------------------------------------------------------
@@ -160,9 +160,7 @@ def test_what_a_helm_does_later_is_refused_or_left_out(
     scenario_file: Write, tmp_path: Path, empty_fmus: None, lines: str, why: str, in_osp: bool
 ) -> None:
     scenario = load_scenario(helm(scenario_file, lines))
-    refused = (
-        f"encounter cannot be packaged whole: {why}; that is done by our own master, and an .ssp file has no place"
-    )
+    refused = f"encounter cannot be packaged whole: {why}; only our own master does this, and an .ssp file has no place"
     with pytest.raises(ScenarioError, match=refused + " for it. Take --initial-orders to hold the orders of time 0"):
         write_ssp(scenario, tmp_path / "it.ssp")
     assert not (tmp_path / "it.ssp").exists()
@@ -183,7 +181,7 @@ def test_orders_in_time_are_a_scenario_of_libcosim(scenario_file: Write, tmp_pat
         "orders = [{ time = 0.0, rev_per_s = 1.0 }, { time = 0.52, rudder_deg = 5.0 }, { time = 1.0, rev_per_s = 2.0 }]"
     )
     scenario = load_scenario(helm(scenario_file, lines))
-    assert system_structure(scenario).orders == (
+    assert build_system_structure(scenario).orders == (
         TimedOrder(0.55, "target", "rudder_order", radians(5.0)),  # the next communication point
         TimedOrder(1.0, "target", "propeller_order", 2.0),
     )
@@ -191,7 +189,7 @@ def test_orders_in_time_are_a_scenario_of_libcosim(scenario_file: Write, tmp_pat
     written = json.loads((tmp_path / "scenario.json").read_text())
     assert written["end"] == 3.0
     assert [event["time"] for event in written["events"]] == [0.55, 1.0]
-    assert "scenario.json" not in osp_files(system_structure(scenario), with_orders=False)
+    assert "scenario.json" not in build_osp_files(build_system_structure(scenario), with_orders=False)
 
 
 def test_places_that_cannot_be_written(scenario_file: Write, tmp_path: Path) -> None:
@@ -263,7 +261,10 @@ def test_groups_connect_what_the_system_connects(
 ) -> None:
     scenario = load_scenario(scenario_file(("friction = 0.3", f'feedback = "{feedback}"')))
     write_osp(scenario, tmp_path)
-    groups = {"collision": collision_groups(tuple(scenario.ships)), **dict.fromkeys(scenario.ships, ship_groups())}
+    groups = {
+        "collision": list_collision_groups(tuple(scenario.ships)),
+        **dict.fromkeys(scenario.ships, list_ship_groups()),
+    }
     members = {
         (simulator, group.name): [v for part in (group, *group.groups) for v in part.variables]
         for simulator, found in groups.items()
@@ -277,7 +278,9 @@ def test_groups_connect_what_the_system_connects(
         connected |= {
             frozenset(((one[0], a), (other[0], b))) for a, b in zip(members[one], members[other], strict=True)
         }
-    wanted = {frozenset(((c.source, c.output), (c.target, c.input))) for c in system_structure(scenario).connections}
+    wanted = {
+        frozenset(((c.source, c.output), (c.target, c.input))) for c in build_system_structure(scenario).connections
+    }
     assert connected == wanted
 
 

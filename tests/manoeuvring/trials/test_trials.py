@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from shipcollision_fmu.cli.trial_table import track_csv
+from shipcollision_fmu.cli.trial_table import format_track_csv
 from shipcollision_fmu.errors import ScenarioError, ShipError, StepError
 from shipcollision_fmu.manoeuvring.trials.steady_course import approach, self_propulsion
 from shipcollision_fmu.manoeuvring.trials.trial import Figure, Trial
@@ -129,7 +129,7 @@ def test_self_propulsion_is_the_service_point_or_the_balance(tmp_path: Path) -> 
 
 def test_the_track_reads_back_as_the_same_doubles() -> None:
     sailed = crash_stop(approach("kvlcc2_l7"))
-    header, *rows = track_csv(sailed).splitlines()
+    header, *rows = format_track_csv(sailed).splitlines()
     assert header.split(",")[:4] == ["time", "x", "y", "heading"]
     assert [float(cell) for cell in rows[7].split(",")] == list(vars(sailed.track[7]).values())
     assert len(rows) == len(sailed.track)
