@@ -68,7 +68,6 @@ def respond_pgs(problem: ContactProblem) -> Answer:
     states = problem.states
     contacts = [c for a, b in problem.pairs for c in problem.detector.contacts(a, b, states, problem.last_normals)]
     if not contacts:
-        remember(problem.pairs, [], problem.warm)
         return Answer([])
     G, ships = contact_jacobian(contacts)
     axes = [contact_axes(c.normal) for c in contacts]
@@ -81,7 +80,7 @@ def respond_pgs(problem: ContactProblem) -> Answer:
         expected(contacts, axes, problem.warm),
     )  # fmt: skip
     impulses = [Impulse(c, axis.T @ P) for c, axis, P in zip(contacts, axes, solution.P, strict=True)]
-    remember(problem.pairs, impulses, problem.warm)
+    remember(impulses, problem.warm)
     return Answer(impulses, solution.residual, solution.sweeps)
 
 

@@ -36,11 +36,14 @@ def expected(contacts: Sequence[Contact], axes: Sequence[Array], warm: WarmStart
     return P
 
 
-def remember(pairs: Sequence[tuple[int, int]], impulses: Sequence[Impulse], warm: WarmStarts) -> None:
-    """Keep the impulses of these pairs, and of them only those."""
-    for pair in pairs:
-        warm.pop(pair, None)
+def remember(impulses: Sequence[Impulse], warm: WarmStarts) -> None:
+    """Keep these impulses for the pairs that they act between. A pair without any keeps those it had.
+
+    Ships that rest against each other are apart in some substeps, by the rounding of their places.
+    """
+    latest: WarmStarts = {}
     for impulse in impulses:
         c = impulse.contact
         if impulse.P.any():
-            warm.setdefault((c.a, c.b), []).append((c.r_a.tolist(), impulse.P.tolist()))
+            latest.setdefault((c.a, c.b), []).append((c.r_a.tolist(), impulse.P.tolist()))
+    warm.update(latest)
