@@ -117,6 +117,7 @@ class SlaveBase:
             if not self._refused:
                 self.ports.initialise()
                 self._phase = RUNNING
+                self._pass_warning_on()
         except BaseException as error:
             self._refused = _line(error)
         if self._refused:
@@ -126,6 +127,11 @@ class SlaveBase:
             failed = _InitialisationFailed(self._text(f"{self._made_from.name} cannot be initialised: {self._refused}"))
             self._refused = ""
             raise failed
+
+    def _pass_warning_on(self) -> None:
+        if warning := self.ports.warning:
+            self.warn(warning)
+            self._print(f"warning: {warning}")
 
     def terminate(self) -> None:
         """The last values stay readable; there are no more steps."""
@@ -138,9 +144,7 @@ class SlaveBase:
                 if self._phase == TERMINATED:
                     raise StepError(f"{self._made_from.name} is terminated at t = {t:g} s: reset it or restore a state")
                 self.ports.do_step(t, h)
-                if warning := self.ports.warning:
-                    self.warn(warning)
-                    self._print(f"warning: {warning}")
+                self._pass_warning_on()
                 return True
             line = f"no step at t = {t} s after a refused call: {self._refused}"
         except BaseException as error:

@@ -249,8 +249,10 @@ class Ports:
 
     @property
     def warning(self) -> str:
-        """What was not as it should be in the last step, in one line, or nothing: a model may have an attribute
-        `warning`."""
+        """What was not as it should be at the start or in the last step, in one line, or nothing.
+
+        A model may have an attribute `warning`.
+        """
         return str(getattr(self.model, "warning", ""))
 
     def close(self) -> None:

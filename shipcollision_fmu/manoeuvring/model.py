@@ -25,10 +25,11 @@ from typing import Any, NamedTuple
 
 from ..errors import InputError, ScenarioError, StepError
 from ..ship.coasting import coast
-from ..ship.degrees_of_freedom import free_inverse, tilted_inverse, to_level
+from ..ship.degrees_of_freedom import free_inverse, tilted_inverse
 from ..ship.frames import Array
 from ..ship.loading.library import Ship, load_ship
 from .actuators import NEUTRAL, Gear
+from .held_motions import project_start
 from .interface import ShipInputs, ShipOutputs, ShipParameters
 from .mmg import Forces, Machines, Sailing, Six, Surroundings
 from .mmg_3dof import Mmg
@@ -44,9 +45,6 @@ MAXIMUM_SUBSTEPS = 100_000
 
 STEEPEST = 1.4
 """Pitch angle [rad] from which Euler angles are no longer to be trusted, 80 degrees: no ship stands on end."""
-
-ROUNDING = 1e-12
-"""Speed [m/s, rad/s] in a motion that is held which counts as none."""
 
 _NOUGHT: Six = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
@@ -92,6 +90,7 @@ class ShipManoeuvring:
         self.parameters = ShipParameters()
         self.inputs = ShipInputs()
         self.outputs = ShipOutputs()
+        self.warning = ""  # what was not as it should be at the start, until the first step
         self._set_up: _SetUp | None = None
         self._state: State | None = None
 
@@ -112,14 +111,15 @@ class ShipManoeuvring:
         nu = _six(map(float, [*p.initial_velocity, *p.initial_rate]))
         if _is_absurd(nu, set_up.ship):
             raise ScenarioError(f"initial {_too_fast(nu)}")
-        machines = Machines(0.0, 0.0, NEUTRAL)
+        machines, warning = Machines(0.0, 0.0, NEUTRAL), ""
         if set_up.sailing is not None:
-            _refuse_held_motion(eta, nu, p.degrees_of_freedom)
+            eta, nu, warning = project_start(eta, nu, p.degrees_of_freedom)
+            _refuse_steep_start(eta)
             self._refuse_orders(set_up, ScenarioError, "at the start")
             propeller_speed = set_up.sailing.engine.limited(self.inputs.propeller_order)
             machines = Machines(0.0, propeller_speed, set_up.sailing.engine.started(propeller_speed))
         forces = self._forces(set_up.sailing, eta, nu, machines)
-        self._set_up = set_up
+        self._set_up, self.warning = set_up, warning
         self._publish(State(eta, nu, _NOUGHT, *machines, *forces))
 
     def _prepared(self) -> _SetUp:
@@ -156,6 +156,7 @@ class ShipManoeuvring:
             after = self._coasted(before, nu, applied, set_up, t, h)
         else:
             after = self._sailed(before, nu, applied, set_up, set_up.sailing, t, h, substeps)
+        self.warning = ""
         self._publish(after)
 
     def _check(self, t: float, h: float, set_up: _SetUp) -> int:
@@ -290,23 +291,7 @@ def _refuse_not_finite(named: dict[str, float | list[float]], refusal: type[Inpu
             raise refusal(f"{name} = {value} {rule}: look at what feeds it")
 
 
-def _refuse_held_motion(eta: Six, nu: Six, degrees_of_freedom: int) -> None:
-    """What is held must be at rest: the equations would silently keep it as it is."""
-    held = {3: ("roll angle", "pitch angle", "heave velocity", "roll rate", "pitch rate"),
-            4: ("pitch angle", "heave velocity", "pitch rate"), 6: ()}[degrees_of_freedom]  # fmt: skip
-    _, _, w, _, q, _ = to_level(nu, eta[3])
-    values = {
-        "roll angle": eta[3], "pitch angle": eta[4], "heave velocity": w, "roll rate": nu[3], "pitch rate": q,
-    }  # fmt: skip
-    for name in held:
-        if abs(values[name]) > ROUNDING:
-            heeled = eta[3] != 0.0 and name in ("heave velocity", "pitch rate")
-            raise ScenarioError(
-                f"initial {name} = {values[name]:g}{' in level axes' if heeled else ''} must be 0 with hydrodynamics = "
-                f"true in {degrees_of_freedom} degrees of freedom, which hold it: "
-                + ("give heave = -sway tan(roll) and pitch rate = yaw rate tan(roll), " if heeled else "set it to 0, ")
-                + "or degrees_of_freedom = 6"
-            )
+def _refuse_steep_start(eta: Six) -> None:
     if abs(eta[4]) > STEEPEST:
         raise ScenarioError(
             f"initial pitch angle = {eta[4]} rad must be below {STEEPEST} rad with hydrodynamics = true"
