@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from rich.table import Table
 
-from ..fmi.names import named
+from ..fmi.names import VELOCITY, named
 from .table import make_table
 
 if TYPE_CHECKING:
@@ -16,7 +16,6 @@ if TYPE_CHECKING:
 
 __all__ = ["make_comparison_table", "make_run_tables", "summarise_run"]
 
-_LINEAR = ("surge", "sway", "heave")
 LARGE_HEEL = 30.0
 """[deg] Heel from which a coasting ship is unrealistic: real ships right themselves."""
 
@@ -108,7 +107,7 @@ def _make_ship_table(run: Run) -> Table:
     rows = make_table("ship", ">speed [m/s]", ">heading [deg]", ">impulse pending [MN s]", title="ships")
     first, last = run.states[0], run.states[-1]
     for name, ledger in run.summary["ledger"].items():
-        columns = named(f"{name}.velocity", _LINEAR)
+        columns = named(name, VELOCITY)
         speeds = [hypot(*(float(row[column]) for column in columns)) for row in (first, last)]
         headings = [degrees(float(row[f"{name}.attitude.yaw"])) for row in (first, last)]
         rows.add_row(

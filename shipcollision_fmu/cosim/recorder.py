@@ -14,8 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..collision.interface import contact_point_count
-from ..fmi.names import IMPULSE, STATE, named
-from ..fmi.variables import NED
+from ..fmi.names import CONTACT_INTEGERS, IMPACT_POINT, IMPULSE, STATE, contact_point, named
 from ..results.record import CONTACT_COLUMNS, SIGNALS, Impact, Record
 from ..ship.frames import Array
 from .component import Group
@@ -23,8 +22,7 @@ from .master import System
 
 __all__ = ["Recorder"]
 
-_CONTACT_NUMBERS = ("ship_a", "ship_b", "impact", "scratch")
-_IMPACT = ("impact.time", "impact.closing_speed", "impact.angle", *named("impact", NED))
+_IMPACT = ("impact.time", "impact.closing_speed", "impact.angle", *IMPACT_POINT)
 
 
 @dataclass
@@ -45,10 +43,10 @@ class Recorder:
         self._states = np.zeros((steps + 1, 1 + len(names) * len(STATE)))
         self._buffers = [np.ctypeslib.as_array(wire.outputs.values) for wire in system.states]
         collision = system.collision
-        slots = [f"contact[{i}]" for i in range(1, contact_point_count(len(names)) + 1)]
+        slots = [contact_point(i) for i in range(1, contact_point_count(len(names)) + 1)]
         self._counts = collision.integers(["contact.count", "impact.count", "nearest.ship_a", "nearest.ship_b"])
         self._reals = collision.reals([variable for slot in slots for variable in named(slot, CONTACT_COLUMNS)])
-        self._numbers = collision.integers([variable for slot in slots for variable in named(slot, _CONTACT_NUMBERS)])
+        self._numbers = collision.integers([variable for slot in slots for variable in named(slot, CONTACT_INTEGERS)])
         self._impact = collision.reals(_IMPACT)
         self._issued = collision.reals([variable for name in names for variable in named(name, IMPULSE)])
         self._watched = collision.reals(SIGNALS)
@@ -107,7 +105,7 @@ class Recorder:
         )
 
     def _record_contacts(self, k: int, count: int) -> None:
-        time, width, ids = round(k * self._step, 9), len(CONTACT_COLUMNS), len(_CONTACT_NUMBERS)
+        time, width, ids = round(k * self._step, 9), len(CONTACT_COLUMNS), len(CONTACT_INTEGERS)
         self._reals.read(count * width)
         self._numbers.read(count * ids)
         for i in range(count):

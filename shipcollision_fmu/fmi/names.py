@@ -1,12 +1,19 @@
-"""Names of the FMUs' variables that others read, write and record, each group in the order of its values."""
+"""The names of the FMUs' variables. Tables, masters, recorders and pictures take them from here.
+
+A group of variables is the tuple of their names, in the order of its values. The collision FMU has the groups of each
+ship under the ship's name: named("own", POSITION) is ("own.position.north", ...).
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
-from .variables import ANGLES, LINEAR, NED
-
-__all__ = ["ANSWERS", "APPLIED", "IMPULSE", "ORDERS", "STATE", "SURROUNDINGS", "named"]
+__all__ = [
+    "ANGLES", "ANSWERS", "APPLIED", "ATTITUDE", "AXES", "CONTACT_INTEGERS", "CONTACT_REALS", "CURRENT", "ENERGY",
+    "FORCE", "HULL", "IMPACT_POINT", "IMPULSE", "LINEAR", "MOMENT", "NED", "ORDERS", "POSITION", "POST", "PROPELLER",
+    "PROPELLER_ORDER", "RATE", "RUDDER", "RUDDER_ORDER", "STATE", "SURROUNDINGS", "VELOCITY", "WIND", "WIND_DIRECTION",
+    "WIND_SPEED", "contact_point", "named",
+]  # fmt: skip
 
 
 def named(group: str, components: Sequence[str]) -> tuple[str, ...]:
@@ -14,19 +21,54 @@ def named(group: str, components: Sequence[str]) -> tuple[str, ...]:
     return tuple(f"{group}.{component}" for component in components)
 
 
-STATE = (
-    *named("position", NED), *named("attitude", ANGLES), *named("velocity", LINEAR), *named("rate", ANGLES),
-)  # fmt: skip
+NED = ("north", "east", "down")
+"""Components of a vector in n."""
+LINEAR = ("surge", "sway", "heave")
+"""Components along the axes of b: forward, starboard, down."""
+ANGLES = ("roll", "pitch", "yaw")
+"""Components about the axes of b, and the angles phi, theta, psi."""
+AXES = ("x", "y", "z")
+"""Components of a place in b."""
+
+POSITION, ATTITUDE = named("position", NED), named("attitude", ANGLES)
+VELOCITY, RATE = named("velocity", LINEAR), named("rate", ANGLES)
+STATE = (*POSITION, *ATTITUDE, *VELOCITY, *RATE)
 """The 12 states of a ship, in the order of states.csv."""
+POST = "post"
+"""Prefix of the states that the collision FMU gives back."""
 IMPULSE = named("impulse", (*LINEAR, *ANGLES))
 """Cumulative impulse in b about CO [N s, N m s]."""
 APPLIED = named("impulse_applied", (*LINEAR, *ANGLES))
 """What the ship has applied of it."""
-ANSWERS: dict[str, tuple[str, ...]] = {
-    "ledger": IMPULSE, "force": (*named("force", LINEAR), *named("moment", ANGLES)), "none": (),
-}  # fmt: skip
+FORCE, MOMENT = named("force", LINEAR), named("moment", ANGLES)
+"""External force on a ship, in b about CO [N, N m]."""
+ANSWERS: dict[str, tuple[str, ...]] = {"ledger": IMPULSE, "force": (*FORCE, *MOMENT), "none": ()}
 """What the collision FMU sends to a ship, by `feedback`."""
-ORDERS = ("rudder_order", "propeller_order")
+HULL, PROPELLER, RUDDER, WIND = (
+    named(origin, (*LINEAR, *ANGLES)) for origin in ("hull", "propeller", "rudder", "wind")
+)  # fmt: skip
+"""Forces on a ship by origin, in b about CO [N, N m]."""
+ORDERS = RUDDER_ORDER, PROPELLER_ORDER = "rudder_order", "propeller_order"
 """What a helm gives [rad, rev/s]."""
-SURROUNDINGS = ("current.north", "current.east", "wind.speed", "wind.direction")
-"""What a ship is in [m/s, rad]."""
+CURRENT = named("current", NED[:2])
+WIND_SPEED, WIND_DIRECTION = "wind.speed", "wind.direction"
+SURROUNDINGS = (*CURRENT, WIND_SPEED, WIND_DIRECTION)
+"""Water and air around a ship [m/s, rad]."""
+
+CONTACT_REALS = (
+    *NED, *named("normal", NED), "gap", "impulse_normal", "impulse_tangential", *named("impulse", NED), "energy",
+    *named("a", AXES), *named("b", AXES),
+)  # fmt: skip
+"""Real variables of a contact point: the point and the normal (from ship_a to ship_b) in n, the impulse on ship_b in n,
+the places in both ships' b."""
+CONTACT_INTEGERS = ("ship_a", "ship_b", "impact", "scratch")
+"""Its Integers."""
+IMPACT_POINT = named("impact", NED)
+"""First contact point of the latest collision, in n [m]."""
+ENERGY = named("energy", ("dissipated", "normal", "tangential"))
+"""Kinetic energy lost to contact [J]."""
+
+
+def contact_point(number: int) -> str:
+    """Prefix of the variables of a contact point; the first is number 1."""
+    return f"contact[{number}]"

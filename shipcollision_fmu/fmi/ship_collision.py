@@ -14,12 +14,25 @@ from ..collision.interface import contact_point_count
 from ..collision.model import ShipCollision
 from ..collision.responses import RESPONSES
 from .interface import SHIPS, Interface
-from .variables import (
-    ANGLES,
+from .names import (
+    APPLIED,
+    ATTITUDE,
+    AXES,
     FORCE,
+    IMPACT_POINT,
     IMPULSE,
-    LINEAR,
+    MOMENT,
     NED,
+    POSITION,
+    POST,
+    RATE,
+    VELOCITY,
+    contact_point,
+    named,
+)
+from .variables import (
+    FORCE_UNITS,
+    IMPULSE_UNITS,
     Array,
     Table,
     Variable,
@@ -33,8 +46,6 @@ from .variables import (
 )
 
 __all__ = ["INTERFACE", "table"]
-
-BODY = ("x", "y", "z")
 
 
 def table(ships: tuple[str, ...] = SHIPS) -> Table:
@@ -52,39 +63,39 @@ def table(ships: tuple[str, ...] = SHIPS) -> Table:
 
 def _ship(i: int, s: str) -> Table:
     """A ship: what is received at the start of a step, what is given at its end."""
-    received, given = f"inputs.ships.{i}", f"outputs.ships.{i}"
+    received, given, post = f"inputs.ships.{i}", f"outputs.ships.{i}", f"{s}.{POST}"
     return (
-        *vector("input", f"{s}.position", NED, "m", f"{received}.position", f"CO of {s} in n"),
-        *vector("input", f"{s}.attitude", ANGLES, "rad", f"{received}.attitude", f"Attitude of {s} (zyx Euler angles)"),
-        *vector("input", f"{s}.velocity", LINEAR, "m/s", f"{received}.velocity", f"Velocity of CO of {s} in b"),
-        *vector("input", f"{s}.rate", ANGLES, "rad/s", f"{received}.rate", f"Angular velocity of {s} in b"),
+        *vector("input", named(s, POSITION), "m", f"{received}.position", f"CO of {s} in n"),
+        *vector("input", named(s, ATTITUDE), "rad", f"{received}.attitude", f"Attitude of {s} (zyx Euler angles)"),
+        *vector("input", named(s, VELOCITY), "m/s", f"{received}.velocity", f"Velocity of CO of {s} in b"),
+        *vector("input", named(s, RATE), "rad/s", f"{received}.rate", f"Angular velocity of {s} in b"),
         *wrench(
-            "input", f"{s}.impulse_applied", f"{s}.impulse_applied", IMPULSE, f"{received}.impulse_applied",
+            "input", named(s, APPLIED), IMPULSE_UNITS, f"{received}.impulse_applied",
             f"Cumulative impulse that the model of {s} has applied, in b about CO",
         ),
         *vector(
-            "output", f"{s}.post.position", NED, "m", f"{given}.position", f"CO of {s} at the end of the step, in n",
+            "output", named(post, POSITION), "m", f"{given}.position", f"CO of {s} at the end of the step, in n",
             depends_on=(f"{s}.position",),
         ),
         *vector(
-            "output", f"{s}.post.attitude", ANGLES, "rad", f"{given}.attitude",
+            "output", named(post, ATTITUDE), "rad", f"{given}.attitude",
             f"Attitude of {s} at the end of the step",
             depends_on=(f"{s}.attitude",),
         ),
         *vector(
-            "output", f"{s}.post.velocity", LINEAR, "m/s", f"{given}.velocity",
+            "output", named(post, VELOCITY), "m/s", f"{given}.velocity",
             f"Velocity of CO of {s} after impact, in b", depends_on=(f"{s}.velocity",),
         ),
         *vector(
-            "output", f"{s}.post.rate", ANGLES, "rad/s", f"{given}.rate", f"Angular velocity of {s} after impact, in b",
+            "output", named(post, RATE), "rad/s", f"{given}.rate", f"Angular velocity of {s} after impact, in b",
             depends_on=(f"{s}.rate",),
         ),
         *wrench(
-            "output", f"{s}.impulse", f"{s}.impulse", IMPULSE, f"{given}.impulse",
+            "output", named(s, IMPULSE), IMPULSE_UNITS, f"{given}.impulse",
             f"Cumulative impulse issued to {s}, in b about CO", depends_on=(),
         ),
         *wrench(
-            "output", f"{s}.force", f"{s}.moment", FORCE, f"{given}.force",
+            "output", named(s, (*FORCE, *MOMENT)), FORCE_UNITS, f"{given}.force",
             f"Mean contact force and moment on {s} over the last step, in b about CO", depends_on=(),
         ),
         string(
@@ -120,7 +131,7 @@ def _contacts(slots: int) -> Table:
         ),
     )]  # fmt: skip
     for k in range(slots):
-        lines.append(_contact(f"contact[{k + 1}]", f"outputs.contacts.{k}", slots))
+        lines.append(_contact(contact_point(k + 1), f"outputs.contacts.{k}", slots))
     return tuple(line for block in lines for line in block)
 
 
@@ -135,7 +146,7 @@ def _contact(name: str, path: str, slots: int) -> Table:
 
     def triple(group: str, components: tuple[str, ...], unit: str, at: str, description: str, field: str) -> Table:
         return vector(
-            "output", group, components, unit, f"{path}.{at}", description, depends_on=(),
+            "output", named(group, components), unit, f"{path}.{at}", description, depends_on=(),
             array=point(field, components, description),
         )  # fmt: skip
 
@@ -162,8 +173,8 @@ def _contact(name: str, path: str, slots: int) -> Table:
             f"{name}.impulse", NED, "N.s", "impulse",
             "Impulse on ship_b in n over the step; ship_a takes the opposite", "impulse",
         ),
-        *triple(f"{name}.a", BODY, "m", "r_a", "Contact point in b of ship_a", "a"),
-        *triple(f"{name}.b", BODY, "m", "r_b", "Contact point in b of ship_b", "b"),
+        *triple(f"{name}.a", AXES, "m", "r_a", "Contact point in b of ship_a", "a"),
+        *triple(f"{name}.b", AXES, "m", "r_b", "Contact point in b of ship_b", "b"),
         number("ship_a", "First ship, from 1; 0: slot unused"),
         number("ship_b", "Second ship, from 1; beyond the ships: obstacles, in their order; 0: slot unused"),
         number("impact", "Number of the collision; 0: a fender acts, the hulls do not touch", "collision"),
@@ -177,7 +188,7 @@ def _impact() -> Table:
         integer("output", "impact.count", "outputs.collision_count", "Collisions so far", minimum=0, depends_on=()),
         real("output", "impact.time", "s", "outputs.impact.time", None, "Start of the latest collision", depends_on=()),
         *vector(
-            "output", "impact", NED, "m", "outputs.impact.point",
+            "output", IMPACT_POINT, "m", "outputs.impact.point",
             "First contact point of the latest collision in n: where the explosion goes", depends_on=(),
             array=Array("impact.position", (3,), "First contact point of the latest collision in n: north, east, down"),
         ),

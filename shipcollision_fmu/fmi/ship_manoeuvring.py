@@ -8,20 +8,27 @@ from __future__ import annotations
 
 from ..manoeuvring.model import ShipManoeuvring
 from .interface import Interface
-from .variables import (
-    ANGLES,
+from .names import (
+    APPLIED,
+    ATTITUDE,
+    CURRENT,
     FORCE,
+    HULL,
     IMPULSE,
-    LINEAR,
-    NED,
-    Table,
-    boolean,
-    integer,
-    real,
-    string,
-    vector,
-    wrench,
+    MOMENT,
+    POSITION,
+    PROPELLER,
+    PROPELLER_ORDER,
+    RATE,
+    RUDDER,
+    RUDDER_ORDER,
+    VELOCITY,
+    WIND,
+    WIND_DIRECTION,
+    WIND_SPEED,
+    named,
 )
+from .variables import FORCE_UNITS, IMPULSE_UNITS, Table, boolean, integer, real, string, vector, wrench
 
 __all__ = ["INTERFACE", "table"]
 
@@ -36,18 +43,18 @@ def _state() -> Table:
     """Outputs: the ship at the end of the step."""
     return (
         *vector(
-            "output", "position", NED, "m", "outputs.position", "Position of CO in n", depends_on=("initial.position",)
+            "output", POSITION, "m", "outputs.position", "Position of CO in n", depends_on=("initial.position",)
         ),
         *vector(
-            "output", "attitude", ANGLES, "rad", "outputs.attitude",
+            "output", ATTITUDE, "rad", "outputs.attitude",
             "Attitude (zyx Euler angles); yaw is the heading, unwrapped", depends_on=("initial.attitude",),
         ),
         *vector(
-            "output", "velocity", LINEAR, "m/s", "outputs.velocity", "Velocity of CO over ground, in b",
+            "output", VELOCITY, "m/s", "outputs.velocity", "Velocity of CO over ground, in b",
             depends_on=("initial.velocity",),
         ),
         *vector(
-            "output", "rate", ANGLES, "rad/s", "outputs.rate", "Angular velocity in b", depends_on=("initial.rate",)
+            "output", RATE, "rad/s", "outputs.rate", "Angular velocity in b", depends_on=("initial.rate",)
         ),
         real(
             "output", "rudder_angle", "rad", "outputs.rudder_angle", None, "Rudder angle, limited in rate and range",
@@ -55,10 +62,10 @@ def _state() -> Table:
         ),
         real(
             "output", "propeller_speed", "rev/s", "outputs.propeller_speed", None, "Propeller speed",
-            depends_on=("propeller_order", "ship", "hydrodynamics"),
+            depends_on=(PROPELLER_ORDER, "ship", "hydrodynamics"),
         ),
         *wrench(
-            "output", "impulse_applied", "impulse_applied", IMPULSE, "outputs.impulse_applied",
+            "output", APPLIED, IMPULSE_UNITS, "outputs.impulse_applied",
             "Cumulative impulse that the ship has applied, in b about CO", depends_on=(),
         ),
     )  # fmt: skip
@@ -67,32 +74,35 @@ def _state() -> Table:
 def _forces() -> Table:
     """Outputs: forces by origin."""
     return (
-        *wrench("output", "hull", "hull", FORCE, "outputs.hull", "Force of the water on the hull, b about CO"),
-        *wrench("output", "propeller", "propeller", FORCE, "outputs.propeller", "Force of the propeller, b about CO"),
-        *wrench("output", "rudder", "rudder", FORCE, "outputs.rudder", "Force of the rudder, b about CO"),
-        *wrench("output", "wind", "wind", FORCE, "outputs.wind", "Force of the wind, b about CO"),
+        *wrench("output", HULL, FORCE_UNITS, "outputs.hull", "Force of the water on the hull, b about CO"),
+        *wrench("output", PROPELLER, FORCE_UNITS, "outputs.propeller", "Force of the propeller, b about CO"),
+        *wrench("output", RUDDER, FORCE_UNITS, "outputs.rudder", "Force of the rudder, b about CO"),
+        *wrench("output", WIND, FORCE_UNITS, "outputs.wind", "Force of the wind, b about CO"),
     )
 
 
 def _inputs() -> Table:
     """Held over the step."""
     return (
-        real("input", "rudder_order", "rad", "inputs.rudder_order", None, "Ordered rudder angle"),
-        real("input", "propeller_order", "rev/s", "inputs.propeller_order", None, "Ordered propeller speed"),
-        *vector("input", "current", NED[:2], "m/s", "inputs.current", "Velocity of the water, towards, in n"),
+        real("input", RUDDER_ORDER, "rad", "inputs.rudder_order", None, "Ordered rudder angle"),
+        real("input", PROPELLER_ORDER, "rev/s", "inputs.propeller_order", None, "Ordered propeller speed"),
+        *vector("input", CURRENT, "m/s", "inputs.current", "Velocity of the water, towards, in n"),
         real(
-            "input", "wind.speed", "m/s", "inputs.wind_speed", None,
+            "input", WIND_SPEED, "m/s", "inputs.wind_speed", None,
             "Speed of the wind over ground; 0: no force of the air",
         ),
         real(
-            "input", "wind.direction", "rad", "inputs.wind_direction", None,
+            "input", WIND_DIRECTION, "rad", "inputs.wind_direction", None,
             "Direction that the wind comes from, clockwise from north",
         ),
         *wrench(
-            "input", "impulse", "impulse", IMPULSE, "inputs.impulse",
+            "input", IMPULSE, IMPULSE_UNITS, "inputs.impulse",
             "Cumulative impulse on the ship, in b about CO; what is new since the last step is applied at its start",
         ),
-        *wrench("input", "force", "moment", FORCE, "inputs.force", "External force held over the step, in b about CO"),
+        *wrench(
+            "input", (*FORCE, *MOMENT), FORCE_UNITS, "inputs.force",
+            "External force held over the step, in b about CO",
+        ),
     )  # fmt: skip
 
 
@@ -112,14 +122,14 @@ def _parameters() -> Table:
             "parameter", "substep", "s", "parameters.substep", None, "Longest internal step of the hydrodynamics",
             minimum=0.0,
         ),
-        *vector("parameter", "initial.position", NED, "m", "parameters.initial_position", "CO at the start, in n"),
-        *vector("parameter", "initial.attitude", ANGLES, "rad", "parameters.initial_attitude", "Attitude at the start"),
+        *vector("parameter", named("initial", POSITION), "m", "parameters.initial_position", "CO at the start, in n"),
+        *vector("parameter", named("initial", ATTITUDE), "rad", "parameters.initial_attitude", "Attitude at the start"),
         *vector(
-            "parameter", "initial.velocity", LINEAR, "m/s", "parameters.initial_velocity",
+            "parameter", named("initial", VELOCITY), "m/s", "parameters.initial_velocity",
             "Velocity of CO over ground at the start, in b",
         ),
         *vector(
-            "parameter", "initial.rate", ANGLES, "rad/s", "parameters.initial_rate",
+            "parameter", named("initial", RATE), "rad/s", "parameters.initial_rate",
             "Angular velocity at the start, in b",
         ),
     )  # fmt: skip

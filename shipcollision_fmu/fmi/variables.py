@@ -5,9 +5,9 @@ written there and nowhere else; modelDescription.xml, the accessors, the documen
 **The value reference of a variable is its position in the table.**
 
     TABLE = (
-        *vector("output", "position", NED, "m", "outputs.position", "Position of CO in n"),
-        *wrench("input", "impulse", "impulse", IMPULSE, "inputs.impulse", "Cumulative impulse in b about CO"),
-        real("input", "rudder_order", "rad", "inputs.rudder_order", None, "Ordered rudder angle"),
+        *vector("output", POSITION, "m", "outputs.position", "Position of CO in n"),
+        *wrench("input", IMPULSE, IMPULSE_UNITS, "inputs.impulse", "Cumulative impulse in b about CO"),
+        real("input", RUDDER_ORDER, "rad", "inputs.rudder_order", None, "Ordered rudder angle"),
         integer("parameter", "degrees_of_freedom", "parameters.degrees_of_freedom", "3, 4 or 6", minimum=3, maximum=6),
         boolean("parameter", "hydrodynamics", "parameters.hydrodynamics", "false: the ship coasts"),
         string("parameter", "ship", "parameters.ship", "Name of a ship, or path of a TOML file"),
@@ -31,23 +31,16 @@ from typing import Literal
 from .units import UNITS
 
 __all__ = [
-    "ANGLES", "FORCE", "IMPULSE", "LINEAR", "NED", "Array", "Causality", "Kind", "Table", "Variable", "boolean",
-    "enumeration", "integer", "real", "string", "vector", "wrench",
+    "FORCE_UNITS", "IMPULSE_UNITS", "Array", "Causality", "Kind", "Table", "Variable", "boolean", "enumeration",
+    "integer", "real", "string", "vector", "wrench",
 ]  # fmt: skip
 
 Kind = Literal["Real", "Integer", "Boolean", "String", "Enumeration"]
 Causality = Literal["parameter", "input", "output"]
 Variability = Literal["fixed", "continuous", "discrete"]
 
-NED = ("north", "east", "down")
-"""Components of a vector in n."""
-LINEAR = ("surge", "sway", "heave")
-"""Components along the axes of b: forward, starboard, down."""
-ANGLES = ("roll", "pitch", "yaw")
-"""Components about the axes of b, and the angles phi, theta, psi."""
-FORCE = ("N", "N.m")
-"""Units of a force and its moment."""
-IMPULSE = ("N.s", "N.m.s")
+FORCE_UNITS = ("N", "N.m")
+IMPULSE_UNITS = ("N.s", "N.m.s")
 """Units of an impulse and its moment."""
 
 
@@ -174,8 +167,7 @@ def enumeration(
 
 def vector(
     causality: Causality,
-    name: str,
-    components: Sequence[str],
+    names: Sequence[str],
     unit: str,
     path: str,
     description: str,
@@ -184,45 +176,45 @@ def vector(
     depends_on: tuple[str, ...] | None = None,
     array: Array | None = None,
 ) -> Table:
-    """Reals name.component, in the order of the list at `path` from its entry `first` on.
+    """Reals by their full names ("position.north", ...): entries of the list at `path` from its entry `first` on.
 
-    In FMI 3.0 they are the array `name`, unless `array` says otherwise.
+    In FMI 3.0 they are the array that is called as the names begin ("position"), unless `array` says otherwise.
     """
-    within = array or Array(name, (len(components),), f"{description}: {', '.join(components)}")
+    name, components = _common_name(names)
+    within = array or Array(name, (len(names),), f"{description}: {', '.join(components)}")
     return tuple(
-        real(
-            causality, f"{name}.{part}", unit, path, first + i, f"{description}: {part}",
-            depends_on=depends_on, array=within,
-        )
-        for i, part in enumerate(components)
-    )  # fmt: skip
+        real(causality, full, unit, path, first + i, f"{description}: {part}", depends_on=depends_on, array=within)
+        for i, (full, part) in enumerate(zip(names, components, strict=True))
+    )
 
 
 def wrench(
     causality: Causality,
-    linear: str,
-    angular: str,
+    names: Sequence[str],
     units: tuple[str, str],
     path: str,
     description: str,
     *,
     depends_on: tuple[str, ...] | None = None,
 ) -> Table:
-    """Six Reals of the list at `path`: linear.surge|sway|heave, then angular.roll|pitch|yaw, in the two units (FORCE
-    or IMPULSE).
+    """Six Reals, three along and three about the axes of b: the list at `path`, in the two units.
 
-    In FMI 3.0 they are two arrays, because an array has one unit. Where both halves have one name, these are told
-    apart: NAME.force and NAME.moment, or NAME.linear and NAME.angular of an impulse.
+    In FMI 3.0 they are two arrays, because an array has one unit. Where the names of both halves begin alike, the
+    arrays are told apart: NAME.force and NAME.moment, or NAME.linear and NAME.angular of an impulse.
     """
-    names = (linear, angular)
-    if linear == angular:
-        names = (f"{linear}.force", f"{linear}.moment") if units == FORCE else (f"{linear}.linear", f"{linear}.angular")
-    halves = zip((linear, angular), names, (LINEAR, ANGLES), units, (0, 3), strict=True)
-    return tuple(
-        line
-        for name, array, components, unit, first in halves
-        for line in vector(
-            causality, name, components, unit, path, description, first=first, depends_on=depends_on,
-            array=Array(array, (3,), f"{description}: {', '.join(components)}"),
-        )
-    )  # fmt: skip
+    lines: list[Variable] = []
+    halves = ("force", "moment") if units == FORCE_UNITS else ("linear", "angular")
+    alike = _common_name(names[:3])[0] == _common_name(names[3:])[0]
+    for first, half, unit in zip((0, 3), halves, units, strict=True):
+        own = names[first : first + 3]
+        name, components = _common_name(own)
+        array = Array(f"{name}.{half}" if alike else name, (3,), f"{description}: {', '.join(components)}")
+        lines += vector(causality, own, unit, path, description, first=first, depends_on=depends_on, array=array)
+    return tuple(lines)
+
+
+def _common_name(names: Sequence[str]) -> tuple[str, tuple[str, ...]]:
+    """("position.north", "position.east") -> "position", ("north", "east")."""
+    split = [name.rpartition(".") for name in names]
+    (name,) = {begin for begin, _, _ in split}
+    return name, tuple(component for _, _, component in split)

@@ -17,10 +17,32 @@ from typing import Literal
 from xml.etree.ElementTree import Element, SubElement
 
 from ..collision.interface import contact_point_count
-from ..fmi.names import IMPULSE, ORDERS, SURROUNDINGS, named
+from ..fmi.names import (
+    APPLIED,
+    ATTITUDE,
+    CURRENT,
+    FORCE,
+    HULL,
+    IMPACT_POINT,
+    IMPULSE,
+    MOMENT,
+    NED,
+    ORDERS,
+    POSITION,
+    POST,
+    PROPELLER,
+    RATE,
+    RUDDER,
+    VELOCITY,
+    WIND,
+    WIND_DIRECTION,
+    WIND_SPEED,
+    contact_point,
+    named,
+)
 from ..fmi.ship_collision import INTERFACE as COLLISION_INTERFACE
 from ..fmi.ship_manoeuvring import INTERFACE as SHIP_INTERFACE
-from ..fmi.variables import ANGLES, LINEAR, NED, Table
+from ..fmi.variables import Table
 
 __all__ = ["KINDS", "Group", "build_model_description", "connect_groups", "list_collision_groups", "list_ship_groups"]
 
@@ -49,37 +71,38 @@ class Group:
 
 def list_ship_groups() -> list[Group]:
     """The groups of ShipManoeuvring."""
-    forces = [("hull", "hull"), ("propeller", "propeller"), ("rudder", "rudder"), ("wind", "wind")]
+    forces = {"hull": HULL, "propeller": PROPELLER, "rudder": RUDDER, "wind": WIND}
     return [
-        *_list_ports("", "force", "moment", "velocity", "rate"),
-        Group("LinearDisplacement", "position", named("position", NED)),
-        Group("AngularDisplacement", "attitude", named("attitude", ANGLES)),
+        *_list_ports("", FORCE, MOMENT, VELOCITY, RATE),
+        Group("LinearDisplacement", "position", POSITION),
+        Group("AngularDisplacement", "attitude", ATTITUDE),
         Group("Generic", "impulse", IMPULSE),
-        Group("Generic", "impulse_applied", named("impulse_applied", (*LINEAR, *ANGLES))),
+        Group("Generic", "impulse_applied", APPLIED),
         Group("Generic", "orders", ORDERS),
-        Group("LinearVelocity", "current", SURROUNDINGS[:2]),
-        Group("Generic", "wind", SURROUNDINGS[2:]),
-        *(Group("Force", f"{origin}.force", named(origin, LINEAR)) for origin, _ in forces),
-        *(Group("Torque", f"{origin}.moment", named(origin, ANGLES)) for origin, _ in forces),
+        Group("LinearVelocity", "current", CURRENT),
+        Group("Generic", "wind", (WIND_SPEED, WIND_DIRECTION)),
+        *(Group("Force", f"{origin}.force", wrench[:3]) for origin, wrench in forces.items()),
+        *(Group("Torque", f"{origin}.moment", wrench[3:]) for origin, wrench in forces.items()),
     ]
 
 
 def list_collision_groups(ships: Sequence[str]) -> list[Group]:
     """The groups of ShipCollision built for these ships."""
-    groups = [Group("LinearDisplacement", "impact", named("impact", NED))]
+    groups = [Group("LinearDisplacement", "impact", IMPACT_POINT)]
     for k in range(1, contact_point_count(len(ships)) + 1):
-        groups.append(Group("LinearDisplacement", f"contact[{k}]", named(f"contact[{k}]", NED)))
+        groups.append(Group("LinearDisplacement", contact_point(k), named(contact_point(k), NED)))
     for s in ships:
+        post = f"{s}.{POST}"
         groups += [
-            *_list_ports(f"{s}.", f"{s}.force", f"{s}.moment", f"{s}.velocity", f"{s}.rate"),
-            Group("LinearDisplacement", f"{s}.position", named(f"{s}.position", NED)),
-            Group("AngularDisplacement", f"{s}.attitude", named(f"{s}.attitude", ANGLES)),
+            *_list_ports(f"{s}.", *(named(s, group) for group in (FORCE, MOMENT, VELOCITY, RATE))),
+            Group("LinearDisplacement", f"{s}.position", named(s, POSITION)),
+            Group("AngularDisplacement", f"{s}.attitude", named(s, ATTITUDE)),
             Group("Generic", f"{s}.impulse", named(s, IMPULSE)),
-            Group("Generic", f"{s}.impulse_applied", named(f"{s}.impulse_applied", (*LINEAR, *ANGLES))),
-            Group("LinearDisplacement", f"{s}.post.position", named(f"{s}.post.position", NED)),
-            Group("AngularDisplacement", f"{s}.post.attitude", named(f"{s}.post.attitude", ANGLES)),
-            Group("LinearVelocity", f"{s}.post.velocity", named(f"{s}.post.velocity", LINEAR)),
-            Group("AngularVelocity", f"{s}.post.rate", named(f"{s}.post.rate", ANGLES)),
+            Group("Generic", f"{s}.impulse_applied", named(s, APPLIED)),
+            Group("LinearDisplacement", f"{post}.position", named(post, POSITION)),
+            Group("AngularDisplacement", f"{post}.attitude", named(post, ATTITUDE)),
+            Group("LinearVelocity", f"{post}.velocity", named(post, VELOCITY)),
+            Group("AngularVelocity", f"{post}.rate", named(post, RATE)),
         ]
     return groups
 
@@ -106,13 +129,15 @@ def build_model_description(model: str, ships: tuple[str, ...]) -> Element:
     return root
 
 
-def _list_ports(prefix: str, force: str, moment: str, velocity: str, rate: str) -> list[Group]:
+def _list_ports(
+    prefix: str, force: tuple[str, ...], moment: tuple[str, ...], velocity: tuple[str, ...], rate: tuple[str, ...]
+) -> list[Group]:
     return [
         Group("LinearMechanicalPort", f"{prefix}linear_port", groups=(
-            Group("Force", force, named(force, LINEAR)), Group("LinearVelocity", velocity, named(velocity, LINEAR)),
+            Group("Force", f"{prefix}force", force), Group("LinearVelocity", f"{prefix}velocity", velocity),
         )),
         Group("AngularMechanicalPort", f"{prefix}angular_port", groups=(
-            Group("Torque", moment, named(moment, ANGLES)), Group("AngularVelocity", rate, named(rate, ANGLES)),
+            Group("Torque", f"{prefix}moment", moment), Group("AngularVelocity", f"{prefix}rate", rate),
         )),
     ]  # fmt: skip
 

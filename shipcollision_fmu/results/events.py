@@ -28,7 +28,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..collision.collisions import heading_angle
-from ..fmi.names import STATE, named
+from ..fmi.names import AXES, NED, STATE, named
 from ..scenario.tables.collision import DamageTable
 from ..ship.degrees_of_freedom import free_inverse, tilted_inverse
 from ..ship.frames import Array, rotation_vector
@@ -79,7 +79,7 @@ def _collision(
     touching = rows[rows["time"] == rows["time"][0]]
     first = _strongest(touching)
     start = record.impacts.get(number) or _start(touching, record, obstacles)
-    impulse = sum((_triple(row, "impulse", _NED) for row in rows), start=np.zeros(3))
+    impulse = sum((_triple(row, "impulse", NED) for row in rows), start=np.zeros(3))
     pair = [str(first["ship_a"]), str(first["ship_b"])]
     first_point = _middle(first, start, record)
     v_a, v_b = (
@@ -108,9 +108,9 @@ def _start(touching: Rows, record: Record, obstacles: Mapping[str, float]) -> Im
     states = _states_before(touching[0], record, obstacles)
     closing = 0.0
     for row in touching:
-        v_a, v_b = (state.velocity_at(_triple(row, group, _XYZ)) for state, group in zip(states, "ab", strict=True))
-        closing = max(closing, float((v_a - v_b) @ _triple(row, "normal", _NED)))
-    n, e, d = (sum((_triple(row, None, _NED) for row in touching), start=np.zeros(3)) / len(touching)).tolist()
+        v_a, v_b = (state.velocity_at(_triple(row, group, AXES)) for state, group in zip(states, "ab", strict=True))
+        closing = max(closing, float((v_a - v_b) @ _triple(row, "normal", NED)))
+    n, e, d = (sum((_triple(row, None, NED) for row in touching), start=np.zeros(3)) / len(touching)).tolist()
     return Impact(float(touching["time"][0]), closing, heading_angle(*(state.R_nb for state in states)), (n, e, d))
 
 
@@ -165,8 +165,8 @@ def _scratch(number: int, rows: Rows) -> dict[str, Any]:
         "end": float(line[-1]["time"]),
         "first_point": _point(line[0]),
         "time": [float(row["time"]) for row in line],
-        "b_a": [_triple(row, "a", _XYZ).tolist() for row in line],
-        "b_b": [_triple(row, "b", _XYZ).tolist() for row in line],
+        "b_a": [_triple(row, "a", AXES).tolist() for row in line],
+        "b_b": [_triple(row, "b", AXES).tolist() for row in line],
     }
 
 
@@ -199,12 +199,9 @@ def _wrench(rows: Rows, name: str, R_nb: Array) -> Array:
     total = np.zeros(6)
     for row in rows:
         is_a = row["ship_a"] == name
-        P_b = R_nb.T @ _triple(row, "impulse", _NED) * (-1.0 if is_a else 1.0)
-        total += np.concatenate([P_b, np.cross(_triple(row, "a" if is_a else "b", _XYZ), P_b)])
+        P_b = R_nb.T @ _triple(row, "impulse", NED) * (-1.0 if is_a else 1.0)
+        total += np.concatenate([P_b, np.cross(_triple(row, "a" if is_a else "b", AXES), P_b)])
     return total
-
-
-_NED, _XYZ = ("north", "east", "down"), ("x", "y", "z")
 
 
 def _strongest(rows: Rows) -> Any:
@@ -213,8 +210,8 @@ def _strongest(rows: Rows) -> Any:
 
 
 def _point(row: Any) -> dict[str, list[float]]:
-    n = [float(row[axis]) for axis in _NED]
-    return {"n": n, "b_a": _triple(row, "a", _XYZ).tolist(), "b_b": _triple(row, "b", _XYZ).tolist()}
+    n = [float(row[axis]) for axis in NED]
+    return {"n": n, "b_a": _triple(row, "a", AXES).tolist(), "b_b": _triple(row, "b", AXES).tolist()}
 
 
 def _middle(row: Any, start: Impact, record: Record) -> dict[str, list[float]]:
@@ -223,7 +220,7 @@ def _middle(row: Any, start: Impact, record: Record) -> dict[str, list[float]]:
     before = _before(row, record)
     places = {}
     for body, group in ((str(row["ship_a"]), "a"), (str(row["ship_b"]), "b")):
-        places[f"b_{group}"] = _triple(row, group, _XYZ).tolist()
+        places[f"b_{group}"] = _triple(row, group, AXES).tolist()
         if f"{body}.{STATE[0]}" in before.dtype.names:
             state = _state(before, body)
             since = start.time - float(before["time"])

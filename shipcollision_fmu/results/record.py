@@ -7,19 +7,14 @@ from typing import Any
 
 import numpy.typing as npt
 
-from ..fmi.names import named
-from ..fmi.variables import NED
+from ..fmi.names import CONTACT_REALS, ENERGY
 from ..ship.frames import Array
 
 __all__ = ["CONTACT_COLUMNS", "SIGNALS", "Impact", "Record"]
 
-_XYZ = ("x", "y", "z")
-CONTACT_COLUMNS = (
-    *NED, *named("normal", NED), "gap", "impulse_normal", "impulse_tangential", *named("impulse", NED), "energy",
-    *named("a", _XYZ), *named("b", _XYZ),
-)  # fmt: skip
-"""Real columns of contacts.csv: the point and the normal (from ship_a to ship_b) in n, the impulse on ship_b in n."""
-SIGNALS = ("clearance", "energy.dissipated", "energy.normal", "energy.tangential")
+CONTACT_COLUMNS = CONTACT_REALS
+"""Real columns of contacts.csv."""
+SIGNALS = ("clearance", *ENERGY)
 """Columns of signals.csv after the time: variables of the collision FMU [m, J]."""
 
 

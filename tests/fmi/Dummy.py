@@ -5,6 +5,7 @@ from typing import Any
 
 from shipcollision_fmu.errors import InputError, StepError
 from shipcollision_fmu.fmi.interface import Interface
+from shipcollision_fmu.fmi.names import AXES, named
 from shipcollision_fmu.fmi.slave import ModelSlave
 from shipcollision_fmu.fmi.variables import boolean, enumeration, integer, real, string, vector
 
@@ -79,12 +80,12 @@ class Model:
 
 
 TABLE = (
-    *vector("output", "place", ("x", "y", "z"), "m", "outputs.place", "Place", depends_on=("gain",)),
+    *vector("output", named("place", AXES), "m", "outputs.place", "Place", depends_on=("gain",)),
     integer("output", "steps", "outputs.steps", "Steps made", depends_on=("count",)),
     boolean("output", "moving", "outputs.moving", "Whether it has moved", depends_on=()),
     string("output", "said", "outputs.said", "What it says"),
     enumeration("output", "phase", ("rest", "roll", "slide"), "outputs.phase", "How it moves"),
-    *vector("input", "push", ("x", "y", "z"), "m/s", "inputs.push", "Push"),
+    *vector("input", named("push", AXES), "m/s", "inputs.push", "Push"),
     integer("input", "number", "inputs.number", "A number"),
     boolean("input", "open", "inputs.open", "Open"),
     string("input", "word", "inputs.word", "A word & more"),

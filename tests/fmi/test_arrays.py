@@ -7,9 +7,10 @@ from dataclasses import replace
 import pytest
 
 from shipcollision_fmu.fmi.arrays import Layout, arrays
+from shipcollision_fmu.fmi.names import ANGLES, AXES, FORCE, HULL, LINEAR, MOMENT, named
 from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
-from shipcollision_fmu.fmi.variables import FORCE, IMPULSE, Array, real, vector, wrench
+from shipcollision_fmu.fmi.variables import FORCE_UNITS, IMPULSE_UNITS, Array, real, vector, wrench
 
 TABLES = (COLLISION.table(("own", "target", "third")), MANOEUVRING.table(()))
 
@@ -45,8 +46,10 @@ def test_vectors_and_blocks_become_arrays() -> None:
 
 
 def test_halves_of_a_wrench_are_told_apart() -> None:
-    lines = wrench("output", "hull", "hull", FORCE, "o", "") + wrench("output", "dent", "dent", IMPULSE, "o", "")
-    lines += wrench("input", "force", "moment", FORCE, "i", "")
+    lines = wrench("output", HULL, FORCE_UNITS, "o", "") + wrench(
+        "output", named("dent", (*LINEAR, *ANGLES)), IMPULSE_UNITS, "o", ""
+    )
+    lines += wrench("input", (*FORCE, *MOMENT), FORCE_UNITS, "i", "")
     assert [(array.name, array.line.unit) for array in arrays(lines)] == [
         ("hull.force", "N"), ("hull.moment", "N.m"), ("dent.linear", "N.s"), ("dent.angular", "N.m.s"),
         ("force", "N"), ("moment", "N.m"),
@@ -62,7 +65,7 @@ def test_a_layout_finds_a_scalar() -> None:
 
 
 def test_what_does_not_belong_together_is_refused() -> None:
-    xyz = vector("input", "a", ("x", "y", "z"), "m", "p", "")
+    xyz = vector("input", named("a", AXES), "m", "p", "")
     with pytest.raises(ValueError, match=r"array a: a\.z is not of the same kind as a\.x"):
         arrays((*xyz[:2], replace(xyz[2], unit="s")))
     with pytest.raises(ValueError, match=r"array a has shape \(3,\) and 2 elements"):

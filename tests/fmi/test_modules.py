@@ -156,10 +156,10 @@ for folder in folders:
 
 
 LATER = {
-    "fmi/names.py": "the names of variables, for masters",
+    "ship/kinetic_energy.py": "of the ship, whose room travels whole; summaries and pages ask for it",
     "ship/hull/mesh.py": "imported with the first ship whose hull is a mesh file",
 }
-"""Files that an FMU needs although a run does not import them, and why."""
+"""Files that an FMU carries although its first step does not import them, and why."""
 
 
 def test_an_fmu_carries_what_its_slaves_import_and_nothing_else(real_unpacked: dict[tuple[str, int], Path]) -> None:

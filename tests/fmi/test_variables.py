@@ -7,25 +7,37 @@ from typing import Any
 
 import pytest
 
+from shipcollision_fmu.fmi.names import (
+    APPLIED,
+    CONTACT_INTEGERS,
+    CONTACT_REALS,
+    ENERGY,
+    FORCE,
+    MOMENT,
+    POSITION,
+    contact_point,
+    named,
+)
+from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
 from shipcollision_fmu.fmi.units import UNITS
-from shipcollision_fmu.fmi.variables import FORCE, IMPULSE, NED, Variable, enumeration, real, vector, wrench
+from shipcollision_fmu.fmi.variables import FORCE_UNITS, IMPULSE_UNITS, Variable, enumeration, real, vector, wrench
 
 
 def test_a_vector_is_its_components_in_order() -> None:
-    lines = vector("output", "own.position", NED, "m", "outputs.ships.0.position", "CO in n")
+    lines = vector("output", named("own", POSITION), "m", "outputs.ships.0.position", "CO in n")
     assert [line.name for line in lines] == ["own.position.north", "own.position.east", "own.position.down"]
     assert [line.index for line in lines] == [0, 1, 2]
     assert [line.description for line in lines] == ["CO in n: north", "CO in n: east", "CO in n: down"]
 
 
 def test_a_wrench_has_the_linear_part_first() -> None:
-    lines = wrench("input", "force", "moment", FORCE, "inputs.force", "External force")
+    lines = wrench("input", (*FORCE, *MOMENT), FORCE_UNITS, "inputs.force", "External force")
     assert [line.name for line in lines] == [
         "force.surge", "force.sway", "force.heave", "moment.roll", "moment.pitch", "moment.yaw",
     ]  # fmt: skip
     assert [line.unit for line in lines] == ["N"] * 3 + ["N.m"] * 3
     assert [line.index for line in lines] == [0, 1, 2, 3, 4, 5]
-    assert [line.unit for line in wrench("input", "p", "p", IMPULSE, "x", "")] == ["N.s"] * 3 + ["N.m.s"] * 3
+    assert [line.unit for line in wrench("input", APPLIED, IMPULSE_UNITS, "x", "")] == ["N.s"] * 3 + ["N.m.s"] * 3
 
 
 @pytest.mark.parametrize(
@@ -86,3 +98,12 @@ def test_display_units() -> None:
     assert shown("rad/s", pi) == pytest.approx(180.0, rel=1e-15)
     assert shown("rev/s", 1.5) == 90.0
     assert UNITS["rev/s"].factor == 2.0 * pi
+
+
+def test_the_names_of_contacts_are_those_of_the_table() -> None:
+    """Recorders read these groups, each up to the contact points in use, in the order of their names."""
+    table = COLLISION.table(("own", "target"))
+    for kind, names in (("Real", CONTACT_REALS), ("Integer", CONTACT_INTEGERS)):
+        found = [line.name for line in table if line.kind == kind and line.name.startswith("contact[2].")]
+        assert sorted(found) == sorted(named(contact_point(2), names))
+    assert set(ENERGY) <= {line.name for line in table}

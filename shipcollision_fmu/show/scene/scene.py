@@ -23,7 +23,7 @@ from typing import Literal
 
 import numpy as np
 
-from ...fmi.names import STATE
+from ...fmi.names import ATTITUDE, POSITION, STATE
 from ...ship.frames import Array
 from .effects import Effect, effects_of
 from .fittings import Fitting, fittings_of
@@ -193,8 +193,8 @@ def _surface(vertices: list[tuple[float, float, float]], triangles: list[tuple[i
 
 def _track(times: Array, states: Array, reach: float) -> Track:
     """The thinned track. A quaternion that is off by dq turns the hull by 2 |dq|, and moves it by 2 |dq| reach."""
-    position = states[:, [STATE.index(f"position.{axis}") for axis in ("north", "east", "down")]]
-    quaternion = quaternions(states[:, [STATE.index(f"attitude.{angle}") for angle in ("roll", "pitch", "yaw")]])
+    position = states[:, [STATE.index(variable) for variable in POSITION]]
+    quaternion = quaternions(states[:, [STATE.index(variable) for variable in ATTITUDE]])
     rows = kept(times, np.hstack([position, 2.0 * reach * quaternion]), POSE_ERROR / np.sqrt(2.0))
     return Track(times[rows], position[rows], quaternion[rows])
 
