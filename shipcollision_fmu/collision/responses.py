@@ -21,10 +21,10 @@ from .dynamics.contact_frame import contact_axes
 from .dynamics.delassus import contact_jacobian, delassus
 from .geometry.bullet import BulletBody
 from .geometry.detection import Detector, LastNormals
-from .solvers.impact_process import solve_slip_path
-from .solvers.poisson_restitution import solve_impact
-from .solvers.resultant_contact import resultant_contact
-from .solvers.warm_start import WarmStarts, expected, remember
+from .solvers.impact_process import solve_impact_process
+from .solvers.poisson_restitution import solve_poisson_impact
+from .solvers.resultant_contact import reduce_to_resultant
+from .solvers.warm_start import WarmStarts, guess_impulses, keep_impulses
 
 __all__ = ["RESPONSES", "Answer", "ContactProblem", "respond_bullet", "respond_closed_form", "respond_pgs"]
 
@@ -75,12 +75,12 @@ def respond_pgs(problem: ContactProblem) -> Answer:
     if velocity[0::3].min() >= -AT_REST:  # touching, but parting, or stopped in the substep before
         return Answer([Impulse(c, np.zeros(3)) for c in contacts])
     local = np.vstack([axis @ G[3 * i : 3 * i + 3] for i, axis in enumerate(axes)])
-    solution = solve_impact(
+    solution = solve_poisson_impact(
         delassus(local, ships, states), velocity, problem.friction, problem.restitution,
-        expected(contacts, axes, problem.warm),
+        guess_impulses(contacts, axes, problem.warm),
     )  # fmt: skip
     impulses = [Impulse(c, axis.T @ P) for c, axis, P in zip(contacts, axes, solution.P, strict=True)]
-    remember(impulses, problem.warm)
+    keep_impulses(impulses, problem.warm)
     return Answer(impulses, solution.residual, solution.sweeps)
 
 
@@ -93,14 +93,14 @@ def respond_closed_form(problem: ContactProblem) -> Answer:
     states, impulses = list(problem.states), []
     for a, b in problem.pairs:
         contacts = problem.detector.contacts(a, b, states, problem.last_normals)
-        contact = resultant_contact(contacts, states) if contacts else None
+        contact = reduce_to_resultant(contacts, states) if contacts else None
         if contact is None:  # apart, or touching but parting
             impulses += [Impulse(c, np.zeros(3)) for c in contacts]
             continue
         axis = contact_axes(contact.normal)
         G, ships = contact_jacobian([contact])
         W = delassus(axis @ G, ships, states)
-        path = solve_slip_path(W, axis @ contact_velocity(contact, states), problem.friction, problem.restitution)
+        path = solve_impact_process(W, axis @ contact_velocity(contact, states), problem.friction, problem.restitution)
         P = axis.T @ path.P
         _apply_to_states(contact, P, states)
         impulses.append(Impulse(contact, P))

@@ -9,7 +9,7 @@ import pytest
 
 from shipcollision_fmu.collision.dynamics.body_state import BodyState
 from shipcollision_fmu.collision.dynamics.contact import contact_velocity, make_contact
-from shipcollision_fmu.collision.solvers.resultant_contact import resultant_contact
+from shipcollision_fmu.collision.solvers.resultant_contact import reduce_to_resultant
 from shipcollision_fmu.ship.degrees_of_freedom import free_inverse
 from shipcollision_fmu.ship.loading.library import load_ship
 from tests.collision.conftest import BOX, World
@@ -110,7 +110,7 @@ def face(states: list[BodyState], ends: tuple[float, ...]) -> list:
 
 def test_sides_that_meet_squarely_touch_in_the_middle() -> None:
     states = box_against_box((0, 1, 0, 0, 0, 0), (0, 0, 0, 0, 0, 0))
-    contact = resultant_contact(face(states, (-100.0, 100.0)), states)
+    contact = reduce_to_resultant(face(states, (-100.0, 100.0)), states)
     assert contact is not None
     r_g = load_ship("kvlcc2").M[1, 5] / load_ship("kvlcc2").M[1, 1]  # through both centres of sway inertia
     np.testing.assert_allclose(contact.point, [r_g, 30.0, 1.0], atol=1e-6)
@@ -120,7 +120,7 @@ def test_sides_that_meet_squarely_touch_in_the_middle() -> None:
 
 def test_a_turning_side_touches_at_its_end() -> None:
     states = box_against_box((0, 0.1, 0, 0, 0, 0.02), (0, 0, 0, 0, 0, 0))
-    contact = resultant_contact(face(states, (-100.0, 20.0, 100.0)), states)
+    contact = reduce_to_resultant(face(states, (-100.0, 20.0, 100.0)), states)
     assert contact is not None
     np.testing.assert_allclose(contact.point, [100.0, 30.0, 1.0], atol=1e-6)
 
@@ -131,7 +131,7 @@ def test_the_frictionless_resultant_leaves_no_contact_approaching() -> None:
         nus = [(rng.normal(), rng.normal(), 0, 0, 0, 0.02 * rng.normal()) for _ in range(2)]
         states = box_against_box(*nus)
         contacts = face(states, tuple(rng.uniform(-150.0, 150.0, size=3)))
-        contact = resultant_contact(contacts, states)
+        contact = reduce_to_resultant(contacts, states)
         if contact is None:
             assert min(contact_velocity(c, states)[1] for c in contacts) >= 0.0
             continue
@@ -146,7 +146,7 @@ def test_the_frictionless_resultant_leaves_no_contact_approaching() -> None:
 
 def test_no_approach_no_contact_and_one_contact_is_itself() -> None:
     parting = box_against_box((0, -1, 0, 0, 0, 0), (0, 0, 0, 0, 0, 0))
-    assert resultant_contact(face(parting, (-10.0, 10.0)), parting) is None
+    assert reduce_to_resultant(face(parting, (-10.0, 10.0)), parting) is None
     closing = box_against_box((0, 1, 0, 0, 0, 0), (0, 0, 0, 0, 0, 0))
     (only,) = face(closing, (40.0,))
-    assert resultant_contact([only], closing) is only
+    assert reduce_to_resultant([only], closing) is only

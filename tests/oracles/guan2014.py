@@ -39,11 +39,11 @@ from math import copysign, cos, inf, sin
 
 from tests.oracles.newton_impact import STILL
 
-__all__ = ["FourDofImpact", "FourDofShip", "four_dof_impact"]
+__all__ = ["GuanImpact", "GuanShip", "solve_guan_impact"]
 
 
 @dataclass(frozen=True)
-class FourDofShip:
+class GuanShip:
     """A ship at impact. M_x, M_y [kg], J_x, J_z [kg m2]: with added mass, math.inf for what cannot move.
 
     x, y: centre of gravity [m]; h: height of the contact above it [m]; u, v: surge, sway [m/s]; p, r: roll and yaw rate
@@ -64,7 +64,7 @@ class FourDofShip:
 
 
 @dataclass(frozen=True)
-class FourDofImpact:
+class GuanImpact:
     """What the impact makes: I_xi, I_eta [N s]; W_nn, W_tt, W_nt [1/kg]; the ships after; stuck or slid.
 
     Closing and tangential speed (A less B) before (0) and after (f) [m/s]; impulse ratio I_eta/I_xi at stick; energy
@@ -81,16 +81,16 @@ class FourDofImpact:
     xi_f: float
     eta_f: float
     stick_ratio: float
-    A: FourDofShip
-    B: FourDofShip
+    A: GuanShip
+    B: GuanShip
     E_xi: float
     E_eta: float
     stuck: bool
 
 
-def four_dof_impact(
-    A: FourDofShip, B: FourDofShip, x_C: float, y_C: float, alpha: float, beta: float, mu: float, e: float
-) -> FourDofImpact:
+def solve_guan_impact(
+    A: GuanShip, B: GuanShip, x_C: float, y_C: float, alpha: float, beta: float, mu: float, e: float
+) -> GuanImpact:
     """The impact at (x_C, y_C) [m] with the angles alpha, beta [rad]; guards against nothing (it is an oracle).
 
     The contact must be closing (xi_0 > 0).
@@ -145,6 +145,6 @@ def four_dof_impact(
     xi_f = xi_0 - W_nn * I_xi - W_nt * I_eta
     eta_f = eta_0 - W_nt * I_xi - W_tt * I_eta
     E_xi, E_eta = I_xi * (xi_0 + xi_f) / 2, I_eta * (eta_0 + eta_f) / 2
-    return FourDofImpact(
+    return GuanImpact(
         I_xi, I_eta, W_nn, W_tt, W_nt, xi_0, eta_0, xi_f, eta_f, ratio, A_f, B_f, E_xi, E_eta, stuck
     )  # fmt: skip

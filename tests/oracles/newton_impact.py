@@ -36,14 +36,14 @@ import numpy as np
 from shipcollision_fmu.errors import StepError
 from shipcollision_fmu.ship.frames import Array
 
-__all__ = ["ClosedForm", "energy_of_stick", "solve_closed_form"]
+__all__ = ["NewtonImpact", "solve_newton_impact", "stick_energy"]
 
 STILL = 1e-12
 """Slip, as a share of the approach speed, that counts as none: the direction of less is chance, made by rounding."""
 
 
 @dataclass(frozen=True, eq=False)
-class ClosedForm:
+class NewtonImpact:
     """An impact. P (d,) [N s] on ship b in contact axes (normal first); after (d,): relative velocity [m/s].
 
     Energy lost along the normal and across it [J]; whether the contact stuck, slid, or was not approaching.
@@ -56,14 +56,14 @@ class ClosedForm:
     mode: Literal["apart", "stick", "slide"]
 
 
-def solve_closed_form(W: Array, v: Array, mu: float, e: float) -> ClosedForm:
+def solve_newton_impact(W: Array, v: Array, mu: float, e: float) -> NewtonImpact:
     """The impact of one contact. W (d, d) [1/kg] and v (d,) [m/s] in contact axes, normal first, d = 2 or 3.
 
     Raises StepError where the formula for sliding has no solution: friction would press the hulls together.
     """
     W, v = np.asarray(W, dtype=float), np.asarray(v, dtype=float)
     if v[0] >= 0.0:
-        return ClosedForm(np.zeros(len(v)), v.copy(), 0.0, 0.0, "apart")
+        return NewtonImpact(np.zeros(len(v)), v.copy(), 0.0, 0.0, "apart")
     target = v.copy()
     target[0] *= 1.0 + e
     P: Array = -np.linalg.pinv(W, 1e-12, hermitian=True) @ target
@@ -75,12 +75,12 @@ def solve_closed_form(W: Array, v: Array, mu: float, e: float) -> ClosedForm:
         if felt <= 0.0:
             raise StepError(
                 f"the closed form for sliding has no solution: W_nn - mu W_nt.D = {felt:g} 1/kg at mu = {mu:g} must be "
-                "> 0: take less friction, or follow the slip (solve_slip_path)"
+                "> 0: take less friction, or follow the slip (solve_impact_process)"
             )
         P = -float(target[0]) / felt * np.concatenate([[1.0], -mu * D])
     after = v + W @ P
     mean = 0.5 * (v + after)
-    return ClosedForm(P, after, -float(P[0] * mean[0]), -float(P[1:] @ mean[1:]), mode)
+    return NewtonImpact(P, after, -float(P[0] * mean[0]), -float(P[1:] @ mean[1:]), mode)
 
 
 def _slip_direction(W: Array, v: Array) -> Array:
@@ -90,6 +90,6 @@ def _slip_direction(W: Array, v: Array) -> Array:
     return slip / size if size > 0.0 else np.zeros(len(v) - 1)
 
 
-def energy_of_stick(W: Array, v: Array) -> float:
+def stick_energy(W: Array, v: Array) -> float:
     """1/2 v' W^-1 v [J]: the energy of the relative motion at the contact, all of which a plastic stick takes."""
     return float(0.5 * v @ np.linalg.pinv(W, 1e-12, hermitian=True) @ v)

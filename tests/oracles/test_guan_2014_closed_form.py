@@ -12,7 +12,7 @@ from math import asin, atan2, cos, degrees, hypot, sin
 import numpy as np
 import pytest
 
-from tests.oracles.guan2014 import FourDofImpact, FourDofShip, four_dof_impact
+from tests.oracles.guan2014 import GuanImpact, GuanShip, solve_guan_impact
 
 M_OWN = 170.162e6
 OWN_BEFORE = {"x": -343.2120, "y": 81.6614, "h": 0.2908, "v": (-2.8282, 4.2215, 0.0)}
@@ -67,11 +67,11 @@ TIME_OF_IMPACT = 0.478
 """[s] after the row "before": least squares of the printed positions."""
 
 
-def box(mass: float, length: float, breadth: float, **state: float) -> FourDofShip:
-    return FourDofShip(mass, mass, mass * (length**2 + breadth**2) / 12.0, float("inf"), **state)
+def box(mass: float, length: float, breadth: float, **state: float) -> GuanShip:
+    return GuanShip(mass, mass, mass * (length**2 + breadth**2) / 12.0, float("inf"), **state)
 
 
-def replayed(m_x: float = 0.0, m_y: float = 0.0, j_z: float = 0.0, mu: float = MU, e: float = E) -> FourDofImpact:
+def replayed(m_x: float = 0.0, m_y: float = 0.0, j_z: float = 0.0, mu: float = MU, e: float = E) -> GuanImpact:
     """The impact in ship A's axes; A is the own ship, B the target."""
     m_target = 0.12985 * M_OWN
     psi_A, psi_B = 2.0 * asin(OWN_BEFORE["h"]), 2.0 * asin(TARGET_BEFORE["h"])
@@ -82,15 +82,13 @@ def replayed(m_x: float = 0.0, m_y: float = 0.0, j_z: float = 0.0, mu: float = M
     local = [np.array([(p - contact) @ forward_A, (p - contact) @ port_A]) for p in at]
     A = box(M_OWN, 288.1, 44.0, x=local[0][0], y=local[0][1], u=hypot(*OWN_BEFORE["v"]))
     B = box(m_target, 263.2, 32.2, x=local[1][0], y=local[1][1], u=hypot(*TARGET_BEFORE["v"]))
-    A, B = (
-        FourDofShip(s.M_x * (1 + m_x), s.M_y * (1 + m_y), s.J_z * (1 + j_z), s.J_x, s.x, s.y, u=s.u) for s in (A, B)
-    )
+    A, B = (GuanShip(s.M_x * (1 + m_x), s.M_y * (1 + m_y), s.J_z * (1 + j_z), s.J_x, s.x, s.y, u=s.u) for s in (A, B))
     beta = psi_A - psi_B  # clockwise from A's forward axis to B's
     # The normal points into B: to B's port, n = v_B, so t = u_B and alpha = beta.
-    return four_dof_impact(A, B, 0.0, 0.0, beta, beta, mu, e)
+    return solve_guan_impact(A, B, 0.0, 0.0, beta, beta, mu, e)
 
 
-def in_the_papers_axes(ship: FourDofShip, h: float) -> tuple[float, float]:
+def in_the_papers_axes(ship: GuanShip, h: float) -> tuple[float, float]:
     psi = 2.0 * asin(h)
     return -ship.u * sin(psi) - ship.v * cos(psi), ship.u * cos(psi) - ship.v * sin(psi)
 

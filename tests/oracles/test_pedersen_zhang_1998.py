@@ -16,16 +16,16 @@ from math import copysign, cos, radians, sin
 
 import pytest
 
-from tests.oracles.guan2014 import FourDofImpact, FourDofShip, four_dof_impact
+from tests.oracles.guan2014 import GuanImpact, GuanShip, solve_guan_impact
 
 MASS, LENGTH = 4000e3, 82.5
-VESSEL = FourDofShip(
+VESSEL = GuanShip(
     M_x=1.05 * MASS, M_y=1.85 * MASS, J_z=1.21 * MASS * (0.25 * LENGTH) ** 2, J_x=float("inf"), x=0.0, y=0.0
 )  # fmt: skip
 """Their supply vessel: 82.5 m, 4000 t, added mass 0.05, 0.85, 0.21."""
 
 
-def struck(angle_deg: float, place: float, mu: float, e: float) -> FourDofImpact:
+def struck(angle_deg: float, place: float, mu: float, e: float) -> GuanImpact:
     """A's stem, at 4.5 m/s, hits the side of B, also at 4.5 m/s, at `place` [m] ahead of B's centre; angle of headings.
 
     A's centre lies half a length behind the contact, B's off it along B's axis and half her breadth across.
@@ -39,7 +39,7 @@ def struck(angle_deg: float, place: float, mu: float, e: float) -> FourDofImpact
     if sin(alpha) < 0.0:
         B = replace(B, x=-(place * u_B[0] - side * v_B[0]), y=-(place * u_B[1] - side * v_B[1]))
         alpha = beta
-    return four_dof_impact(A, B, 0.0, 0.0, alpha, beta, mu, e)
+    return solve_guan_impact(A, B, 0.0, 0.0, alpha, beta, mu, e)
 
 
 GRID = [(angle, place) for angle in (30.0, 60.0, 90.0, 120.0, 150.0) for place in (-30.0, -15.0, 0.0, 15.0, 30.0)]

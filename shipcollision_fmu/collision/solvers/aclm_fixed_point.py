@@ -21,7 +21,7 @@ import numpy as np
 from ...ship.frames import Array
 from .contact_law import law_residual
 
-__all__ = ["nearer_by_sliding_speed"]
+__all__ = ["solve_aclm"]
 
 TRIALS = 10
 """Sliding speeds tried."""
@@ -33,7 +33,7 @@ CLOSER = 1e-3
 """A step that changes velocities by less than this share of what the law was missed by before ends a trial."""
 
 
-def nearer_by_sliding_speed(W: Array, v: Array, mu: float, P: Array, wanted: float) -> Array:
+def solve_aclm(W: Array, v: Array, mu: float, P: Array, wanted: float) -> Array:
     """Impulses (k, 3) after some trials from P (k, 3), that miss the law by less, mostly: by `wanted` [m/s] if they
     can. W (3k, 3k), v (3k,)."""
     steepest = float(np.linalg.eigvalsh(W)[-1])

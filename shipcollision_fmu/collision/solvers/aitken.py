@@ -8,13 +8,13 @@ Reference: Irons and Tuck (1969), Int. J. Numer. Methods Eng. 1:275-277.
 
 from __future__ import annotations
 
-__all__ = ["Extrapolation"]
+__all__ = ["Aitken"]
 
 SLOWEST = 0.98
 """Ratio of a sweep's step to that of the one before up to which the rest of the sequence is foreseen."""
 
 
-class Extrapolation:
+class Aitken:
     """Where a sequence of sweeps is going, from how its last step compares with the one before.
 
     What it gives is only a start for the next sweep, which puts every contact back into its law.

@@ -25,7 +25,7 @@ import numpy as np
 from ...ship.frames import Array
 from .contact_law import law_residual
 
-__all__ = ["newton"]
+__all__ = ["solve_alart_curnier"]
 
 SOFTNESS = tuple(10.0**-k for k in range(2, 14))
 """Values of s, one after the other."""
@@ -34,7 +34,7 @@ STEPS = 15
 """Newton's steps for each, at most."""
 
 
-def newton(W: Array, v: Array, mu: float, P: Array, wanted: float) -> Array:
+def solve_alart_curnier(W: Array, v: Array, mu: float, P: Array, wanted: float) -> Array:
     """Impulses (k, 3) from a first guess P (k, 3): such that the law is missed by at most `wanted` [m/s], or the best
     found. W (3k, 3k), v (3k,)."""
     D = np.diag(W)

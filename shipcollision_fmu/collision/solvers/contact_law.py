@@ -18,10 +18,10 @@ import numpy as np
 
 from ...ship.frames import Array
 
-__all__ = ["Block", "friction_in_disc", "law_residual"]
+__all__ = ["ContactBlock", "law_residual", "solve_friction_in_disc"]
 
 
-class Block(NamedTuple):
+class ContactBlock(NamedTuple):
     """W of one contact in its principal tangents [1/kg]; h_i = 1 / a_i, zero where the ships cannot move."""
 
     W_nn: float
@@ -33,13 +33,13 @@ class Block(NamedTuple):
     h_2: float
 
     @classmethod
-    def of(cls, W: Array) -> Block:
+    def of(cls, W: Array) -> ContactBlock:
         """From W (3, 3) whose tangents are principal already, with exact zeros where the ships cannot move."""
         W_nn, w_1, w_2, a_1, a_2 = (float(x) for x in (W[0, 0], W[0, 1], W[0, 2], W[1, 1], W[2, 2]))
         return cls(W_nn, w_1, w_2, a_1, a_2, 1.0 / a_1 if a_1 > 0.0 else 0.0, 1.0 / a_2 if a_2 > 0.0 else 0.0)
 
 
-def friction_in_disc(W: Block, v_1: float, v_2: float, radius: float) -> tuple[float, float]:
+def solve_friction_in_disc(W: ContactBlock, v_1: float, v_2: float, radius: float) -> tuple[float, float]:
     """Friction (P_1, P_2) in a disc [N s] that holds the slip v if it can, and else takes most energy from it."""
     size = hypot(v_1, v_2)
     if size == 0.0 or radius <= 0.0:

@@ -13,8 +13,8 @@ on a residual.
 
     turn every contact's tangents to the principal axes of its own W_tt
     start from the impulses of the substep before, scaled to take most energy (warm start)
-    sweep over the contacts until none changes its velocity by more than RESIDUAL of the approach; sweeps that slow down
-    steadily are extrapolated (aitken.py)
+    sweep over the contacts until none changes its velocity by more than SWEEP_TOLERANCE of the approach; sweeps that
+    slow down steadily are extrapolated (aitken.py)
     sweeps that do not get there in PATIENCE are followed by Newton's method on all contacts at once (alart_curnier.py),
     and where that fails, by a sequence of convex problems (aclm_fixed_point.py), now and then with Newton's method
     measure what is left by the law itself: Solution.residual
@@ -32,15 +32,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...ship.frames import Array
-from .aclm_fixed_point import nearer_by_sliding_speed
-from .aitken import Extrapolation
-from .alart_curnier import newton
-from .contact_law import Block, law_residual
-from .one_contact import solve_contact
+from .aclm_fixed_point import solve_aclm
+from .aitken import Aitken
+from .alart_curnier import solve_alart_curnier
+from .contact_law import ContactBlock, law_residual
+from .one_contact import solve_one_contact
 
-__all__ = ["RESIDUAL", "Solution", "principal_axes", "solve_pgs", "without_rounding"]
+__all__ = ["SWEEP_TOLERANCE", "Solution", "clear_rounding", "principal_axes", "solve_gauss_seidel"]
 
-RESIDUAL = 1e-11
+SWEEP_TOLERANCE = 1e-11
 """Change of a contact's velocity in a sweep, in units of the largest approach speed, at which the sweeps end."""
 
 PATIENCE = 60
@@ -63,7 +63,7 @@ class Solution:
     sweeps: int
 
 
-def solve_pgs(W: Array, v: Array, mu: float, start: Array | None = None) -> Solution:
+def solve_gauss_seidel(W: Array, v: Array, mu: float, start: Array | None = None) -> Solution:
     """Impulses of k contacts in a plastic impact. W (3k, 3k) [1/kg] and v (3k,) [m/s] in contact axes, per contact
     (normal, t1, t2).
 
@@ -76,11 +76,11 @@ def solve_pgs(W: Array, v: Array, mu: float, start: Array | None = None) -> Solu
         return Solution(np.zeros((k, 3)), 0.0, 0)
     T = principal_axes(W)
     W_p, v_p = T @ W @ T.T, T @ v
-    without_rounding(W_p, v_p)
-    blocks = [Block.of(W_p[i : i + 3, i : i + 3]) for i in range(0, 3 * k, 3)]
+    clear_rounding(W_p, v_p)
+    blocks = [ContactBlock.of(W_p[i : i + 3, i : i + 3]) for i in range(0, 3 * k, 3)]
     if k == 1:
         v_n, v_1, v_2 = v_p.tolist()
-        P_p, sweeps = np.array([solve_contact(blocks[0], (v_n, v_1, v_2), mu)[0]]), 1
+        P_p, sweeps = np.array([solve_one_contact(blocks[0], (v_n, v_1, v_2), mu)[0]]), 1
     else:
         P_p, sweeps = _swept(W_p, v_p, mu, blocks, scale, _scaled(W, v, start, T))
     return Solution((P_p.ravel() @ T).reshape(k, 3), law_residual(W_p, v_p, mu, P_p) / scale, sweeps)
@@ -97,7 +97,7 @@ def principal_axes(W: Array) -> Array:
     return T
 
 
-def without_rounding(W: Array, v: Array) -> None:
+def clear_rounding(W: Array, v: Array) -> None:
     """Exact zeros, in place, for the tangents along which neither ship can move."""
     largest = float(np.diag(W).max())
     for n in range(len(v)):
@@ -116,14 +116,14 @@ def _scaled(W: Array, v: Array, start: Array | None, T: Array) -> Array:
     return (T @ (share * P)).reshape(-1, 3) if np.isfinite(share) else np.zeros((len(v) // 3, 3))
 
 
-def _swept(W: Array, v: Array, mu: float, blocks: list[Block], scale: float, start: Array) -> tuple[Array, int]:
+def _swept(W: Array, v: Array, mu: float, blocks: list[ContactBlock], scale: float, start: Array) -> tuple[Array, int]:
     """Impulses (k, 3) and the sweeps taken."""
     rows, before = W.tolist(), v.tolist()
     contacts = range(len(blocks))
     P: list[float] = start.ravel().tolist()
     angles: list[float | None] = [None] * len(blocks)
-    sweeps, wanted = 0, RESIDUAL * scale
-    ahead = Extrapolation()
+    sweeps, wanted = 0, SWEEP_TOLERANCE * scale
+    ahead = Aitken()
     while True:
         sweeps, change, last = sweeps + 1, 0.0, P[:]
         for i in contacts:
@@ -140,7 +140,7 @@ def _swept(W: Array, v: Array, mu: float, blocks: list[Block], scale: float, sta
             f -= W_i.W_nn * p + W_i.w_1 * p_1 + W_i.w_2 * p_2
             f_1 -= W_i.w_1 * p + W_i.a_1 * p_1
             f_2 -= W_i.w_2 * p + W_i.a_2 * p_2
-            new, angles[i] = solve_contact(W_i, (f, f_1, f_2), mu, angles[i])
+            new, angles[i] = solve_one_contact(W_i, (f, f_1, f_2), mu, angles[i])
             P[n : n + 3] = new
             d, d_1, d_2 = new[0] - p, new[1] - p_1, new[2] - p_2
             change = max(
@@ -158,13 +158,13 @@ def _swept(W: Array, v: Array, mu: float, blocks: list[Block], scale: float, sta
 
 def _all_at_once(W: Array, v: Array, mu: float, P: Array, wanted: float) -> Array:
     """Impulses (k, 3) by the methods that take all contacts at once: the first that get there, or the best."""
-    best = newton(W, v, mu, P, wanted)
+    best = solve_alart_curnier(W, v, mu, P, wanted)
     least, P = law_residual(W, v, mu, best), np.zeros_like(P)
     for _ in range(ROUNDS):
         if least <= wanted:
             break
-        P = nearer_by_sliding_speed(W, v, mu, P, wanted)
-        tried = newton(W, v, mu, P, wanted)
+        P = solve_aclm(W, v, mu, P, wanted)
+        tried = solve_alart_curnier(W, v, mu, P, wanted)
         if (missed := law_residual(W, v, mu, tried)) < least:
             best, least = tried, missed
     return best

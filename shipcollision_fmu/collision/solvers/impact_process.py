@@ -38,9 +38,9 @@ import numpy as np
 
 from ...errors import StepError
 from ...ship.frames import Array
-from .slip_flow import Curve, SlipFlow
+from .slip_flow import SlipFlow, Stretch
 
-__all__ = ["SlipPath", "solve_slip_path"]
+__all__ = ["ImpactProcess", "solve_impact_process"]
 
 STILL = 1e-14
 """Slip, in units of the approach speed, that counts as none: rounding."""
@@ -59,11 +59,11 @@ MAX_STRETCHES = 10_000
 """Bound on the stretches of a turning slip. It is met only where two settled directions all but coincide; the slip then
 goes straight on, as it very nearly does anyway."""
 
-Ending = Literal["apart", "slip", "stick", "again"]
+Ending = Literal["apart", "slip", "stick", "reslip"]
 
 
 @dataclass(frozen=True, eq=False)
-class SlipPath:
+class ImpactProcess:
     """An impact. P (d,) [N s] on ship b in contact axes (normal first); after (d,): relative velocity [m/s].
 
     Energy lost along the normal and to friction [J]; how it ended: apart (there was no approach), slip (it never
@@ -77,7 +77,7 @@ class SlipPath:
     ending: Ending
 
 
-def solve_slip_path(W: Array, v: Array, mu: float, e: float) -> SlipPath:
+def solve_impact_process(W: Array, v: Array, mu: float, e: float) -> ImpactProcess:
     """The impact of one contact. W (d, d) [1/kg] and v (d,) [m/s] in contact axes, normal first, d = 2 or 3.
 
     v is of ship b relative to ship a, its normal part negative on approach. mu >= 0; 0 <= e <= 1.
@@ -86,7 +86,7 @@ def solve_slip_path(W: Array, v: Array, mu: float, e: float) -> SlipPath:
     W, v = np.asarray(W, dtype=float), np.asarray(v, dtype=float)
     d = len(v)
     if v[0] >= -REST:
-        return SlipPath(np.zeros(d), v.copy(), 0.0, 0.0, "apart")
+        return ImpactProcess(np.zeros(d), v.copy(), 0.0, 0.0, "apart")
     speed, W_nn = -float(v[0]), float(W[0, 0])
     if W_nn <= 0.0:
         raise StepError(f"W_nn = {W_nn:g} 1/kg at a contact must be > 0: neither ship can move along the normal")
@@ -101,7 +101,7 @@ def solve_slip_path(W: Array, v: Array, mu: float, e: float) -> SlipPath:
     ending = _followed(impact)
     P = np.concatenate([[impact.P[0]], axes @ impact.P[1:d]]) * (speed / W_nn)
     unit = speed * speed / W_nn
-    return SlipPath(P, v + W @ P, impact.E_n * unit, impact.E_t * unit, ending)
+    return ImpactProcess(P, v + W @ P, impact.E_n * unit, impact.E_t * unit, ending)
 
 
 class _Impact:
@@ -151,7 +151,7 @@ def _followed(impact: _Impact) -> Ending:
         return "stick"
     c, s = flow.restart()
     _straight(impact, -flow.mu * c, -flow.mu * s, inf)
-    return "again"
+    return "reslip"
 
 
 def _straight(impact: _Impact, q_1: float, q_2: float, p_most: float) -> bool:
@@ -218,7 +218,7 @@ def _slid(impact: _Impact) -> bool:
     return _straight(impact, q_1, q_2, -sigma / g if g < 0.0 else inf)
 
 
-def _friction_work(impact: _Impact, end: Curve) -> float:
+def _friction_work(impact: _Impact, end: Stretch) -> float:
     """Energy (in the units here) lost to friction along a stretch: all that is lost, less that along the normal."""
     flow = impact.flow
     dv_n = end.p + flow.w_1 * end.P_1 + flow.w_2 * end.P_2
@@ -231,11 +231,11 @@ def _friction_work(impact: _Impact, end: Curve) -> float:
 Event = Literal["", "turn", "given back", "again, shorter"]
 
 
-def _normal_velocity(impact: _Impact, end: Curve) -> float:
+def _normal_velocity(impact: _Impact, end: Stretch) -> float:
     return impact.v_n + end.p + impact.flow.w_1 * end.P_1 + impact.flow.w_2 * end.P_2
 
 
-def _event(impact: _Impact, end: Curve) -> Event:
+def _event(impact: _Impact, end: Stretch) -> Event:
     """What happens on a stretch first: v_n passes zero, or restitution has given back its share."""
     v_n = _normal_velocity(impact, end)
     if impact.compressing:
@@ -245,10 +245,10 @@ def _event(impact: _Impact, end: Curve) -> Event:
     return "given back" if impact.stored <= end.N else ""
 
 
-def _located(impact: _Impact, angle: float, log_slip: float, tau: float, event: Event) -> Curve:
+def _located(impact: _Impact, angle: float, log_slip: float, tau: float, event: Event) -> Stretch:
     """The stretch up to the event, which lies within tau."""
 
-    def at(x: float) -> Curve:
+    def at(x: float) -> Stretch:
         return impact.flow.stretch(angle, log_slip, impact.v_n, x)[0]
 
     def miss(x: float) -> float:

@@ -18,9 +18,9 @@ from __future__ import annotations
 
 from math import atan2, cos, hypot, sin, sqrt
 
-from .contact_law import Block, friction_in_disc
+from .contact_law import ContactBlock, solve_friction_in_disc
 
-__all__ = ["solve_contact"]
+__all__ = ["solve_one_contact"]
 
 RANK = 1e-9
 """Share of W_nn below which what is left of it when friction holds both tangents is rounding."""
@@ -32,7 +32,7 @@ Row = tuple[float, float, float]
 NONE: Row = (0.0, 0.0, 0.0)
 
 
-def solve_contact(W: Block, v: Row, mu: float, near: float | None = None) -> tuple[Row, float | None]:
+def solve_one_contact(W: ContactBlock, v: Row, mu: float, near: float | None = None) -> tuple[Row, float | None]:
     """Impulse (P_n, P_1, P_2) [N s] of one contact with the velocity v [m/s] before; and the angle of its friction if
     it slides.
 
@@ -50,7 +50,7 @@ def solve_contact(W: Block, v: Row, mu: float, near: float | None = None) -> tup
     return found if found is not None else _bracketed(W, v, mu)
 
 
-def _stick(W: Block, v: Row, mu: float) -> Row | None:
+def _stick(W: ContactBlock, v: Row, mu: float) -> Row | None:
     """The impulse in the cone that stops all three directions, the least where there are many; None when there is
     none."""
     v_n, v_1, v_2 = v
@@ -71,7 +71,7 @@ def _stick(W: Block, v: Row, mu: float) -> Row | None:
     return P_n, P_1, P_2
 
 
-def _least_in_cone(W: Block, v_1: float, v_2: float, mu: float) -> float:
+def _least_in_cone(W: ContactBlock, v_1: float, v_2: float, mu: float) -> float:
     """Least P_n at which friction that holds the slip is in the cone, where P_n does nothing more; 0: none."""
     x, y, dx, dy = v_1 * W.h_1, v_2 * W.h_2, W.w_1 * W.h_1, W.w_2 * W.h_2
     a, b, c = dx * dx + dy * dy - mu * mu, x * dx + y * dy, x * x + y * y
@@ -79,7 +79,7 @@ def _least_in_cone(W: Block, v_1: float, v_2: float, mu: float) -> float:
     return c / (sqrt(square) - b) if square >= 0.0 and sqrt(square) > b else 0.0
 
 
-def _slide(W: Block, v: Row, mu: float, angle: float) -> tuple[Row, float] | None:
+def _slide(W: ContactBlock, v: Row, mu: float, angle: float) -> tuple[Row, float] | None:
     """Impulse P_n (1, mu cos, mu sin) that stops the approach and leaves a slip straight against it; None if Newton's
     method does not find one."""
     W_nn, w_1, w_2, a_1, a_2, _, _ = W
@@ -107,11 +107,11 @@ def _slide(W: Block, v: Row, mu: float, angle: float) -> tuple[Row, float] | Non
     return ((P_n, P_1, P_2), angle) if along < 0.0 and abs(across) <= 1e-12 * hypot(v_n, v_1, v_2) else None
 
 
-def _bracketed(W: Block, v: Row, mu: float) -> tuple[Row, float | None]:
+def _bracketed(W: ContactBlock, v: Row, mu: float) -> tuple[Row, float | None]:
     """The same by the zero of f(P_n), bracketed from zero outwards and closed in by halving and by secants."""
 
     def f(P_n: float) -> float:
-        P_1, P_2 = friction_in_disc(W, v[1] + W.w_1 * P_n, v[2] + W.w_2 * P_n, mu * P_n)
+        P_1, P_2 = solve_friction_in_disc(W, v[1] + W.w_1 * P_n, v[2] + W.w_2 * P_n, mu * P_n)
         return v[0] + W.W_nn * P_n + W.w_1 * P_1 + W.w_2 * P_2
 
     low, f_low = 0.0, v[0]
@@ -135,5 +135,5 @@ def _bracketed(W: Block, v: Row, mu: float) -> tuple[Row, float | None]:
         else:
             high, f_high = middle, max(f_middle, 0.0)
     P_n = low if -f_low < f_high else high
-    P_1, P_2 = friction_in_disc(W, v[1] + W.w_1 * P_n, v[2] + W.w_2 * P_n, mu * P_n)
+    P_1, P_2 = solve_friction_in_disc(W, v[1] + W.w_1 * P_n, v[2] + W.w_2 * P_n, mu * P_n)
     return (P_n, P_1, P_2), atan2(P_2, P_1)

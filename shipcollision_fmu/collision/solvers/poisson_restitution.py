@@ -20,10 +20,10 @@ from __future__ import annotations
 import numpy as np
 
 from ...ship.frames import Array
-from .contact_law import Block, friction_in_disc
-from .gauss_seidel import RESIDUAL, Solution, principal_axes, solve_pgs, without_rounding
+from .contact_law import ContactBlock, solve_friction_in_disc
+from .gauss_seidel import SWEEP_TOLERANCE, Solution, clear_rounding, principal_axes, solve_gauss_seidel
 
-__all__ = ["solve_impact"]
+__all__ = ["solve_poisson_impact"]
 
 NO_REBOUND = 1e-12
 """Restitution that counts as none: what springs back is rounding."""
@@ -33,17 +33,17 @@ MAX_SWEEPS = 1000
 friction stays in its disc."""
 
 
-def solve_impact(W: Array, v: Array, mu: float, e: float, start: Array | None = None) -> Solution:
+def solve_poisson_impact(W: Array, v: Array, mu: float, e: float, start: Array | None = None) -> Solution:
     """Impulses of k contacts with restitution e. W (3k, 3k) [1/kg], v (3k,) [m/s] before, in contact axes; start (k,
-    3): impulses like those expected (see solve_pgs)."""
-    plastic = solve_pgs(W, v, mu, start)
+    3): impulses like those expected (see solve_gauss_seidel)."""
+    plastic = solve_gauss_seidel(W, v, mu, start)
     if e <= NO_REBOUND or not plastic.P.any():
         return plastic
     P = plastic.P.ravel()
     whole = P + _sprung_back(W, v + W @ P, mu, e * P)
     if whole @ (v + 0.5 * W @ whole) > 0.0:
         whole = (1.0 + e) * P
-    last = solve_pgs(W, v + W @ whole, mu)  # contacts that the others' rebound has closed
+    last = solve_gauss_seidel(W, v + W @ whole, mu)  # contacts that the others' rebound has closed
     residual = max(plastic.residual, last.residual)
     return Solution(whole.reshape(-1, 3) + last.P, residual, plastic.sweeps + last.sweeps)
 
@@ -53,9 +53,9 @@ def _sprung_back(W: Array, v: Array, mu: float, P: Array) -> Array:
     it can. Projected Gauss-Seidel on the tangential pairs alone: what it minimises is convex, so it gets there."""
     T = principal_axes(W)
     W, v = T @ W @ T.T, T @ v
-    without_rounding(W, v)
+    clear_rounding(W, v)
     P = T @ P
-    blocks = [Block.of(W[n : n + 3, n : n + 3]) for n in range(0, len(P), 3)]
+    blocks = [ContactBlock.of(W[n : n + 3, n : n + 3]) for n in range(0, len(P), 3)]
     for n in range(0, len(P), 3):
         P[n + 1 : n + 3] = 0.0
     scale = float(np.abs(v).max() + np.abs(W @ P).max())
@@ -67,8 +67,8 @@ def _sprung_back(W: Array, v: Array, mu: float, P: Array) -> Array:
             old = P[pair].copy()
             own = np.array([block.a_1, block.a_2]) * old
             free = v[pair] + W[pair] @ P - own
-            P[pair] = friction_in_disc(block, float(free[0]), float(free[1]), mu * float(P[n]))
+            P[pair] = solve_friction_in_disc(block, float(free[0]), float(free[1]), mu * float(P[n]))
             change = max(change, float(np.abs(np.array([block.a_1, block.a_2]) * (P[pair] - old)).max()))
-        if change <= RESIDUAL * scale:
+        if change <= SWEEP_TOLERANCE * scale:
             break
     return P @ T

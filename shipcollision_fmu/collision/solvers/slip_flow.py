@@ -24,7 +24,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from math import cos, exp, hypot, sin
 
-__all__ = ["Curve", "SlipFlow"]
+__all__ = ["SlipFlow", "Stretch"]
 
 TOLERANCE = 1e-13
 """Local error of a step, absolute in units of the approach speed, relative where a number is larger than 1."""
@@ -39,7 +39,7 @@ State = tuple[float, ...]
 
 
 @dataclass(frozen=True)
-class Curve:
+class Stretch:
     """End of a stretch: angle and ln sigma there; impulses p and P_t = (P_1, P_2), and N = integral of v_n dp."""
 
     angle: float
@@ -79,7 +79,7 @@ class SlipFlow:
         """Whether the slip keeps this direction."""
         return abs(self.turning(angle)) <= SETTLED * self.rate
 
-    def stretch(self, angle: float, log_slip: float, v_n: float, tau: float) -> tuple[Curve, int | None]:
+    def stretch(self, angle: float, log_slip: float, v_n: float, tau: float) -> tuple[Stretch, int | None]:
         """The path over tau from a slip and a normal velocity; and the columns it took, None if they did not do."""
         w_1, w_2, A_1, A_2, mu = self.w_1, self.w_2, self.A_1, self.A_2, self.mu
         diagonal_1, diagonal_2, across = mu * A_1, mu * A_2, mu * (A_1 - A_2)
@@ -97,7 +97,7 @@ class SlipFlow:
             )
 
         end, columns = _extrapolated(derivative, (angle, log_slip, 0.0, 0.0, 0.0, 0.0), tau)
-        return Curve(*end), columns
+        return Stretch(*end), columns
 
     def restart(self) -> tuple[float, float]:
         """Direction (cos, sin) in which slip starts from rest when friction cannot hold it.

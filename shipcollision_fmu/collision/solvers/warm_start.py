@@ -13,7 +13,7 @@ import numpy as np
 from ...ship.frames import Array
 from ..dynamics.contact import Contact, Impulse
 
-__all__ = ["WarmStarts", "expected", "remember"]
+__all__ = ["WarmStarts", "guess_impulses", "keep_impulses"]
 
 SAME_PLACE = 2.0
 """Contacts less than this [m] apart on the hull are the same."""
@@ -22,7 +22,7 @@ WarmStarts = dict[tuple[int, int], list[tuple[list[float], list[float]]]]
 """Per pair of ships: places in b of ship a [m], and the impulses in n [N s] there."""
 
 
-def expected(contacts: Sequence[Contact], axes: Sequence[Array], warm: WarmStarts) -> Array | None:
+def guess_impulses(contacts: Sequence[Contact], axes: Sequence[Array], warm: WarmStarts) -> Array | None:
     """Impulses (k, 3) in contact axes like those expected; None if nothing is known."""
     if not warm:
         return None
@@ -36,7 +36,7 @@ def expected(contacts: Sequence[Contact], axes: Sequence[Array], warm: WarmStart
     return P
 
 
-def remember(impulses: Sequence[Impulse], warm: WarmStarts) -> None:
+def keep_impulses(impulses: Sequence[Impulse], warm: WarmStarts) -> None:
     """Keep these impulses for the pairs that they act between. A pair without any keeps those it had.
 
     Ships that rest against each other are apart in some substeps, by the rounding of their places.

@@ -11,11 +11,11 @@ from hypothesis import strategies as st
 
 from shipcollision_fmu.collision.dynamics.body_state import point_jacobian
 from shipcollision_fmu.collision.dynamics.contact_frame import contact_axes
-from shipcollision_fmu.collision.solvers.aclm_fixed_point import nearer_by_sliding_speed
+from shipcollision_fmu.collision.solvers.aclm_fixed_point import solve_aclm
 from shipcollision_fmu.collision.solvers.contact_law import law_residual
-from shipcollision_fmu.collision.solvers.gauss_seidel import solve_pgs
+from shipcollision_fmu.collision.solvers.gauss_seidel import solve_gauss_seidel
 from shipcollision_fmu.collision.solvers.impact_process import FLAT
-from shipcollision_fmu.collision.solvers.poisson_restitution import NO_REBOUND, solve_impact
+from shipcollision_fmu.collision.solvers.poisson_restitution import NO_REBOUND, solve_poisson_impact
 from shipcollision_fmu.ship.degrees_of_freedom import FREE, free_inverse, level_axes
 from shipcollision_fmu.ship.frames import rotation
 from shipcollision_fmu.ship.inertia import added_mass_matrix, rigid_body_inertia
@@ -75,7 +75,7 @@ def check_solution(W: np.ndarray, v: np.ndarray, mu: float, P: np.ndarray, accur
 def test_one_contact_is_solved_exactly(seed: int, mu: float, dof: int) -> None:
     W, v = encounter(seed, 1, dof)
     assume(v[0] < 0.0)
-    solution = solve_pgs(W, v, mu)
+    solution = solve_gauss_seidel(W, v, mu)
     assert solution.sweeps == 1
     assert solution.residual <= 1e-12
     check_solution(W, v, mu, solution.P, 1e-12)
@@ -85,7 +85,7 @@ def test_one_contact_is_solved_exactly(seed: int, mu: float, dof: int) -> None:
 def test_several_contacts_obey_the_law(seed: int, contacts: int, mu: float, dof: int) -> None:
     W, v = encounter(seed, contacts, dof)
     assume(v[0::3].min() < 0.0)
-    solution = solve_pgs(W, v, mu)
+    solution = solve_gauss_seidel(W, v, mu)
     assert solution.residual == pytest.approx(law_residual(W, v, mu, solution.P) / -v[0::3].min(), abs=1e-12)
     assert solution.residual <= 1e-10
     check_solution(W, v, mu, solution.P, 1e-8)
@@ -97,7 +97,7 @@ def test_every_patch_is_solved(scatter: float) -> None:
     patches = [
         (seed, k, dof, mu) for dof in (3, 4, 6) for k in (2, 4, 6) for mu in (0.0, 0.3, 1.0) for seed in range(15)
     ]  # fmt: skip
-    missed = {p: solve_pgs(*encounter(*p[:3], scatter), p[3]).residual for p in patches}
+    missed = {p: solve_gauss_seidel(*encounter(*p[:3], scatter), p[3]).residual for p in patches}
     assert {p: r for p, r in missed.items() if r > 1e-10} == {}
 
 
@@ -108,7 +108,7 @@ def test_the_convex_sequence_alone_gets_there(case: tuple[int, int, int, float])
     W, v = encounter(seed, k, dof, 0.5)
     P, wanted = np.zeros((k, 3)), 1e-9 * -v[0::3].min()
     for _ in range(20):
-        P = nearer_by_sliding_speed(W, v, mu, P, wanted)
+        P = solve_aclm(W, v, mu, P, wanted)
     assert law_residual(W, v, mu, P) <= wanted
     check_solution(W, v, mu, P, 1e-6)
 
@@ -117,8 +117,8 @@ def test_the_convex_sequence_alone_gets_there(case: tuple[int, int, int, float])
 def test_a_warm_start_does_not_change_the_motion(seed: int, contacts: int, mu: float) -> None:
     W, v = encounter(seed, contacts)
     assume(v[0::3].min() < -1e-3)
-    cold = solve_pgs(W, v, mu)
-    warm = solve_pgs(W, v, mu, 1e-3 * cold.P)
+    cold = solve_gauss_seidel(W, v, mu)
+    warm = solve_gauss_seidel(W, v, mu, 1e-3 * cold.P)
     assume(max(cold.residual, warm.residual) <= 1e-10)
     np.testing.assert_allclose(W @ warm.P.ravel(), W @ cold.P.ravel(), atol=1e-6 * np.abs(v).max())
 
@@ -128,15 +128,18 @@ def test_a_warm_start_saves_sweeps() -> None:
     cold_sweeps = warm_sweeps = 0
     for seed in range(100):
         W, v = encounter(seed, 2 + seed % 3)
-        cold = solve_pgs(W, v, 0.3)
-        cold_sweeps, warm_sweeps = cold_sweeps + cold.sweeps, warm_sweeps + solve_pgs(W, v, 0.3, 1e-3 * cold.P).sweeps
+        cold = solve_gauss_seidel(W, v, 0.3)
+        cold_sweeps, warm_sweeps = (
+            cold_sweeps + cold.sweeps,
+            warm_sweeps + solve_gauss_seidel(W, v, 0.3, 1e-3 * cold.P).sweeps,
+        )
     assert 100 < warm_sweeps < cold_sweeps
 
 
 @given(SEEDS, st.integers(1, 4), SHARE)
 def test_plastic_impact_never_creates_energy(seed: int, contacts: int, mu: float) -> None:
     W, v = encounter(seed, contacts)
-    P = solve_pgs(W, v, mu).P.ravel()
+    P = solve_gauss_seidel(W, v, mu).P.ravel()
     gained = P @ (v + 0.5 * W @ P)
     assert gained <= 1e-9 * np.abs(P * v).sum()
 
@@ -144,15 +147,15 @@ def test_plastic_impact_never_creates_energy(seed: int, contacts: int, mu: float
 def test_frictionless_impact_is_the_effective_mass_times_the_approach() -> None:
     W, v = encounter(7, 1)
     v[0] = -3.0
-    assert solve_pgs(W, v, 0.0).P[0] == pytest.approx([3.0 / W[0, 0], 0.0, 0.0])
+    assert solve_gauss_seidel(W, v, 0.0).P[0] == pytest.approx([3.0 / W[0, 0], 0.0, 0.0])
 
 
 def test_a_row_repeated_shares_the_same_total() -> None:
     """Two contacts at one place are one contact: the split is free, the sum is not."""
     W, v = encounter(3, 1)
     v[0] = -abs(v[0])
-    single = solve_pgs(W, v, 0.3).P.sum(axis=0)
-    double = solve_pgs(np.tile(W, (2, 2)), np.tile(v, 2), 0.3).P.sum(axis=0)
+    single = solve_gauss_seidel(W, v, 0.3).P.sum(axis=0)
+    double = solve_gauss_seidel(np.tile(W, (2, 2)), np.tile(v, 2), 0.3).P.sum(axis=0)
     np.testing.assert_allclose(double, single, rtol=1e-9, atol=1e-6 * np.abs(single).max())
 
 
@@ -160,7 +163,7 @@ def test_a_row_repeated_shares_the_same_total() -> None:
 def test_parting_or_resting_contacts_get_nothing(speed: float) -> None:
     W, v = encounter(1, 2)
     v[0::3] = speed
-    assert not solve_pgs(W, v, 0.5).P.any()
+    assert not solve_gauss_seidel(W, v, 0.5).P.any()
 
 
 @given(SEEDS, st.integers(1, 3), st.floats(-np.pi, np.pi))
@@ -169,7 +172,7 @@ def test_turning_the_tangents_turns_the_friction(seed: int, contacts: int, angle
     W, v = encounter(seed, contacts)
     c, s = np.cos(angle), np.sin(angle)
     turn = np.kron(np.eye(contacts), np.array([[1, 0, 0], [0, c, -s], [0, s, c]]))
-    straight, turned = solve_pgs(W, v, 0.4), solve_pgs(turn @ W @ turn.T, turn @ v, 0.4)
+    straight, turned = solve_gauss_seidel(W, v, 0.4), solve_gauss_seidel(turn @ W @ turn.T, turn @ v, 0.4)
     assume(max(straight.residual, turned.residual) <= 1e-11)
     # The split among redundant contacts may differ; the motion may not.
     np.testing.assert_allclose(
@@ -250,9 +253,9 @@ def test_the_impulse_of_one_contact_swaps_mirrors_and_turns(
     impact: Impact, turn: float, shift: tuple[float, float]
 ) -> None:
     assume(not springs_back_against_held_friction(impact))
-    P = solve_impact(impact.W, impact.v, impact.mu, impact.e).P[0]
+    P = solve_poisson_impact(impact.W, impact.v, impact.mu, impact.e).P[0]
     for other, axes in Patch([impact]).alike(turn, np.array([*shift, 0.0])):
-        found = solve_impact(other.W, other.v, impact.mu, impact.e).P[0]
+        found = solve_poisson_impact(other.W, other.v, impact.mu, impact.e).P[0]
         np.testing.assert_allclose(found, axes @ P, rtol=0.0, atol=1e-8 * np.linalg.norm(P))
 
 
@@ -261,9 +264,9 @@ def test_the_motion_after_one_level_contact_swaps_mirrors_and_turns(
     impact: Impact, turn: float, shift: tuple[float, float]
 ) -> None:
     """Also where friction is against motions that are held: it does nothing."""
-    moved = impact.W @ solve_impact(impact.W, impact.v, impact.mu, impact.e).P[0]
+    moved = impact.W @ solve_poisson_impact(impact.W, impact.v, impact.mu, impact.e).P[0]
     for other, axes in Patch([impact]).alike(turn, np.array([*shift, 0.0])):
-        found = other.W @ solve_impact(other.W, other.v, impact.mu, impact.e).P[0]
+        found = other.W @ solve_poisson_impact(other.W, other.v, impact.mu, impact.e).P[0]
         np.testing.assert_allclose(found, axes @ moved, rtol=0.0, atol=1e-8 * np.linalg.norm(impact.v))
 
 
@@ -289,7 +292,7 @@ def turned_impulses(impact: Impact) -> np.ndarray:
     found = []
     for turn in np.linspace(-3.0, 3.0, 400):
         other, axes = Patch([impact]).alike(turn, np.zeros(3))[2]
-        found.append(axes.T @ solve_impact(other.W, other.v, impact.mu, impact.e).P[0])
+        found.append(axes.T @ solve_poisson_impact(other.W, other.v, impact.mu, impact.e).P[0])
     return np.array(found)
 
 
@@ -307,7 +310,7 @@ def test_friction_that_is_held_turns_with_the_world(held: Impact) -> None:
 
 @given(impacts())
 def test_one_contact_keeps_its_cone_parts_and_gains_nothing(impact: Impact) -> None:
-    solution = solve_impact(impact.W, impact.v, impact.mu, impact.e)
+    solution = solve_poisson_impact(impact.W, impact.v, impact.mu, impact.e)
     P, size = solution.P[0], np.linalg.norm(impact.v)
     assert solution.residual <= 1e-10
     assert np.hypot(*P[1:]) <= impact.mu * P[0] * (1 + 1e-12)
@@ -325,16 +328,16 @@ def test_the_motion_after_a_patch_swaps_mirrors_and_turns(
 ) -> None:
     """The impulses of contacts that depend on each other may be shared otherwise; what they do may not."""
     mu, W, v = patch.contacts[0].mu, patch.W, patch.v
-    moved = W @ solve_pgs(W, v, mu).P.ravel()
+    moved = W @ solve_gauss_seidel(W, v, mu).P.ravel()
     for other, axes in patch.alike(turn, np.array([*shift, 0.0])):
-        found = other.W @ solve_pgs(other.W, other.v, mu).P.ravel()
+        found = other.W @ solve_gauss_seidel(other.W, other.v, mu).P.ravel()
         np.testing.assert_allclose(found, axes @ moved, rtol=0.0, atol=1e-7 * np.linalg.norm(v))
 
 
 @given(patches())
 def test_a_patch_is_solved_in_its_cones_and_gains_nothing(patch: Patch) -> None:
     mu, W, v = patch.contacts[0].mu, patch.W, patch.v
-    solution = solve_pgs(W, v, mu)
+    solution = solve_gauss_seidel(W, v, mu)
     P, speed = solution.P, -v[0::3].min()
     assert solution.residual <= 1e-10
     assert (np.hypot(P[:, 1], P[:, 2]) <= mu * P[:, 0] + 1e-12 * P[:, 0].max()).all()

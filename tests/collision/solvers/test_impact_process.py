@@ -10,19 +10,19 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from shipcollision_fmu.collision.solvers.gauss_seidel import solve_pgs
-from shipcollision_fmu.collision.solvers.impact_process import SlipPath, solve_slip_path
-from shipcollision_fmu.collision.solvers.poisson_restitution import solve_impact
+from shipcollision_fmu.collision.solvers.gauss_seidel import solve_gauss_seidel
+from shipcollision_fmu.collision.solvers.impact_process import ImpactProcess, solve_impact_process
+from shipcollision_fmu.collision.solvers.poisson_restitution import solve_poisson_impact
 from shipcollision_fmu.errors import StepError
 from shipcollision_fmu.ship.frames import rotation
 from tests.collision.impacts import Array, Impact, check_momentum, floats, impacts
-from tests.oracles.newton_impact import energy_of_stick, solve_closed_form
+from tests.oracles.newton_impact import solve_newton_impact, stick_energy
 
 PLASTIC = st.just(0.0)
 
 
-def solved(impact: Impact) -> SlipPath:
-    return solve_slip_path(impact.W, impact.v, impact.mu, impact.e)
+def solved(impact: Impact) -> ImpactProcess:
+    return solve_impact_process(impact.W, impact.v, impact.mu, impact.e)
 
 
 # -- cases with an analytic answer ------------------------------------------------------------------------------------
@@ -53,7 +53,7 @@ def test_turning_slip_has_the_swimmers_course(kappa: float, psi_0: float, psi_f:
     W, v, (*P, mu) = river(kappa, psi_0, psi_f)
     Q = np.eye(3)
     Q[1:, 1:] = rotation([0.0, 0.0, turn])[:2, :2]
-    path = solve_slip_path(Q @ W @ Q.T, Q @ v, mu, 0.0)
+    path = solve_impact_process(Q @ W @ Q.T, Q @ v, mu, 0.0)
     np.testing.assert_allclose(path.P, Q @ P, rtol=0.0, atol=1e-10 * np.linalg.norm(P))
     assert path.ending == "slip"
 
@@ -63,20 +63,20 @@ def test_stick_slides_on_and_turns_back_in_the_plane() -> None:
     W = np.array([[1.0, 0.4], [0.4, 0.5]])
     v = np.array([-5.0, -1.0])  # friction and coupling both slow the slip
     mu = 0.9  # above W_nt/W_tt = 0.8: it sticks
-    path = solve_slip_path(W, v, mu, 0.0)
+    path = solve_impact_process(W, v, mu, 0.0)
     assert path.ending == "stick"
     np.testing.assert_allclose(path.P, -np.linalg.solve(W, v), rtol=1e-14)
     mu = 0.3  # below: the slip starts again, the other way
     stop = 1.0 / (0.4 + 0.3 * 0.5)
     v_n = -5.0 + stop * (1.0 + 0.4 * mu)
     rest = -v_n / (1.0 - 0.4 * mu)
-    path = solve_slip_path(W, v, mu, 0.0)
-    assert path.ending == "again"
+    path = solve_impact_process(W, v, mu, 0.0)
+    assert path.ending == "reslip"
     np.testing.assert_allclose(path.P, [stop + rest, mu * (stop - rest)], rtol=1e-14)
     # Restitution after the turn: the same slope, and e^2 of the work of compression.
     work = -0.5 * stop * (-5.0 + v_n) - 0.5 * rest * v_n
     back = np.sqrt(2.0 * 0.25 * work / (1.0 - 0.4 * mu))
-    path = solve_slip_path(W, v, mu, 0.5)
+    path = solve_impact_process(W, v, mu, 0.5)
     np.testing.assert_allclose(path.P, [stop + rest + back, mu * (stop - rest - back)], rtol=1e-14)
     assert path.energy_normal == pytest.approx(0.75 * work, rel=1e-13)
 
@@ -86,7 +86,7 @@ def test_a_jam_is_passed_by_the_stop_of_the_slip() -> None:
     W = np.array([[1.0, 1.5], [1.5, 3.0]])
     mu, e, v = 0.9, 0.5, np.array([-1.0, 2.0])
     assert W[0, 0] - mu * W[0, 1] < 0.0
-    path = solve_slip_path(W, v, mu, e)
+    path = solve_impact_process(W, v, mu, e)
     stop = 2.0 / (mu * 3.0 - 1.5)
     v_n = -1.0 + stop * (1.0 - 1.5 * mu)
     assert v_n < -1.0
@@ -144,7 +144,7 @@ def test_turning_slip_equals_the_literal_integration(e: float) -> None:
             continue
         fine = runge_kutta(W, v, mu, e, 400)[0]
         best = fine + (fine - coarse) / 15.0
-        path = solve_slip_path(W, v, mu, e)
+        path = solve_impact_process(W, v, mu, e)
         np.testing.assert_allclose(path.P, best, rtol=0.0, atol=1e-9 * np.linalg.norm(best))
         compared += 1
 
@@ -165,8 +165,8 @@ def test_energy_is_never_created_and_its_parts_add_up(impact: Impact) -> None:
     path = solved(impact)
     after = impact.after(path.P)
     lost = impact.scale - after.scale
-    assert path.energy_normal >= -1e-12 * energy_of_stick(impact.W, impact.v)
-    assert path.energy_tangential >= -1e-12 * energy_of_stick(impact.W, impact.v)
+    assert path.energy_normal >= -1e-12 * stick_energy(impact.W, impact.v)
+    assert path.energy_tangential >= -1e-12 * stick_energy(impact.W, impact.v)
     assert path.energy_normal + path.energy_tangential == pytest.approx(lost, rel=1e-9, abs=1e-12 * impact.scale)
 
 
@@ -196,14 +196,14 @@ def test_without_friction_it_is_newtons_restitution(impact: Impact) -> None:
     assert path.energy_tangential == pytest.approx(0.0, abs=1e-12 * impact.scale)
 
 
-def same(impact: Impact, one: SlipPath, other: SlipPath, change: Array) -> None:
+def same(impact: Impact, one: ImpactProcess, other: ImpactProcess, change: Array) -> None:
     size = np.linalg.norm(one.P)
     # Of the work e^2 comes back. Below 1e-7 its rounding, 1e-15 of the work, is seen in e: up to e itself.
     unsure = min(impact.e, 1e-15 / impact.e) if 0.0 < impact.e < 1e-7 else 0.0
     np.testing.assert_allclose(other.P, change @ one.P, rtol=0.0, atol=(1e-9 + unsure) * size)
     np.testing.assert_allclose(
         [other.energy_normal, other.energy_tangential], [one.energy_normal, one.energy_tangential],
-        rtol=0.0, atol=1e-9 * energy_of_stick(impact.W, impact.v),
+        rtol=0.0, atol=1e-9 * stick_energy(impact.W, impact.v),
     )  # fmt: skip
 
 
@@ -236,8 +236,8 @@ def test_mirroring_port_and_starboard_mirrors_the_impulse(impact: Impact) -> Non
 @given(impacts(), floats(1e-3, 1e3), floats(1e-3, 1e3))
 def test_speed_and_mass_only_set_the_scale(impact: Impact, speed: float, mass: float) -> None:
     W, v = impact.W, impact.v
-    one = solve_slip_path(W, v, impact.mu, impact.e)
-    other = solve_slip_path(W / mass, v * speed, impact.mu, impact.e)
+    one = solve_impact_process(W, v, impact.mu, impact.e)
+    other = solve_impact_process(W / mass, v * speed, impact.mu, impact.e)
     np.testing.assert_allclose(other.P / (mass * speed), one.P, rtol=0.0, atol=1e-9 * np.linalg.norm(one.P))
 
 
@@ -248,14 +248,14 @@ def test_speed_and_mass_only_set_the_scale(impact: Impact, speed: float, mass: f
 def test_plastic_impact_that_ends_in_stick_is_the_closed_form_and_pgs(impact: Impact) -> None:
     path = solved(impact)
     assume(path.ending == "stick")
-    form = solve_closed_form(impact.W, impact.v, impact.mu, 0.0)
+    form = solve_newton_impact(impact.W, impact.v, impact.mu, 0.0)
     assert form.mode == "stick"
-    pgs = solve_pgs(impact.W, impact.v, impact.mu).P[0]
+    pgs = solve_gauss_seidel(impact.W, impact.v, impact.mu).P[0]
     for P in (form.P, pgs):
         # Velocities, not impulses: W of ships that move in the plane leaves some of the impulse free.
         np.testing.assert_allclose(impact.W @ P, impact.W @ path.P, rtol=0.0, atol=1e-8 * np.linalg.norm(impact.v))
     lost = path.energy_normal + path.energy_tangential
-    assert lost == pytest.approx(energy_of_stick(impact.W, impact.v), rel=1e-8)
+    assert lost == pytest.approx(stick_energy(impact.W, impact.v), rel=1e-8)
 
 
 @given(impacts(degrees_of_freedom=(3,), slope=st.just(0.0)))
@@ -263,15 +263,15 @@ def test_impact_in_the_plane_that_slides_one_way_is_the_closed_form_and_pgs(impa
     """With restitution too: over a constant slope the rules of Newton, Poisson and Stronge are one."""
     path = solved(impact)
     assume(path.ending == "slip")
-    form = solve_closed_form(impact.W, impact.v, impact.mu, impact.e)
-    pgs = solve_impact(impact.W, impact.v, impact.mu, impact.e).P[0]
+    form = solve_newton_impact(impact.W, impact.v, impact.mu, impact.e)
+    pgs = solve_poisson_impact(impact.W, impact.v, impact.mu, impact.e).P[0]
     for P in (form.P, pgs):
         np.testing.assert_allclose(P, path.P, rtol=0.0, atol=1e-8 * np.linalg.norm(path.P))
 
 
 @given(impacts(mu=st.just(0.0)))
 def test_frictionless_impact_is_pgs(impact: Impact) -> None:
-    path, pgs = solved(impact), solve_impact(impact.W, impact.v, impact.mu, impact.e)
+    path, pgs = solved(impact), solve_poisson_impact(impact.W, impact.v, impact.mu, impact.e)
     np.testing.assert_allclose(pgs.P[0], path.P, rtol=0.0, atol=1e-8 * np.linalg.norm(path.P))
 
 
@@ -279,7 +279,7 @@ def test_where_the_laws_differ_a_slip_that_turns() -> None:
     """Friction of pgs and of the closed form has one direction per impact (that of the last and of the first slip); the
     path's turns with the slip. The answers then differ by per cents, and all three are plastic and inside the cone."""
     W, v, (*P, mu) = river(0.7, 2.0, 0.3)
-    ours, last, first = np.array(P), solve_pgs(W, v, mu).P[0], solve_closed_form(W, v, mu, 0.0).P
+    ours, last, first = np.array(P), solve_gauss_seidel(W, v, mu).P[0], solve_newton_impact(W, v, mu, 0.0).P
     for other in (last, first):
         assert 0.01 < np.linalg.norm(other - ours) / np.linalg.norm(ours) < 0.2
         assert (v + W @ other)[0] == pytest.approx(0.0, abs=1e-12)
@@ -306,9 +306,9 @@ def test_mass_to_infinity_is_the_fixed_obstacle(e: float) -> None:
     W_a = np.array([[1.0, 0.3, -0.2], [0.3, 0.8, 0.1], [-0.2, 0.1, 2.0]])
     W_b = np.array([[2.0, -0.4, 0.1], [-0.4, 1.5, 0.0], [0.1, 0.0, 0.7]])
     v = np.array([-3.0, 2.0, -1.0])
-    fixed = solve_slip_path(W_a, v, 0.3, e).P
+    fixed = solve_impact_process(W_a, v, 0.3, e).P
     for lightness in (1e-4, 1e-6, 1e-8):
-        P = solve_slip_path(W_a + lightness * W_b, v, 0.3, e).P
+        P = solve_impact_process(W_a + lightness * W_b, v, 0.3, e).P
         assert np.linalg.norm(P - fixed) <= 10.0 * lightness * np.linalg.norm(fixed)
 
 
@@ -317,7 +317,7 @@ def test_mass_to_infinity_is_the_fixed_obstacle(e: float) -> None:
 
 @pytest.mark.parametrize("v_n", [0.0, 2.0, -1e-200])
 def test_no_approach_no_impulse(v_n: float) -> None:
-    path = solve_slip_path(np.eye(3), np.array([v_n, 1.0, 0.0]), 0.3, 0.5)
+    path = solve_impact_process(np.eye(3), np.array([v_n, 1.0, 0.0]), 0.3, 0.5)
     assert not path.P.any()
     assert (path.ending, path.energy_normal, path.energy_tangential) == ("apart", 0.0, 0.0)
 
@@ -326,14 +326,14 @@ def test_two_fixed_bodies_are_refused() -> None:
     with pytest.raises(
         StepError, match="W_nn = 0 1/kg at a contact must be > 0: neither ship can move along the normal"
     ):
-        solve_slip_path(np.zeros((3, 3)), np.array([-1.0, 0.0, 0.0]), 0.3, 0.0)
+        solve_impact_process(np.zeros((3, 3)), np.array([-1.0, 0.0, 0.0]), 0.3, 0.0)
 
 
 @pytest.mark.parametrize("slip", [1e-300, 1e-16, 1e-9, 1e9, 1e17])
 @pytest.mark.parametrize("mu", [1e-300, 1e-9, 0.5])
 def test_slips_and_frictions_of_any_size_end(slip: float, mu: float) -> None:
     W = np.array([[1.0, 0.3, -0.2], [0.3, 0.8, 0.1], [-0.2, 0.1, 2.0]])
-    path = solve_slip_path(W, np.array([-1.0, slip, 0.5 * slip]), mu, 0.5)
+    path = solve_impact_process(W, np.array([-1.0, slip, 0.5 * slip]), mu, 0.5)
     assert np.isfinite(path.P).all()
     assert np.hypot(*path.P[1:]) <= mu * path.P[0] * (1 + 1e-12)
     assert path.energy_normal > 0.0

@@ -9,8 +9,8 @@ import pytest
 from hypothesis import HealthCheck, assume, example, given, settings
 from hypothesis import strategies as st
 
-from shipcollision_fmu.collision.solvers.gauss_seidel import solve_pgs
-from shipcollision_fmu.collision.solvers.impact_process import solve_slip_path
+from shipcollision_fmu.collision.solvers.gauss_seidel import solve_gauss_seidel
+from shipcollision_fmu.collision.solvers.impact_process import solve_impact_process
 from shipcollision_fmu.ship.frames import rotation
 from tests.collision.impacts import SHARE, Impact, floats, impacts
 
@@ -19,7 +19,7 @@ PLANE = {"degrees_of_freedom": (3,), "e": st.just(0.0)}
 
 def impulse(impact: Impact) -> np.ndarray:
     """In n."""
-    P: np.ndarray = impact.axes.T @ solve_pgs(impact.W, impact.v, impact.mu).P[0]
+    P: np.ndarray = impact.axes.T @ solve_gauss_seidel(impact.W, impact.v, impact.mu).P[0]
     return P
 
 
@@ -31,7 +31,7 @@ def test_head_on_against_a_slope_friction_helps_at_its_limit(slope: float, mu: f
     normal, down = np.array([cos(slope), 0.0, s]), np.array([-s, 0.0, cos(slope)])  # held: nothing moves down
     axes = np.array([normal, [0.0, 1.0, 0.0], down])
     W = axes @ np.diag([1.0 / m, 1.0 / m, 0.0]) @ axes.T
-    P = solve_pgs(W, axes @ [-V, 0.0, 0.0], mu).P[0]
+    P = solve_gauss_seidel(W, axes @ [-V, 0.0, 0.0], mu).P[0]
     assert P[0] == pytest.approx(m * V / (cos(slope) + mu * abs(s)), rel=1e-10)
     assert (axes.T @ P)[0] == pytest.approx(m * V, rel=1e-10)
     assert abs(P[2]) == pytest.approx(mu * P[0], rel=1e-10)
@@ -45,7 +45,7 @@ def test_no_smaller_impulse_would_stop_them(impact: Impact) -> None:
     assume(values[0] <= 1e-12 * values[2] < 1e-3 * values[1])
     free = axes[:, 0] * np.sign(axes[0, 0])  # this impulse does nothing to the ships
     assume(free[0] > 1e-3 < abs(impact.normal[2]))  # less slope is none
-    P = solve_pgs(W, v, mu).P[0]
+    P = solve_gauss_seidel(W, v, mu).P[0]
     assume(np.linalg.norm(v + W @ P) <= 1e-9 * np.linalg.norm(v))  # it sticks
     less = P - 1e-5 * P[0] * free
     assert np.hypot(*less[1:]) > mu * less[0]
@@ -76,16 +76,16 @@ def test_it_is_the_impulse_along_the_path_where_the_slip_keeps_its_direction(slo
     """The closed form follows the impact through: where the slip only slows down, both give the same. Friction below
     0.001 has a test of its own."""
     W, v = head_on(slope, V)
-    path = solve_slip_path(W, v, mu, 0.0)
-    np.testing.assert_allclose(solve_pgs(W, v, mu).P[0], path.P, rtol=0.0, atol=1e-9 * np.linalg.norm(path.P))
+    path = solve_impact_process(W, v, mu, 0.0)
+    np.testing.assert_allclose(solve_gauss_seidel(W, v, mu).P[0], path.P, rtol=0.0, atol=1e-9 * np.linalg.norm(path.P))
 
 
 @given(floats(0.01, 0.7), SHARE, floats(0.1, 5.0))
 @example(0.625, 2.0**-24, 1.0)
 def test_it_is_the_motion_of_the_path_at_any_friction(slope: float, mu: float, V: float) -> None:
     W, v = head_on(slope, V)
-    path = solve_slip_path(W, v, mu, 0.0)
-    np.testing.assert_allclose(W @ solve_pgs(W, v, mu).P[0], W @ path.P, rtol=0.0, atol=1e-9 * V)
+    path = solve_impact_process(W, v, mu, 0.0)
+    np.testing.assert_allclose(W @ solve_gauss_seidel(W, v, mu).P[0], W @ path.P, rtol=0.0, atol=1e-9 * V)
 
 
 @pytest.mark.xfail(strict=True, reason="where many impulses stop a ship, friction below 0.001 is none by rounding")
@@ -93,7 +93,7 @@ def test_it_is_the_impulse_of_the_path_with_little_friction() -> None:
     missed = {}
     for slope in np.linspace(0.01, 0.7, 300):
         W, v = head_on(slope, 1.0)
-        P, path = solve_pgs(W, v, 2.0**-24).P[0], solve_slip_path(W, v, 2.0**-24, 0.0).P
+        P, path = solve_gauss_seidel(W, v, 2.0**-24).P[0], solve_impact_process(W, v, 2.0**-24, 0.0).P
         missed[slope] = np.linalg.norm(P - path) / np.linalg.norm(path)
     assert {slope: m for slope, m in missed.items() if m > 1e-9} == {}
 
@@ -105,5 +105,5 @@ def test_friction_next_to_nothing_is_none(mu: float) -> None:
     for _ in range(100):
         root, v = rng.normal(size=(3, 3)), rng.normal(size=3)
         W, v[0] = root @ root.T / 1e8, -abs(v[0])
-        without, P = (solve_pgs(W, v, friction).P for friction in (0.0, mu))
+        without, P = (solve_gauss_seidel(W, v, friction).P for friction in (0.0, mu))
         assert np.abs(P - without).max() <= 1e-12 * np.abs(without).max()

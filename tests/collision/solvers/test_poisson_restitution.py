@@ -7,8 +7,8 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from shipcollision_fmu.collision.solvers.gauss_seidel import solve_pgs
-from shipcollision_fmu.collision.solvers.poisson_restitution import solve_impact
+from shipcollision_fmu.collision.solvers.gauss_seidel import solve_gauss_seidel
+from shipcollision_fmu.collision.solvers.poisson_restitution import solve_poisson_impact
 
 from .test_gauss_seidel import SEEDS, SHARE, encounter
 
@@ -17,7 +17,7 @@ from .test_gauss_seidel import SEEDS, SHARE, encounter
 def test_frictionless_contact_returns_that_share_of_the_approach(seed: int, e: float) -> None:
     W, v = encounter(seed, 1)
     assume(v[0] < -1e-3)
-    after = v + W @ solve_impact(W, v, 0.0, e).P.ravel()
+    after = v + W @ solve_poisson_impact(W, v, 0.0, e).P.ravel()
     assert after[0] == pytest.approx(-e * v[0], rel=1e-9, abs=1e-12)
 
 
@@ -28,7 +28,7 @@ def test_sticking_contact_sticks_to_the_end(seed: int, e: float) -> None:
     assume(v[0] < -1e-3)
     plastic = -np.linalg.solve(W, v)
     assume(np.hypot(*plastic[1:]) < 2.0 * plastic[0])
-    P = solve_impact(W, v, 50.0, e).P[0]
+    P = solve_poisson_impact(W, v, 50.0, e).P[0]
     after = v + W @ P
     assert P[0] == pytest.approx((1 + e) * plastic[0], rel=1e-9)
     assert np.abs(after[1:]).max() <= 1e-9 * np.abs(v).max()
@@ -43,7 +43,7 @@ def test_contact_that_slides_one_way_follows_newtons_rule_too(seed: int, e: floa
     slip_after = v[1] + (1 + e) * P_n * (W[1, 0] + s * mu * W[1, 1])
     assume(v[0] < -1e-3)
     assume(slip_after * v[1] > 0.0)
-    P = solve_impact(W, v, mu, e).P[0]
+    P = solve_poisson_impact(W, v, mu, e).P[0]
     np.testing.assert_allclose(P, (1 + e) * P_n * np.array([1.0, s * mu, 0.0]), rtol=1e-8, atol=1e-8 * P_n)
     assert (v + W @ P)[0] == pytest.approx(-e * v[0], rel=1e-8, abs=1e-9)
 
@@ -52,7 +52,7 @@ def test_contact_that_slides_one_way_follows_newtons_rule_too(seed: int, e: floa
 def test_energy_is_never_created(seed: int, contacts: int, mu: float, e: float) -> None:
     W, v = encounter(seed, contacts)
     assume(e == 0.0 or e > 1e-9)  # at 1e-213 squares of the impulse of restitution are zero, and it is divided by them
-    P = solve_impact(W, v, mu, e).P.ravel()
+    P = solve_poisson_impact(W, v, mu, e).P.ravel()
     assert P @ (v + 0.5 * W @ P) <= 1e-9 * np.abs(P * v).sum()
 
 
@@ -60,7 +60,7 @@ def test_energy_is_never_created(seed: int, contacts: int, mu: float, e: float) 
 def test_no_approach_is_left_and_friction_stays_in_the_cone(seed: int, contacts: int, mu: float, e: float) -> None:
     W, v = encounter(seed, contacts)
     assume(v[0::3].min() < 0.0)
-    solution = solve_impact(W, v, mu, e)
+    solution = solve_poisson_impact(W, v, mu, e)
     assume(solution.residual <= 1e-11)
     after = v + W @ solution.P.ravel()
     assert after[0::3].min() >= 1e-8 * v[0::3].min()
@@ -74,7 +74,7 @@ def test_a_patch_springs_back_as_one(seed: int, e: float) -> None:
     W, v = encounter(seed, 1)
     W_four, v_four = np.tile(W, (4, 4)), np.tile(v, 4)
     assume(v[0] < -1e-3)
-    one, four = solve_impact(W, v, 0.2, e), solve_impact(W_four, v_four, 0.2, e)
+    one, four = solve_poisson_impact(W, v, 0.2, e), solve_poisson_impact(W_four, v_four, 0.2, e)
     scale = np.abs(one.P).max()
     np.testing.assert_allclose(four.P.sum(axis=0), one.P.sum(axis=0), rtol=1e-7, atol=1e-7 * scale)
 
@@ -82,7 +82,7 @@ def test_a_patch_springs_back_as_one(seed: int, e: float) -> None:
 def test_plastic_impact_is_the_plain_solution() -> None:
     W, v = encounter(5, 3)
     v[0::3] = -np.abs(v[0::3])
-    np.testing.assert_array_equal(solve_impact(W, v, 0.3, 0.0).P, solve_pgs(W, v, 0.3).P)
+    np.testing.assert_array_equal(solve_poisson_impact(W, v, 0.3, 0.0).P, solve_gauss_seidel(W, v, 0.3).P)
 
 
 @given(SEEDS, st.floats(0.1, 1.0), st.sampled_from([3, 6]))
@@ -90,7 +90,7 @@ def test_friction_of_one_contact_is_against_the_slip_or_sticks(seed: int, mu: fl
     """Also for ships held in some direction, whose W is singular."""
     W, v = encounter(seed, 1, dof)
     assume(v[0] < -1e-3)
-    P = solve_impact(W, v, mu, 0.0).P[0]
+    P = solve_poisson_impact(W, v, mu, 0.0).P[0]
     after = v + W @ P
     assert float(P[1:] @ after[1:]) <= 1e-9 * float(np.abs(P).max() * np.abs(v).max())
     assert float(P @ (v + 0.5 * W @ P)) <= 0.0
