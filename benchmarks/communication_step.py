@@ -22,8 +22,9 @@ from rich.console import Console
 from shipcollision_fmu import load_scenario
 from shipcollision_fmu.cli.table import make_table
 from shipcollision_fmu.cosim.component import Buffer, Component, Group, Value
+from shipcollision_fmu.cosim.factories import fmu_factories
 from shipcollision_fmu.cosim.fmu_files import ready_fmus
-from shipcollision_fmu.cosim.simulate import stepped, through_fmus
+from shipcollision_fmu.cosim.simulate import run_steps
 from shipcollision_fmu.fmi.builder.package import FMUS, fmu_bytes
 from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
@@ -105,7 +106,7 @@ def timed(scenario: Scenario, fmus: Mapping[str, Path]) -> tuple[dict[str, float
     """Microseconds per step and part, and the share of steps with contact."""
     clock = Clock()
     with ExitStack() as stack:
-        make_ship, make_collision = through_fmus(fmus, stack)
+        make_ship, make_collision = fmu_factories(fmus, stack)
 
         def ship(name: str) -> Component:
             return Timed(make_ship(name), clock)
@@ -113,7 +114,7 @@ def timed(scenario: Scenario, fmus: Mapping[str, Path]) -> tuple[dict[str, float
         def collision() -> Component:
             return Timed(make_collision(), clock)
 
-        record, total = stepped(scenario, (ship, collision))
+        record, total = run_steps(scenario, scenario.load_ships(), (ship, collision))
     parts = clock.parts | {"master and recorder": total - sum(clock.parts.values()), "total": total}
     steps = scenario.steps
     return {part: 1e6 * seconds / steps for part, seconds in parts.items()}, len(record.issued) / steps

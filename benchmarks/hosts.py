@@ -37,9 +37,9 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
 
 from shipcollision_fmu.cli.table import make_table
+from shipcollision_fmu.cosim.factories import Factories, fmu_factories, model_factories
 from shipcollision_fmu.cosim.master import jacobi
-from shipcollision_fmu.cosim.simulate import Factories, as_models, through_fmus
-from shipcollision_fmu.cosim.wiring import connected
+from shipcollision_fmu.cosim.wiring import connect
 from shipcollision_fmu.encounters.encounter import encounter
 from shipcollision_fmu.fmi.builder.package import build_fmus
 from shipcollision_fmu.fmi.ship_collision import INTERFACE
@@ -94,7 +94,7 @@ def two_tankers(seconds: float) -> Scenario:
 def our_loop(scenario: Scenario, made: Callable[[ExitStack], Factories]) -> float:
     """Wall time of our own step loop [s], without a recorder."""
     with ExitStack() as stack:
-        system, _ = connected(scenario, *made(stack))
+        system, _ = connect(scenario, scenario.load_ships(), *made(stack))
         begin = perf_counter()
         for k in range(scenario.steps):
             jacobi(system, k * scenario.step, scenario.step)
@@ -155,8 +155,8 @@ def _hosts(scenario: Scenario, folder: Path, console: Console) -> None:
     walls: dict[str, list[float]] = {OURS: [], **{host: [] for host in MASTERS}}
     alone: list[float] = []
     for _ in range(ROUNDS):
-        alone.append(our_loop(scenario, lambda stack: as_models(scenario, stack)))
-        walls[OURS].append(our_loop(scenario, lambda stack: through_fmus(fmus, stack)))
+        alone.append(our_loop(scenario, lambda stack: model_factories(tuple(scenario.ships), stack)))
+        walls[OURS].append(our_loop(scenario, lambda stack: fmu_factories(fmus, stack)))
         for host, case in cases.items():
             walls[host].append(run_master(host, [case], folder)[0]["seconds"])
     slaves, rows = min(alone), {host: min(found) for host, found in walls.items()}

@@ -8,7 +8,7 @@ from typing import Any
 import shipcollision_fmu
 from shipcollision_fmu import errors
 from shipcollision_fmu.collision.model import ShipCollision
-from shipcollision_fmu.cosim.simulate import Run
+from shipcollision_fmu.cosim.run import Run
 from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
 from shipcollision_fmu.scenario.scenario import Scenario
 from shipcollision_fmu.ship.ship import Ship

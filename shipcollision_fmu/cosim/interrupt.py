@@ -1,7 +1,7 @@
 """An interrupt (Ctrl-C) waits for the end of the step.
 
-Python raises KeyboardInterrupt wherever it happens to be, also inside an FMU that runs in this very process; there it
-would be taken for a fault of the model. So it is noted, and raised between two steps.
+Python raises KeyboardInterrupt wherever it happens to be, also inside an FMU in this very process. There the exception
+would count as a fault of the model. So the signal is noted, and KeyboardInterrupt is raised between two steps.
 """
 
 from __future__ import annotations
@@ -12,13 +12,15 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
 
-__all__ = ["held_back"]
+__all__ = ["delay_interrupts"]
 
 
 @contextmanager
-def held_back() -> Iterator[Callable[[], None]]:
-    """Within, SIGINT is only noted; the function given raises KeyboardInterrupt if one came. Outside the main thread
-    Python delivers no signals, and nothing is held back."""
+def delay_interrupts() -> Iterator[Callable[[], None]]:
+    """A context that notes SIGINT, and the function that raises KeyboardInterrupt if one has come.
+
+    Outside the main thread Python delivers no signals, so nothing is delayed there.
+    """
     came = False
 
     def note(number: int, frame: FrameType | None) -> None:

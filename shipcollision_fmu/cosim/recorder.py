@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from ..collision.interface import contact_point_count
 from ..fmi.names import CONTACT_INTEGERS, IMPACT_POINT, IMPULSE, STATE, contact_point, named
-from ..results.record import CONTACT_COLUMNS, SIGNALS, Impact, Record
+from ..results.record import CONTACT_COLUMNS, SIGNALS, CollisionStart, Record
 from ..ship.frames import Array
 from .component import Group
 from .master import System
@@ -26,10 +26,10 @@ _IMPACT = ("impact.time", "impact.closing_speed", "impact.angle", *IMPACT_POINT)
 
 
 @dataclass
-class _Contacts:
+class _ContactLog:
     rows: list[tuple[Any, ...]] = field(default_factory=list)
     issued: dict[int, Array] = field(default_factory=dict)
-    impacts: dict[int, Impact] = field(default_factory=dict)
+    starts: dict[int, CollisionStart] = field(default_factory=dict)
 
 
 class Recorder:
@@ -40,7 +40,7 @@ class Recorder:
     ) -> None:
         self._names, self._step = names, step
         self._bodies = [*names, *obstacles]  # as the collision FMU counts them
-        self._states = np.zeros((steps + 1, 1 + len(names) * len(STATE)))
+        self._state_rows = np.zeros((steps + 1, 1 + len(names) * len(STATE)))
         self._buffers = [np.ctypeslib.as_array(wire.outputs.values) for wire in system.states]
         collision = system.collision
         slots = [contact_point(i) for i in range(1, contact_point_count(len(names)) + 1)]
@@ -49,38 +49,38 @@ class Recorder:
         self._numbers = collision.integers([variable for slot in slots for variable in named(slot, CONTACT_INTEGERS)])
         self._impact = collision.reals(_IMPACT)
         self._issued = collision.reals([variable for name in names for variable in named(name, IMPULSE)])
-        self._watched = collision.reals(SIGNALS)
+        self._signal_group = collision.reals(SIGNALS)
         self._fender = collision.reals(named("fender", ("stored", "dissipated")))
         self._solver = collision.integers(["solver.unconverged", "solver.scaled"])
-        self._signals = np.zeros((steps + 1, 1 + len(SIGNALS)))
-        self._seen = _Contacts()
+        self._signal_rows = np.zeros((steps + 1, 1 + len(SIGNALS)))
+        self._log = _ContactLog()
         self._impacts = 0
         self._least, self._nearest = float("inf"), list[int]()
 
     def record(self, k: int) -> None:
         """Take down communication point k; its values are in the wires."""
-        row = self._states[k]
+        row = self._state_rows[k]
         row[0] = round(k * self._step, 9)  # 27.15, not 27.150000000000002
         width = len(STATE)
         for i, buffer in enumerate(self._buffers):
             row[1 + i * width : 1 + (i + 1) * width] = buffer[:width]
-        self._watched.read()
-        self._signals[k] = (row[0], *self._watched.values)
+        self._signal_group.read()
+        self._signal_rows[k] = (row[0], *self._signal_group.values)
         self._counts.read()
         count, impacts, *nearest = self._counts.values
-        if (clearance := self._watched.values[0]) < self._least:
+        if (clearance := self._signal_group.values[0]) < self._least:
             self._least, self._nearest = clearance, nearest
         if impacts > self._impacts:
             self._impacts = impacts
             time, closing_speed, angle, north, east, down = _read(self._impact)
-            self._seen.impacts[impacts] = Impact(time, closing_speed, angle, (north, east, down))
+            self._log.starts[impacts] = CollisionStart(time, closing_speed, angle, (north, east, down))
         if count > 0:
             self._record_contacts(k, count)
 
-    def finished(self) -> Record:
+    def build_record(self) -> Record:
         """The record of the whole run."""
-        states = _table(self._states, [f"{name}.{variable}" for name in self._names for variable in STATE])
-        signals = _table(self._signals, SIGNALS)
+        states = _table(self._state_rows, [f"{name}.{variable}" for name in self._names for variable in STATE])
+        signals = _table(self._signal_rows, SIGNALS)
         text = f"U{max(map(len, self._bodies))}"
         contact_type = [
             ("time", np.float64), ("ship_a", text), ("ship_b", text), ("impact", np.int64), ("scratch", np.int64),
@@ -92,13 +92,13 @@ class Recorder:
         return Record(
             states=states,
             signals=signals,
-            contacts=np.array(self._seen.rows, dtype=contact_type),
-            issued=self._seen.issued,
-            impacts=self._seen.impacts,
+            contacts=np.array(self._log.rows, dtype=contact_type),
+            issued=self._log.issued,
+            starts=self._log.starts,
             energy=(dissipated, normal, tangential),
             fender=(stored, lost),
             solver=(unconverged, scaled),
-            issued_finally=np.array(_read(self._issued)).reshape(-1, 6),
+            issued_at_end=np.array(_read(self._issued)).reshape(-1, 6),
             applied=np.array([buffer[len(STATE) :] for buffer in self._buffers]),
             clearance=self._least,
             nearest=tuple(self._bodies[ship - 1] for ship in self._nearest if ship > 0),
@@ -111,8 +111,8 @@ class Recorder:
         for i in range(count):
             a, b, impact, scratch = self._numbers.values[i * ids : (i + 1) * ids]
             values = self._reals.values[i * width : (i + 1) * width]
-            self._seen.rows.append((time, self._bodies[a - 1], self._bodies[b - 1], impact, scratch, *values))
-        self._seen.issued[k] = np.array(_read(self._issued)).reshape(-1, 6)
+            self._log.rows.append((time, self._bodies[a - 1], self._bodies[b - 1], impact, scratch, *values))
+        self._log.issued[k] = np.array(_read(self._issued)).reshape(-1, 6)
 
 
 def _table(rows: Array, columns: Sequence[str]) -> npt.NDArray[Any]:

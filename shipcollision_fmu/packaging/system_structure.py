@@ -19,7 +19,7 @@ from dataclasses import dataclass, field
 from math import isclose
 
 from ..cosim.component import Value
-from ..cosim.wiring import collision_parameters, ship_parameters, surroundings
+from ..cosim.parameters import collision_parameters, ship_parameters, surroundings
 from ..errors import ScenarioError
 from ..fmi.builder.package import instance_fmu
 from ..fmi.interface import Interface

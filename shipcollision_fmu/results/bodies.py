@@ -19,10 +19,10 @@ from ..ship.hull.hull import build_hull
 from ..ship.hull.solid import HullMesh
 from ..ship.ship import Ship
 
-__all__ = ["bodies"]
+__all__ = ["build_bodies"]
 
 
-def bodies(
+def build_bodies(
     ships: Mapping[str, Ship], free: Mapping[str, int], obstacles: Mapping[str, ObstacleTable]
 ) -> dict[str, Any]:
     """{"ships": {...}, "obstacles": {...}} as JSON-able data; `free` are the ships' degrees of freedom."""
@@ -45,12 +45,12 @@ def _ship(ship: Ship, degrees_of_freedom: int) -> dict[str, Any]:
 
 
 def _obstacle(name: str, table: ObstacleTable) -> dict[str, Any]:
-    made = obstacle(name, table)
+    body = obstacle(name, table)
     return {
-        "kind": made.kind,
-        "position": made.position.tolist(),
-        "heading": made.heading,
-        **_surface(made.solid),
+        "kind": body.kind,
+        "position": body.position.tolist(),
+        "heading": body.heading,
+        **_surface(body.solid),
     }
 
 

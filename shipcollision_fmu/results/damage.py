@@ -26,7 +26,7 @@ from typing import Any
 from ..errors import InputError
 
 __all__ = [
-    "BOW", "bow_crush", "bow_force", "crush_duration", "indicative_damage", "minorsky_volume", "wedge_penetration",
+    "BOW", "bow_crush", "bow_force", "crush_duration", "estimate_damage", "minorsky_volume", "wedge_penetration",
     "woisin_volume",
 ]  # fmt: skip
 
@@ -73,7 +73,7 @@ def wedge_penetration(volume: float, t_eq: float, half_angle: float) -> float:
     return sqrt(volume / (t_eq * tan(half_angle)))
 
 
-def indicative_damage(
+def estimate_damage(
     energy: float,
     t_eq: float,
     half_angle: float,

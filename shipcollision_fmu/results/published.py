@@ -26,7 +26,7 @@ from ..ship.frames import Array, quaternion_w, swapped
 from ..ship.ship import Ship
 from ..ship.ship_state import ShipState
 
-__all__ = ["compared", "state_at", "world_state"]
+__all__ = ["compare_published", "interpolate_state", "paper_quantities"]
 
 _KINDS = {
     **dict.fromkeys(("x", "y"), ("m", "horizontal")), "z": ("m", "vertical"),
@@ -37,12 +37,14 @@ _KINDS = {
 """Unit, and field of Tolerance, of each quantity."""
 
 
-def compared(reference: Reference, states: npt.NDArray[Any], ships: Mapping[str, Ship]) -> list[dict[str, Any]]:
+def compare_published(
+    reference: Reference, states: npt.NDArray[Any], ships: Mapping[str, Ship]
+) -> list[dict[str, Any]]:
     """A row per published number: ship, quantity, unit, printed, paper (as corrected), computed, difference, tolerance,
     and whether it is within."""
     rows = []
     for name, published in reference.ships.items():
-        computed = world_state(state_at(states, name, reference.time), ships[name].r_bg)
+        computed = paper_quantities(interpolate_state(states, name, reference.time), ships[name].r_bg)
         for quantity, printed in published.printed.items():
             paper = published.corrected.get(quantity, printed)
             difference = computed[quantity] - paper
@@ -62,12 +64,12 @@ def compared(reference: Reference, states: npt.NDArray[Any], ships: Mapping[str,
     return rows
 
 
-def state_at(states: npt.NDArray[Any], name: str, time: float) -> ShipState:
+def interpolate_state(states: npt.NDArray[Any], name: str, time: float) -> ShipState:
     """State of a ship at a time [s], interpolated linearly between communication points."""
     return ShipState(*(float(np.interp(time, states["time"], states[f"{name}.{variable}"])) for variable in STATE))
 
 
-def world_state(state: ShipState, r_bg: Array) -> dict[Quantity, float]:
+def paper_quantities(state: ShipState, r_bg: Array) -> dict[Quantity, float]:
     """The paper's twelve quantities of a ship's state about CO."""
     R_nb = state.R_nb
     x, y, z = swapped(np.array(state.position) + R_nb @ r_bg)

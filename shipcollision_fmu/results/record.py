@@ -10,7 +10,7 @@ import numpy.typing as npt
 from ..fmi.names import CONTACT_REALS, ENERGY
 from ..ship.frames import Array
 
-__all__ = ["CONTACT_COLUMNS", "SIGNALS", "Impact", "Record"]
+__all__ = ["CONTACT_COLUMNS", "SIGNALS", "CollisionStart", "Record"]
 
 CONTACT_COLUMNS = CONTACT_REALS
 """Real columns of contacts.csv."""
@@ -19,7 +19,7 @@ SIGNALS = ("clearance", *ENERGY)
 
 
 @dataclass(frozen=True)
-class Impact:
+class CollisionStart:
     """The start of a collision, as the collision FMU gave it: time [s], closing speed [m/s], angle [rad], and the
     middle of what touched first, in n [m]."""
 
@@ -37,9 +37,9 @@ class Record:
     signals    structured array, a row per communication point: time and SIGNALS
     contacts   structured array, a row per contact point and step; time is the step's end
     issued     per communication point k that ends a step with contact: cumulative impulses (ships, 6) after it
-    impacts    by number of the collision; one is missing when another began in the same communication step
+    starts    by number of the collision; one is missing when another began in the same communication step
     energy     dissipated, normal, tangential [J] at the end
-    applied    what the ships say they applied at the end (ships, 6); the final `issued` is `issued_finally`
+    applied    what the ships say they applied at the end (ships, 6); the final `issued` is `issued_at_end`
     clearance  least distance between hulls at any communication point [m], capped
     nearest    between which, at the first of them: two names, none if they were never within the cap
     solver     answers that did not meet the law of contact to 1e-9, and answers scaled back so as not to add energy
@@ -50,9 +50,9 @@ class Record:
     signals: npt.NDArray[Any]
     contacts: npt.NDArray[Any]
     issued: dict[int, Array]
-    impacts: dict[int, Impact]
+    starts: dict[int, CollisionStart]
     energy: tuple[float, float, float]
-    issued_finally: Array
+    issued_at_end: Array
     applied: Array
     clearance: float
     nearest: tuple[str, ...] = ()

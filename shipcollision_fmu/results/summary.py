@@ -34,16 +34,18 @@ from ..scenario.scenario import Scenario
 from ..ship.frames import Array, rotation
 from ..ship.kinetic_energy import kinetic_energy, motion_twist
 from ..ship.ship import Ship
-from .published import compared
+from .published import compare_published
 from .record import Record
 
-__all__ = ["summary"]
+__all__ = ["build_summary"]
 
 _PACKAGES = ("numpy", "pybullet", "FMPy", "pythonfmu")
 
 
-def summary(scenario: Scenario, ships: Mapping[str, Ship], record: Record, found: Mapping[str, Any]) -> dict[str, Any]:
-    """summary.json as JSON-able data; `found` are the run's events."""
+def build_summary(
+    scenario: Scenario, ships: Mapping[str, Ship], record: Record, events: Mapping[str, Any]
+) -> dict[str, Any]:
+    """summary.json as JSON-able data; `events` are the run's events."""
     before, after = (_states(record, ships, row) for row in (0, -1))
     free = {name: table.free for name, table in scenario.ships.items()}
     data: dict[str, Any] = {
@@ -55,14 +57,14 @@ def summary(scenario: Scenario, ships: Mapping[str, Ship], record: Record, found
         "steps": scenario.steps,
         "duration": scenario.step * scenario.steps,
         "ships": {name: _ship(scenario, name, ship) for name, ship in ships.items()},
-        "collisions": len(found["collisions"]),
-        "scratches": len(found["scratches"]),
+        "collisions": len(events["collisions"]),
+        "scratches": len(events["scratches"]),
         "least_clearance": record.clearance,
         "nearest": list(record.nearest),
         "clearance_range": scenario.collision.clearance_range or CollisionParameters([]).clearance_range,
         "ledger": {
             name: {"issued": issued.tolist(), "applied": applied.tolist(), "pending": (issued - applied).tolist()}
-            for name, issued, applied in zip(ships, record.issued_finally, record.applied, strict=True)
+            for name, issued, applied in zip(ships, record.issued_at_end, record.applied, strict=True)
         },
         "momentum": {
             "before": _momentum(ships, free, before),
@@ -83,7 +85,7 @@ def summary(scenario: Scenario, ships: Mapping[str, Ship], record: Record, found
     }
     if scenario.reference is not None:
         data["reference"] = {"source": scenario.reference.source, "time": scenario.reference.time}
-        data["paper"] = compared(scenario.reference, record.states, ships)
+        data["paper"] = compare_published(scenario.reference, record.states, ships)
     return data
 
 

@@ -10,17 +10,10 @@ import numpy as np
 import pytest
 
 from shipcollision_fmu import load_scenario, simulate
-from shipcollision_fmu.cosim.helm import (
-    Autopilot,
-    Evasion,
-    HelmState,
-    Route,
-    Steering,
-    closest_approach,
-    helmed,
-    line_of_sight,
-    steered,
-)
+from shipcollision_fmu.cosim.autopilot import Autopilot, steer_heading
+from shipcollision_fmu.cosim.evasion import Evasion, closest_approach
+from shipcollision_fmu.cosim.helm import HelmState, Steering, steer
+from shipcollision_fmu.cosim.route import Route, line_of_sight
 from shipcollision_fmu.cosim.run import Run
 from shipcollision_fmu.errors import ScenarioError
 from shipcollision_fmu.ship.ship_state import ShipState
@@ -30,55 +23,55 @@ PILOT = Autopilot(gain=1.5, rate_gain=60.0, integral_gain=0.01, rudder_limit=rad
 ROUTE = Route((0.0, 0.0), ((1000.0, 0.0), (1000.0, 1000.0)), lookahead=200.0, acceptance=100.0)
 
 
-def seen(
+def ship(
     north: float = 0.0, east: float = 0.0, heading_deg: float = 0.0, surge: float = 5.0, r: float = 0.0
 ) -> ShipState:
     return ShipState.upright(north, east, radians(heading_deg), surge, 0.0, r)
 
 
 def test_a_heading_to_starboard_takes_starboard_rudder() -> None:
-    assert steered(PILOT, radians(5), 0.0, seen(), 0.1) == (
+    assert steer_heading(PILOT, radians(5), 0.0, ship(), 0.1) == (
         pytest.approx(radians(7.5)),
         pytest.approx(0.1 * radians(5)),
     )
-    assert steered(PILOT, radians(-5), 0.0, seen(), 0.1)[0] == pytest.approx(radians(-7.5))
+    assert steer_heading(PILOT, radians(-5), 0.0, ship(), 0.1)[0] == pytest.approx(radians(-7.5))
 
 
 def test_the_autopilot_turns_the_short_way_round_and_a_heading_that_is_unwrapped_is_the_same() -> None:
-    assert steered(PILOT, radians(2), 0.0, seen(heading_deg=358), 0.1)[0] == pytest.approx(radians(6))
-    assert steered(PILOT, radians(358), 0.0, seen(heading_deg=2 + 720), 0.1)[0] == pytest.approx(radians(-6))
+    assert steer_heading(PILOT, radians(2), 0.0, ship(heading_deg=358), 0.1)[0] == pytest.approx(radians(6))
+    assert steer_heading(PILOT, radians(358), 0.0, ship(heading_deg=2 + 720), 0.1)[0] == pytest.approx(radians(-6))
 
 
 def test_a_rate_of_turn_is_met_by_the_rudder_against_it() -> None:
-    assert steered(PILOT, 0.0, 0.0, seen(r=radians(0.1)), 0.1)[0] == pytest.approx(radians(-6))
+    assert steer_heading(PILOT, 0.0, 0.0, ship(r=radians(0.1)), 0.1)[0] == pytest.approx(radians(-6))
 
 
 def test_at_its_limit_the_order_is_cut_and_the_integral_waits() -> None:
-    assert steered(PILOT, radians(90), 0.3, seen(), 0.1) == (radians(20), 0.3)
-    assert steered(PILOT, radians(-90), 0.3, seen(), 0.1) == (radians(-20), 0.3)
+    assert steer_heading(PILOT, radians(90), 0.3, ship(), 0.1) == (radians(20), 0.3)
+    assert steer_heading(PILOT, radians(-90), 0.3, ship(), 0.1) == (radians(-20), 0.3)
 
 
 def test_line_of_sight_steers_back_to_the_leg() -> None:
-    assert line_of_sight(ROUTE, 0, seen(300.0, 0.0)) == (0.0, 0)
-    heading, leg = line_of_sight(ROUTE, 0, seen(300.0, 200.0))  # 200 m to starboard, 200 m of lookahead
+    assert line_of_sight(ROUTE, 0, ship(300.0, 0.0)) == (0.0, 0)
+    heading, leg = line_of_sight(ROUTE, 0, ship(300.0, 200.0))  # 200 m to starboard, 200 m of lookahead
     assert (heading, leg) == (pytest.approx(-pi / 4), 0)
-    assert line_of_sight(ROUTE, 0, seen(300.0, -200.0))[0] == pytest.approx(pi / 4)
+    assert line_of_sight(ROUTE, 0, ship(300.0, -200.0))[0] == pytest.approx(pi / 4)
 
 
 def test_a_leg_ends_before_its_waypoint_and_the_last_never() -> None:
-    assert line_of_sight(ROUTE, 0, seen(899.0, 0.0))[1] == 0
-    heading, leg = line_of_sight(ROUTE, 0, seen(901.0, 0.0))
+    assert line_of_sight(ROUTE, 0, ship(899.0, 0.0))[1] == 0
+    heading, leg = line_of_sight(ROUTE, 0, ship(901.0, 0.0))
     assert leg == 1
     assert heading == pytest.approx(pi / 2 - np.arctan2(99.0, 200.0))  # 99 m to starboard of the new leg
-    assert line_of_sight(ROUTE, 1, seen(1000.0, 5000.0)) == (pytest.approx(pi / 2), 1)
+    assert line_of_sight(ROUTE, 1, ship(1000.0, 5000.0)) == (pytest.approx(pi / 2), 1)
 
 
 def test_closest_approach_is_the_textbook_one() -> None:
     """Crossing at right angles, both 5 m/s, 1000 m and 800 m from the crossing: the first is late by 200 m."""
-    time, distance = closest_approach(seen(-1000.0, 0.0), seen(0.0, 800.0, heading_deg=270))
+    time, distance = closest_approach(ship(-1000.0, 0.0), ship(0.0, 800.0, heading_deg=270))
     assert time == pytest.approx((1000 + 800) / (2 * 5))
     assert distance == pytest.approx(200 / 2**0.5)
-    assert closest_approach(seen(), seen(100.0, 0.0)) == (0.0, 100.0)  # together for ever
+    assert closest_approach(ship(), ship(100.0, 0.0)) == (0.0, 100.0)  # together for ever
 
 
 @pytest.mark.parametrize(
@@ -87,12 +80,12 @@ def test_closest_approach_is_the_textbook_one() -> None:
 )
 def test_evasion_begins_when_it_is_late_and_never_ends(evasion: Evasion) -> None:
     steering = Steering(PILOT, None, evasion)
-    orders, state = helmed(steering, HelmState(heading=0.0), (0.0, 1.0), seen(), seen(2000.0, heading_deg=180), 0.1)
+    orders, state = steer(steering, HelmState(heading=0.0), (0.0, 1.0), ship(), ship(2000.0, heading_deg=180), 0.1)
     assert (orders, state.evading) == ((0.0, 1.0), False)
-    near, far = seen(899.0, heading_deg=180), seen(9999.0, heading_deg=0)
-    orders, state = helmed(steering, state, (0.0, 1.0), seen(), near, 0.1)
+    near, far = ship(899.0, heading_deg=180), ship(9999.0, heading_deg=0)
+    orders, state = steer(steering, state, (0.0, 1.0), ship(), near, 0.1)
     assert (orders, state.evading) == ((radians(35), -0.5), True)
-    assert helmed(steering, state, (0.0, 1.0), seen(), far, 0.1)[0] == (radians(35), -0.5)
+    assert steer(steering, state, (0.0, 1.0), ship(), far, 0.1)[0] == (radians(35), -0.5)
 
 
 Sail = Callable[..., Run]
@@ -217,6 +210,6 @@ def test_a_ship_that_coasts_has_no_helm(scenario_file: Write, key: str) -> None:
         load_scenario(scenario_file(("speed = 4.0", f"speed = 4.0\n{key}")))
 
 
-def test_speed_over_ground_of_what_is_seen() -> None:
+def test_speed_over_ground() -> None:
     assert ShipState.upright(0, 0, pi / 2, 3.0, 4.0).plan_velocity == (pytest.approx(-4.0), pytest.approx(3.0))
     assert hypot(*ShipState.upright(0, 0, 0.3, 3.0, 4.0).plan_velocity) == pytest.approx(5.0)

@@ -9,7 +9,7 @@ import pytest
 
 from shipcollision_fmu import load_scenario, simulate
 from shipcollision_fmu.collision.model import ShipCollision
-from shipcollision_fmu.cosim.interrupt import held_back
+from shipcollision_fmu.cosim.interrupt import delay_interrupts
 from tests.conftest import Write
 
 
@@ -37,7 +37,7 @@ def test_an_interrupt_inside_a_model_ends_the_run_as_an_interrupt(
 
 def test_the_handler_from_before_is_put_back() -> None:
     before = signal.getsignal(signal.SIGINT)
-    with held_back() as check:
+    with delay_interrupts() as check:
         check()
         assert signal.getsignal(signal.SIGINT) is not before
     assert signal.getsignal(signal.SIGINT) is before
@@ -46,7 +46,7 @@ def test_the_handler_from_before_is_put_back() -> None:
 def test_where_interrupts_are_ignored_they_stay_ignored() -> None:
     before = signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
-        with held_back() as check:
+        with delay_interrupts() as check:
             signal.raise_signal(signal.SIGINT)
             check()
     finally:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from shipcollision_fmu.cosim.component import InProcessComponent
-from shipcollision_fmu.cosim.simulate import stepped
+from shipcollision_fmu.cosim.simulate import run_steps
 from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
 from shipcollision_fmu.fmi.slave_base import state_to_bytes
@@ -33,8 +33,10 @@ def saved_states(scenario: str = "guan2014_added_mass", every: int = 12) -> dict
             found["ShipManoeuvring"].append(state_to_bytes(made["own"].save()))
         touching.append(active)
 
-    stepped(
-        load_scenario(scenario),
+    loaded = load_scenario(scenario)
+    run_steps(
+        loaded,
+        loaded.load_ships(),
         (lambda name: component(name, MANOEUVRING.ports()), lambda: component("collision", COLLISION.ports())),
         keep,
     )

@@ -20,7 +20,7 @@ from shipcollision_fmu.cosim.fmi2_component import Fmi2Component
 from shipcollision_fmu.cosim.fmi3_component import Fmi3Component
 from shipcollision_fmu.cosim.fmu_instance import UnpackedFmu
 from shipcollision_fmu.cosim.master import System, gauss_seidel, jacobi
-from shipcollision_fmu.cosim.wiring import connected
+from shipcollision_fmu.cosim.wiring import connect
 from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
 from shipcollision_fmu.scenario.scenario import load_scenario
@@ -47,7 +47,9 @@ class Encounter:
 
         scenario = load_scenario("guan2014_added_mass")
         ships = lambda name: component(name, MANOEUVRING)  # noqa: E731
-        self.system: System = connected(scenario, ships, lambda: component("collision", COLLISION))[0]
+        self.system: System = connect(
+            scenario, scenario.load_ships(), ships, lambda: component("collision", COLLISION)
+        )[0]
         self.all = [self._all(part) for part in self.parts]
 
     @staticmethod

@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from shipcollision_fmu.cosim.factories import model_factories
 from shipcollision_fmu.cosim.master import jacobi
-from shipcollision_fmu.cosim.simulate import as_models
-from shipcollision_fmu.cosim.wiring import connected
+from shipcollision_fmu.cosim.wiring import connect
 from shipcollision_fmu.fmi.names import APPLIED, IMPULSE, STATE, named
 from shipcollision_fmu.packaging.osp import write_osp
 from shipcollision_fmu.packaging.ssp import write_ssp
@@ -67,7 +67,8 @@ class Encounter:
     def ours(self) -> tuple[Rows, int, dict[str, list[float]]]:
         """Our own parallel master in process: rows, number of collisions, and every connected output by point."""
         with ExitStack() as stack:
-            system, helms = connected(self.scenario, *as_models(self.scenario, stack))
+            factories = model_factories(tuple(self.scenario.ships), stack)
+            system, helms = connect(self.scenario, self.scenario.load_ships(), *factories)
             issued = system.collision.reals([variable for name in self.ships for variable in named(name, IMPULSE)])
             impacts = system.collision.integers(["impact.count"])
             sent = [f"{name}|{variable}" for name in self.ships for variable in (*STATE, *APPLIED)]
@@ -85,7 +86,7 @@ class Encounter:
             take_down()
             for k in range(self.scenario.steps):
                 for helm in helms:
-                    helm.give(k)
+                    helm.send(k)
                 jacobi(system, k * self.scenario.step, self.scenario.step)
                 take_down()
             impacts.read()

@@ -9,7 +9,7 @@ import pytest
 
 from shipcollision_fmu import load_scenario, simulate
 from shipcollision_fmu.cosim.run import Run
-from shipcollision_fmu.results.published import state_at, world_state
+from shipcollision_fmu.results.published import interpolate_state, paper_quantities
 from shipcollision_fmu.scenario.scenario import Scenario
 from shipcollision_fmu.ship.frames import swapped
 
@@ -33,7 +33,7 @@ def run(scenario: Scenario) -> Run:
 
 
 def computed(scenario: Scenario, run: Run, ship: str, time: float) -> dict[str, float]:
-    return dict(world_state(state_at(run.states, ship, time), scenario.load_ships()[ship].r_bg))
+    return dict(paper_quantities(interpolate_state(run.states, ship, time), scenario.load_ships()[ship].r_bg))
 
 
 def change(scenario: Scenario, run: Run, ship: str) -> np.ndarray:

@@ -11,7 +11,7 @@ from shipcollision_fmu.results.damage import (
     bow_crush,
     bow_force,
     crush_duration,
-    indicative_damage,
+    estimate_damage,
     minorsky_volume,
     wedge_penetration,
     woisin_volume,
@@ -64,7 +64,7 @@ def test_wedge_penetration_fills_its_volume() -> None:
 
 
 def test_report_names_each_formula_and_says_that_it_is_indicative() -> None:
-    damage = indicative_damage(110e6, 0.1, radians(30.0), bow_length=288.0, closing_speed=3.5, shells=[(8.0, 0.02)])
+    damage = estimate_damage(110e6, 0.1, radians(30.0), bow_length=288.0, closing_speed=3.5, shells=[(8.0, 0.02)])
     assert damage["indicative"] is True
     assert set(damage) == {"indicative", "energy", "minorsky_1959", "woisin_1979", "pedersen_1993", "wedge"}
     methods = [value for value in damage.values() if isinstance(value, dict)]
@@ -75,12 +75,12 @@ def test_report_names_each_formula_and_says_that_it_is_indicative() -> None:
 
 
 def test_no_bow_no_crush_and_no_penetration() -> None:
-    damage = indicative_damage(110e6, 0.1, 0.5, bow_length=None, closing_speed=None)
+    damage = estimate_damage(110e6, 0.1, 0.5, bow_length=None, closing_speed=None)
     assert set(damage) == {"indicative", "energy", "minorsky_1959"}
 
 
 def test_unknown_closing_speed_leaves_the_duration_open() -> None:
-    assert indicative_damage(1e8, 0.1, 0.5, bow_length=100.0, closing_speed=None)["pedersen_1993"]["duration"] is None
+    assert estimate_damage(1e8, 0.1, 0.5, bow_length=100.0, closing_speed=None)["pedersen_1993"]["duration"] is None
 
 
 @pytest.mark.parametrize(
@@ -89,4 +89,4 @@ def test_unknown_closing_speed_leaves_the_duration_open() -> None:
 )
 def test_refusals(t_eq: float, half_angle: float, message: str) -> None:
     with pytest.raises(InputError, match=message):
-        indicative_damage(1e8, t_eq, half_angle, bow_length=100.0, closing_speed=1.0)
+        estimate_damage(1e8, t_eq, half_angle, bow_length=100.0, closing_speed=1.0)

@@ -11,8 +11,8 @@ import pytest
 
 from shipcollision_fmu import load_scenario, simulate
 from shipcollision_fmu.fmi.names import STATE
-from shipcollision_fmu.results.events import events
-from shipcollision_fmu.results.record import CONTACT_COLUMNS, SIGNALS, Impact, Record
+from shipcollision_fmu.results.events import build_events
+from shipcollision_fmu.results.record import CONTACT_COLUMNS, SIGNALS, CollisionStart, Record
 from shipcollision_fmu.ship.loading.library import load_ship
 
 STEP = 0.5
@@ -29,7 +29,9 @@ def contact(k: int, pair: tuple[str, str], numbers: tuple[int, int], east: float
     return (k * STEP, *pair, *numbers, *values.values())
 
 
-def record(rows: list[tuple[Any, ...]], issued: dict[int, list[list[float]]], impacts: dict[int, Impact]) -> Record:
+def record(
+    rows: list[tuple[Any, ...]], issued: dict[int, list[list[float]]], impacts: dict[int, CollisionStart]
+) -> Record:
     columns = [("time", float), *((f"{name}.{state}", float) for name in NAMES for state in STATE)]
     contact_type = [("time", float), ("ship_a", "U6"), ("ship_b", "U6"), ("impact", int), ("scratch", int)]
     states = np.zeros(6, dtype=columns)
@@ -39,13 +41,13 @@ def record(rows: list[tuple[Any, ...]], issued: dict[int, list[list[float]]], im
         signals=np.zeros(6, dtype=[("time", float), *((name, float) for name in SIGNALS)]),
         contacts=np.array(rows, dtype=[*contact_type, *((column, float) for column in CONTACT_COLUMNS)]),
         issued={k: np.array(value) for k, value in issued.items()},
-        impacts=impacts,
-        energy=(0.0, 0.0, 0.0), issued_finally=np.zeros((3, 6)), applied=np.zeros((3, 6)), clearance=0.0,
+        starts=impacts,
+        energy=(0.0, 0.0, 0.0), issued_at_end=np.zeros((3, 6)), applied=np.zeros((3, 6)), clearance=0.0,
     )  # fmt: skip
 
 
 def found(made: Record) -> dict[str, Any]:
-    return events(made, dict.fromkeys(NAMES, SHIP), dict.fromkeys(NAMES, 3))
+    return build_events(made, dict.fromkeys(NAMES, SHIP), dict.fromkeys(NAMES, 3))
 
 
 def sway(impulse: float) -> list[float]:
@@ -63,7 +65,7 @@ def test_a_collision_sums_over_its_points_and_steps() -> None:
         contact(3, ("left", "middle"), (1, 1), 7.0, 1e6),
     ]
     issued = {2: [sway(-5e6), sway(5e6), sway(0)], 3: [sway(-6e6), sway(6e6), sway(0)]}
-    (collision,) = found(record(rows, issued, {1: Impact(0.8, 1.5, 0.1, (0.0, 5.5, 0.0))}))["collisions"]
+    (collision,) = found(record(rows, issued, {1: CollisionStart(0.8, 1.5, 0.1, (0.0, 5.5, 0.0))}))["collisions"]
     assert (collision["start"], collision["end"]) == (0.8, 1.5)
     assert (collision["closing_speed"], collision["angle"], collision["energy"]) == (1.5, 0.1, 3.0)
     assert collision["impulse"] == {"n": [0.0, 6e6, 0.0], "magnitude": 6e6}
@@ -80,7 +82,7 @@ def test_a_ship_hit_from_both_sides_at_once_takes_its_share_from_each() -> None:
     """The impulses on the middle ship cancel in the ledger, and must not in its two collisions."""
     rows = [contact(1, ("left", "middle"), (1, 1), 5.0, 4e6), contact(1, ("middle", "right"), (2, 2), 9.0, 4e6)]
     issued = {1: [sway(-4e6), sway(0.0), sway(4e6)]}
-    made = record(rows, issued, {2: Impact(0.2, 1.0, 0.0, (0.0, 9.0, 0.0))})
+    made = record(rows, issued, {2: CollisionStart(0.2, 1.0, 0.0, (0.0, 9.0, 0.0))})
     made.states["left.velocity.sway"][0], made.states["middle.rate.yaw"][0] = 1.5, 0.02
     made.states["middle.attitude.yaw"][0] = 0.0
     first, second = found(made)["collisions"]
@@ -100,7 +102,7 @@ def test_a_ship_hit_from_both_sides_at_once_takes_its_share_from_each() -> None:
 def test_the_relative_velocity_is_that_of_the_first_point_on_either_ship() -> None:
     """Left goes sideways; middle, on the same spot, turns: her side 5 m to starboard goes astern."""
     made = record([contact(1, ("left", "middle"), (1, 1), 5.0, 4e6)], {1: [sway(0.0)] * 3},
-                  {1: Impact(0.0, 1.5, 0.0, (0.0, 5.0, 0.0))})  # fmt: skip
+                  {1: CollisionStart(0.0, 1.5, 0.0, (0.0, 5.0, 0.0))})  # fmt: skip
     made.states["left.velocity.sway"][0], made.states["middle.rate.yaw"][0] = 1.5, 0.02
     (collision,) = found(made)["collisions"]
     assert collision["relative_velocity"] == pytest.approx([0.02 * 5.0, 1.5, 0.0], rel=1e-12)
@@ -125,9 +127,11 @@ def test_a_scratch_has_one_point_per_step_that_of_the_largest_impulse() -> None:
 def test_a_start_beside_another_against_an_obstacle_that_stands_across() -> None:
     """Its velocity is none, its heading that of its table: a right angle."""
     rows = [contact(1, ("left", "quay"), (1, 1), 5.0, 4e6), contact(1, ("middle", "right"), (2, 2), 9.0, 4e6)]
-    made = record(rows, {1: [sway(0.0)] * 3}, {2: Impact(0.2, 1.0, 0.0, (0.0, 9.0, 0.0))})
+    made = record(rows, {1: [sway(0.0)] * 3}, {2: CollisionStart(0.2, 1.0, 0.0, (0.0, 9.0, 0.0))})
     made.states["left.velocity.sway"][0] = 2.0
-    first, _ = events(made, dict.fromkeys(NAMES, SHIP), dict.fromkeys(NAMES, 3), None, {"quay": pi / 2})["collisions"]
+    first, _ = build_events(made, dict.fromkeys(NAMES, SHIP), dict.fromkeys(NAMES, 3), None, {"quay": pi / 2})[
+        "collisions"
+    ]
     assert first["closing_speed"] == pytest.approx(2.0)
     assert first["relative_velocity"] == pytest.approx([0.0, 2.0, 0.0])
     assert first["angle"] == pytest.approx(pi / 2)

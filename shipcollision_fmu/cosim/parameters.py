@@ -1,0 +1,46 @@
+"""Parameters of the FMUs' instances from a scenario, by the names of the FMUs' variables."""
+
+from __future__ import annotations
+
+from math import radians
+
+from ..collision.obstacles import obstacles_toml
+from ..fmi.names import STATE
+from ..scenario.scenario import Scenario
+from ..scenario.tables.ship_start import ShipStart
+from .component import Value
+
+__all__ = ["collision_parameters", "ship_parameters", "surroundings"]
+
+
+def surroundings(scenario: Scenario) -> list[float]:
+    """Current and wind around every ship, in the order of SURROUNDINGS."""
+    wind = scenario.environment.wind
+    speed, comes_from = (0.0, 0.0) if wind is None else (wind.speed, radians(wind.from_deg))
+    return [*map(float, scenario.environment.current), float(speed), comes_from]
+
+
+def ship_parameters(scenario: Scenario, name: str, ship: ShipStart) -> dict[str, Value]:
+    """Parameters of a ship's instance."""
+    start = ship.start
+    state = (*start.position, *start.attitude, *start.velocity, *start.rate)
+    return {
+        "ship": scenario.ship_file(name),
+        "degrees_of_freedom": ship.free,
+        "hydrodynamics": ship.hydrodynamics,
+        **{f"initial.{variable}": value for variable, value in zip(STATE, state, strict=True)},
+    }
+
+
+def collision_parameters(scenario: Scenario) -> dict[str, Value]:
+    """Parameters of the collision's instance."""
+    parameters: dict[str, Value] = {}
+    for name, ship in scenario.ships.items():
+        parameters[f"{name}.ship"] = scenario.ship_file(name)
+        parameters[f"{name}.degrees_of_freedom"] = ship.free
+        if ship.fender is not None:
+            for key, value in ship.fender.model_dump().items():
+                parameters[f"{name}.fender.{key}"] = value
+    if scenario.obstacles:
+        parameters["obstacles"] = obstacles_toml(scenario.obstacles)
+    return parameters | scenario.collision.model_dump(exclude_none=True, exclude={"damage"})
