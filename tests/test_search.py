@@ -42,4 +42,4 @@ def test_random_examples_find_nothing_new(file: str) -> None:
 
 
 def test_there_are_properties_to_search() -> None:
-    assert "tests/collision/test_pgs.py" in FILES
+    assert "tests/collision/solvers/test_gauss_seidel.py" in FILES
