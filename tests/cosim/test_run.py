@@ -16,7 +16,7 @@ from shipcollision_fmu.cosim.run_repr import run_html, run_text
 from shipcollision_fmu.show.page import replay_html
 from shipcollision_fmu.show.scene.scene import load_scene
 from tests.conftest import Write
-from tests.show.browser import LONGEST_START, chromium
+from tests.show.browser import PATIENCE, chromium
 
 
 @pytest.fixture
@@ -120,7 +120,7 @@ def test_the_page_plays_inside_a_notebook(run: Run, tmp_path: Path) -> None:
     with chromium(tmp_path / "profile") as driver:
         driver.get(notebook.as_uri())
         driver.switch_to.frame(0)
-        WebDriverWait(driver, LONGEST_START, poll_frequency=0.05).until(
+        WebDriverWait(driver, PATIENCE, poll_frequency=0.05).until(
             lambda d: d.execute_script("return document.body?.dataset.ready")
         )
         assert driver.execute_script("return document.body.dataset.ready") == "true"
