@@ -2,47 +2,31 @@
 
 from __future__ import annotations
 
-from types import ModuleType
 from typing import Any
 
 import shipcollision_fmu
-from shipcollision_fmu import errors
-from shipcollision_fmu.collision.model import ShipCollision
-from shipcollision_fmu.cosim.run import Run
-from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
-from shipcollision_fmu.scenario.scenario import Scenario
-from shipcollision_fmu.ship.ship import Ship
+from shipcollision_fmu import ShipCollision, ShipManoeuvring
 
 __all__ = ["api", "exported"]
 
-_RESULTS = (Run, Scenario, Ship)
 _MODELS = (ShipCollision, ShipManoeuvring)
 
 
 def api() -> str:
-    """The exported functions, what they return, the models and the errors; every object once."""
-    parts: list[str] = []
-    done: set[str] = set()
-    for heading, objects in (
-        ("Functions", [thing for thing in exported() if not isinstance(thing, type)]),
-        ("What they return", [*_RESULTS, *(thing for thing in exported() if _is_result(thing))]),
-        ("Models", list(_MODELS)),
-        ("Errors", [getattr(errors, name) for name in errors.__all__]),
-    ):
-        parts.append(f"## {heading}\n")
-        for thing in objects:
-            path = f"{thing.__module__}.{thing.__qualname__}"
-            if path not in done:
-                done.add(path)
-                parts.append(f"::: {path}\n")
-    return "\n".join(parts)
+    """The exported functions, the types that they return, the models and the errors."""
+    functions = [thing for thing in exported() if not isinstance(thing, type)]
+    types = [thing for thing in exported() if isinstance(thing, type)]
+    errors = [thing for thing in types if issubclass(thing, BaseException)]
+    results = [thing for thing in types if thing not in errors and thing not in _MODELS]
+    parts = {"Functions": functions, "What they return": results, "Models": _MODELS, "Errors": errors}
+    return "\n".join(f"## {heading}\n\n{''.join(map(_entry, things))}" for heading, things in parts.items())
 
 
 def exported() -> list[Any]:
     """The objects behind the package's names, in their order; names that are values (the version) are left out."""
     things = [getattr(shipcollision_fmu, name) for name in shipcollision_fmu.__all__]
-    return [thing for thing in things if hasattr(thing, "__qualname__") and not isinstance(thing, ModuleType)]
+    return [thing for thing in things if hasattr(thing, "__qualname__")]
 
 
-def _is_result(thing: Any) -> bool:
-    return isinstance(thing, type) and not issubclass(thing, BaseException) and thing not in _MODELS
+def _entry(thing: Any) -> str:
+    return f"::: {thing.__module__}.{thing.__qualname__}\n\n"

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from shipcollision_fmu import load_scenario
-from shipcollision_fmu.cosim.simulate import simulate
+from typing import Any
+
+import numpy.typing as npt
+
+from shipcollision_fmu import load_scenario, simulate
 from shipcollision_fmu.fmi.interface import SHIPS
 from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
@@ -28,17 +31,17 @@ def columns() -> str:
     collision = {variable.name: variable for variable in COLLISION.table(SHIPS)}
     time = ("`time`", "s", "communication point; in contacts.csv the end of the step")
     states = [time]
-    for column in run.states.dtype.names[1:]:
+    for column in _names(run.states):
         name = column.partition(".")[2]
         if column.startswith(f"{SHIPS[0]}."):
             states.append((f"`{column}`", ship[name].unit or "", cell(ship[name].description)))
     contacts = [time]
-    for column in run.contacts.dtype.names[1:]:
+    for column in _names(run.contacts):
         line = collision[f"contact[1].{column}"]
         unit, said = _IN_CONTACTS.get(column, (line.unit or "", line.description))
         contacts.append((f"`{column}`", unit, cell(said)))
     signals = [time]
-    for column in run.signals.dtype.names[1:]:
+    for column in _names(run.signals):
         signals.append((f"`{column}`", collision[column].unit or "", cell(collision[column].description)))
     header = ("column", "unit", "meaning")
     return (
@@ -46,3 +49,9 @@ def columns() -> str:
         f"{table(header, states)}\n### contacts.csv\n\nA row per contact point and step.\n\n{table(header, contacts)}\n"
         f"### signals.csv\n\nA row per communication point.\n\n{table(header, signals)}"
     )
+
+
+def _names(rows: npt.NDArray[Any]) -> tuple[str, ...]:
+    """The columns after the time."""
+    assert rows.dtype.names is not None
+    return rows.dtype.names[1:]

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from shipcollision_fmu import load_scenario
-from shipcollision_fmu.cosim.simulate import simulate
+from shipcollision_fmu import load_scenario, simulate
 from shipcollision_fmu.manoeuvring.trials.steady_course import approach
 from shipcollision_fmu.manoeuvring.trials.trials import turning_circle
 

@@ -35,22 +35,27 @@ _WORDS = {"number": "number", "integer": "whole number", "string": "text", "bool
 
 def ship_file() -> str:
     """Every key of a ship file."""
-    return _pages(ShipFile.model_json_schema())
+    return _pages(ShipFile.model_json_schema(), "## Tables of the file")
 
 
 def scenario_file() -> str:
     """Every key of a scenario file."""
-    return _pages(Scenario.model_json_schema())
+    return _pages(Scenario.model_json_schema(), "## Tables of the file")
 
 
 def events() -> str:
     """Every key of events.json."""
     text = files(shipcollision_fmu).joinpath("results", "events.schema.json").read_text(encoding="utf-8")
-    return _pages(json.loads(text))
+    return _pages(json.loads(text), "## events.json", level=3)
 
 
-def _pages(root: Schema) -> str:
-    return "\n".join(_section(place, schema, root) for place, schema in _objects("", root, root))
+def _pages(root: Schema, heading: str, level: int = 2) -> str:
+    """A section under `heading` for the whole, and one of that level for every object in it."""
+    parts = []
+    for place, schema in _objects("", root, root):
+        own = f"{'#' * level} `{place}` {{ #{_anchor(place)} }}" if place else heading
+        parts.append(f"{own}\n\n{_section(place, schema, root)}")
+    return "\n".join(parts)
 
 
 def _objects(place: str, schema: Schema, root: Schema) -> Iterator[tuple[str, Schema]]:
@@ -69,9 +74,7 @@ def _objects(place: str, schema: Schema, root: Schema) -> Iterator[tuple[str, Sc
 def _section(place: str, schema: Schema, root: Schema) -> str:
     required = schema.get("required", ())
     rows = [_row(place, key, value, key in required, root) for key, value in schema["properties"].items()]
-    heading = f"## `{place}` {{ #{_anchor(place)} }}" if place else "## The whole"
-    said = _said(schema)
-    return f"{heading}\n\n{said}\n\n{table(('key', 'type', 'unit', 'limits', 'default', 'meaning'), rows)}"
+    return f"{_said(schema)}\n\n{table(('key', 'type', 'unit', 'limits', 'default', 'meaning'), rows)}"
 
 
 def _row(place: str, key: str, value: Schema, required: bool, root: Schema) -> tuple[str, ...]:
