@@ -14,6 +14,7 @@ from hypothesis import HealthCheck, settings
 from hypothesis.internal.conjecture import providers
 
 from shipcollision_fmu.cosim import fmu_files
+from tests.ship_files import BARGE_ADDED_MASS, ship_toml
 
 # Hypothesis draws some values from the constants in the sources of this project's modules that are imported so far: an
 # edit anywhere, or another selection of tests, would change all examples. Here it finds none (test_examples_drawn.py).
@@ -34,28 +35,7 @@ settings.register_profile("thorough", max_examples=250, derandomize=True, **ALWA
 settings.register_profile("search", max_examples=400, derandomize=False, **ALWAYS)
 settings.load_profile("shipcollision")
 
-BARGE = """
-[ship]
-name = "Barge"
-kind = "barge"
-source = "made up for the tests"
-[particulars]
-L_pp = 100.0
-B = 20.0
-T = 5.0
-mass = 8.2e6
-r_bg = [2.0, 0.0, -1.0]
-[added_mass]
-m_x = 0.05
-m_y = 0.85
-m_z = 1.0
-j_x = 0.2
-j_y = 1.0
-j_z = 0.21
-[hull]
-shape = "box"
-depth = 8.0
-"""
+BARGE = ship_toml(particulars={"r_bg": [2.0, 0.0, -1.0]}, added_mass=BARGE_ADDED_MASS)
 
 ENCOUNTER = """
 [scenario]

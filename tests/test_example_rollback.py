@@ -14,30 +14,11 @@ import pytest
 from fmpy import extract
 
 from shipcollision_fmu import build_fmus
+from tests.ship_files import BARGE_ADDED_MASS, ship_toml
 
 EXAMPLE = Path(__file__).parent.parent / "examples" / "rollback.py"
 
-BOX = """
-[ship]
-name = "Box"
-kind = "box"
-source = "made up for the test"
-[particulars]
-L_pp = 100.0
-B = 20.0
-T = 5.0
-mass = 8.2e6
-[added_mass]
-m_x = 0.05
-m_y = 0.85
-m_z = 1.0
-j_x = 0.2
-j_y = 1.0
-j_z = 0.21
-[hull]
-shape = "box"
-depth = 8.0
-"""
+BOX = ship_toml(ship={"name": "Box", "kind": "box"}, added_mass=BARGE_ADDED_MASS)
 
 
 @pytest.fixture(scope="module")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -12,6 +13,7 @@ from shipcollision_fmu.collision.model import ShipCollision
 from shipcollision_fmu.ship.degrees_of_freedom import free_inverse, level_axes, tilted_inverse
 from shipcollision_fmu.ship.frames import attitude_from_rotation, rotation, rotation_vector
 from shipcollision_fmu.ship.loading.library import load_ship
+from tests.ship_files import ship_toml
 
 BOX = 'shape = "box"\ndepth = 20.0'
 SHIP = 'shape = "parametric"\ndepth = 20.0\nbow_length = 40.0\nstern_length = 50.0'
@@ -27,9 +29,12 @@ def make_ship(tmp_path: Path) -> Callable[..., str]:
     ) -> str:
         path = tmp_path / f"{name}.toml"
         path.write_text(
-            f'[ship]\nname = "{name}"\nkind = "test"\nsource = "made for a test"\nlicence = "MIT"\n'
-            f"[particulars]\nL_pp = 200.0\nL_oa = 200.0\nB = 30.0\nT = 10.0\nmass = {mass}\nr_bg = {r_bg}\n"
-            f"[added_mass]\n{added_mass}\n[hull]\n{hull}\n"
+            ship_toml(
+                ship={"name": name},
+                hull=None,
+                particulars={"L_pp": 200.0, "B": 30.0, "T": 10.0, "mass": mass, "r_bg": json.loads(r_bg)},
+            )
+            + f"[added_mass]\n{added_mass}\n[hull]\n{hull}\n"
         )
         return str(path)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from math import pi
 from pathlib import Path
@@ -10,6 +11,7 @@ import numpy as np
 import pytest
 
 from tests.collision.conftest import BOX, SHIP, World
+from tests.ship_files import ship_toml
 
 MakeWorld = Callable[..., World]
 
@@ -24,16 +26,13 @@ CASES = {
 
 def written(folder: Path, name: str, hull: str, scale: float) -> str:
     lengths = ("depth", "bow_length", "stern_length")
-    scaled = [
-        f"{key} = {scale * float(value)!r}" if key in lengths else f"{key} = {value}"
+    scaled = {
+        key: scale * float(value) if key in lengths else json.loads(value)
         for key, value in (line.split(" = ") for line in hull.splitlines())
-    ]
+    }
     path = folder / f"{name}.toml"
-    path.write_text(
-        f'[ship]\nname = "{name}"\nkind = "test"\nsource = "made for a test"\nlicence = "MIT"\n[particulars]\n'
-        f"L_pp = {200 * scale!r}\nL_oa = {200 * scale!r}\nB = {30 * scale!r}\nT = {10 * scale!r}\n"
-        f"mass = {40e6 * scale**3!r}\n[hull]\n" + "\n".join(scaled) + "\n"
-    )
+    particulars = {"L_pp": 200.0 * scale, "B": 30.0 * scale, "T": 10.0 * scale, "mass": 40e6 * scale**3}
+    path.write_text(ship_toml(ship={"name": name}, particulars=particulars, hull=scaled))
     return str(path)
 
 

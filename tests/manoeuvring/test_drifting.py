@@ -10,6 +10,7 @@ import pytest
 from shipcollision_fmu.errors import ScenarioError, StepError
 from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
 from shipcollision_fmu.ship.loading.library import load_ship
+from tests.ship_files import ship_toml
 
 Start = Callable[..., ShipManoeuvring]
 
@@ -19,12 +20,11 @@ def lighter(tmp_path_factory: pytest.TempPathFactory) -> str:
     """KVLCC2's hull without its machinery."""
     table = load_ship("kvlcc2").manoeuvring
     assert table is not None
-    lines = [f"{key} = {value}" for key, value in table.model_dump().items() if key != "estimate"]
-    text = (
-        '[ship]\nname = "Lighter"\nkind = "barge"\nsource = "kvlcc2 without its machinery"\n'
-        "[particulars]\nL_pp = 320.0\nB = 58.0\nT = 20.8\nmass = 320.415e6\nr_bg = [0.0, 0.0, 2.2]\n"
-        '[hull]\nshape = "box"\ndepth = 30.0\n[manoeuvring]\n' + "\n".join(lines)
-    )
+    text = ship_toml(
+        ship={"name": "Lighter", "source": "kvlcc2 without its machinery"},
+        particulars={"L_pp": 320.0, "B": 58.0, "T": 20.8, "mass": 320.415e6, "r_bg": [0.0, 0.0, 2.2]},
+        hull={"depth": 30.0}, manoeuvring=table.model_dump(exclude={"estimate"}),
+    )  # fmt: skip
     path: Path = tmp_path_factory.mktemp("ships") / "lighter.toml"
     path.write_text(text, encoding="utf-8")
     return str(path)

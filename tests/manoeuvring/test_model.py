@@ -11,6 +11,7 @@ import pytest
 
 from shipcollision_fmu.errors import ScenarioError, ShipCollisionError, ShipError, StepError
 from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
+from tests.ship_files import ship_toml
 
 Start = Callable[..., ShipManoeuvring]
 MMG = {"degrees_of_freedom": 3, "hydrodynamics": True}
@@ -126,10 +127,7 @@ def test_bad_start_is_refused(
 
 def test_ship_without_an_mmg_set_can_only_coast(start: Start, tmp_path: Any) -> None:
     barge = tmp_path / "barge.toml"
-    barge.write_text(
-        '[ship]\nname = "Barge"\nkind = "barge"\nsource = "made up"\n[particulars]\nL_pp = 100.0\nB = 20.0\nT = 5.0\n'
-        'mass = 8.2e6\n[hull]\nshape = "box"\ndepth = 8.0\n'
-    )
+    barge.write_text(ship_toml())
     start(str(barge))
     with pytest.raises(ShipError, match=r"'Barge' has no \[manoeuvring\], so it can only coast: set hydrodyn"):
         start(str(barge), **MMG)

@@ -14,6 +14,7 @@ import pytest
 
 from tests.collision.conftest import World
 from tests.oracles.guan2014 import GuanShip, solve_guan_impact
+from tests.ship_files import ship_toml
 
 CASES = [(1e7, 1e7, 5.0), (4e7, 1e7, 3.0), (2e6, 3e8, 8.0)]
 
@@ -49,26 +50,11 @@ def test_without_friction_only_the_speed_across_counts(M_A: float, M_B: float, V
     assert r.E_eta == 0.0
 
 
-SHIP = """
-[ship]
-name = "{name}"
-kind = "test"
-source = "made for a test"
-licence = "MIT"
-[particulars]
-L_pp = 200.0
-L_oa = 200.0
-B = 30.0
-T = 10.0
-mass = {mass}
-r_bg = [0.0, 0.0, 0.0]
-[added_mass]
-m_x = 0.0
-m_y = 0.4
-[hull]
-shape = "box"
-depth = 20.0
-"""
+def _ship(name: str, mass: float) -> str:
+    return ship_toml(
+        ship={"name": name}, particulars={"L_pp": 200.0, "B": 30.0, "T": 10.0, "mass": mass},
+        added_mass={"m_x": 0.0, "m_y": 0.4}, hull={"depth": 20.0},
+    )  # fmt: skip
 
 
 @pytest.mark.parametrize("response", ["pgs", "closed_form"])
@@ -82,7 +68,7 @@ def test_the_collision_model_loses_minorskys_energy(
     paths = []
     for name, mass in (("striking", M_A), ("struck", M_B)):
         paths.append(tmp_path / f"{name}.toml")
-        paths[-1].write_text(SHIP.format(name=name, mass=mass), encoding="utf-8")
+        paths[-1].write_text(_ship(name, mass), encoding="utf-8")
     # The stem is a metre before the side when the ships are in line.
     start = [
         {"position": (0.0, -116.0, 0.0), "attitude": (0, 0, pi / 2), "nu": (V, 0, 0, 0, 0, 0)},

@@ -14,6 +14,7 @@ from shipcollision_fmu.fmi.names import STATE
 from shipcollision_fmu.results.events import build_events
 from shipcollision_fmu.results.record import CONTACT_COLUMNS, SIGNALS, CollisionStart, Record
 from shipcollision_fmu.ship.loading.library import load_ship
+from tests.ship_files import NO_ADDED_MASS, ship_toml
 
 STEP = 0.5
 NAMES = ("left", "middle", "right")
@@ -174,26 +175,7 @@ def test_pairs_that_meet_in_one_step_lose_nothing(tmp_path: Path) -> None:
     assert sum(c["energy"] for c in collisions) == pytest.approx(run.summary["energy"]["dissipated"], rel=1e-9)
 
 
-BOX = """
-[ship]
-name = "Box"
-kind = "test"
-source = "made for a test"
-licence = "MIT"
-[particulars]
-L_pp = 200.0
-L_oa = 200.0
-B = 30.0
-T = 10.0
-mass = 4e7
-[added_mass]
-m_x = 0.0
-m_y = 0.0
-m_z = 0.0
-j_x = 0.0
-j_y = 0.0
-j_z = 0.0
-[hull]
-shape = "box"
-depth = 20.0
-"""
+BOX = ship_toml(
+    ship={"name": "Box"}, particulars={"L_pp": 200.0, "B": 30.0, "T": 10.0, "mass": 4e7}, added_mass=NO_ADDED_MASS,
+    hull={"depth": 20.0},
+)  # fmt: skip

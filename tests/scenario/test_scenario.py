@@ -185,8 +185,8 @@ def test_orders_that_are_never_given_are_refused(scenario_file: Write, orders: s
 @pytest.mark.parametrize(
     ("barge", "line"),
     [
-        (("mass = 8.2e6", "mass = -8.2e6"), r"\[ships.own\] ship = './barge.toml': .*mass = -8200000.0"),
-        (("mass = 8.2e6", "mass = 22.0e6"), r"\[ships.own\] ship = './barge.toml': .*rho L_pp B T"),
+        (("mass = 8200000.0", "mass = -8200000.0"), r"\[ships.own\] ship = './barge.toml': .*mass = -8200000.0"),
+        (("mass = 8200000.0", "mass = 22.0e6"), r"\[ships.own\] ship = './barge.toml': .*rho L_pp B T"),
     ],
 )  # fmt: skip
 def test_a_ship_that_cannot_be_is_refused(scenario_file: Write, barge: tuple[str, str], line: str) -> None:

@@ -8,22 +8,9 @@ from pathlib import Path
 import pytest
 
 from shipcollision_fmu import load_scenario, simulate
+from tests.ship_files import ship_toml
 
-BARGE = """
-[ship]
-name = "Barge"
-kind = "barge"
-source = "made up for the tests"
-[particulars]
-L_pp = 100.0
-B = 20.0
-T = 5.0
-mass = 8.2e6
-r_bg = [2.0, 0.0, -1.0]
-[hull]
-shape = "box"
-depth = 8.0
-"""
+BARGE = ship_toml(particulars={"r_bg": [2.0, 0.0, -1.0]})
 
 MEETING = """
 [scenario]

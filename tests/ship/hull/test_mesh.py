@@ -21,6 +21,7 @@ from shipcollision_fmu.ship.hull.mesh import UNITS, mesh_hull
 from shipcollision_fmu.ship.hull.solid import HullMesh
 from shipcollision_fmu.ship.loading.library import load_ship, models_directory
 from shipcollision_fmu.ship.tables.hull import HullTable
+from tests.ship_files import ship_toml
 
 L_OA, B, T, DEPTH = 200.0, 30.0, 10.0, 20.0
 TO_FILE = np.array([1.0, -1.0, -1.0])
@@ -293,10 +294,9 @@ def test_the_example_file_is_what_its_program_writes() -> None:
 def test_file_is_relative_to_the_ship_file_that_names_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "base").mkdir()
     (tmp_path / "base" / "hull.stl").write_text(stl(BOX.vertices * TO_FILE, BOX.triangles))
-    text = (
-        '[ship]\nname = "s"\nkind = "t"\nsource = "test"\n'
-        "[particulars]\nL_pp = 200.0\nB = 30.0\nT = 10.0\nmass = 40e6\n"
-        '[hull]\nshape = "mesh"\ndepth = 20.0\nfile = "hull.stl"\n'
+    text = ship_toml(
+        particulars={"L_pp": 200.0, "B": 30.0, "T": 10.0, "mass": 40e6},
+        hull={"shape": "mesh", "depth": 20.0, "file": "hull.stl"},
     )
     (tmp_path / "base" / "ship.toml").write_text(text)
     (tmp_path / "variant.toml").write_text('extends = "base/ship.toml"\n[particulars]\nmass = 45e6\n')

@@ -12,21 +12,9 @@ from shipcollision_fmu.errors import ShipError
 from shipcollision_fmu.ship.frames import Array
 from shipcollision_fmu.ship.hull.hull import build_hull
 from shipcollision_fmu.ship.loading.library import load_ship, models_directory, ship_names
+from tests.ship_files import ship_toml
 
-BARGE = """
-[ship]
-name = "Barge"
-kind = "barge"
-source = "made up for this test"
-[particulars]
-L_pp = 100.0
-B = 20.0
-T = 5.0
-mass = 8.2e6
-[hull]
-shape = "box"
-depth = 8.0
-"""
+BARGE = ship_toml()
 
 
 def written(folder: Path, name: str, text: str) -> Path:
@@ -101,7 +89,9 @@ def test_added_mass_must_not_give_energy(tmp_path: Path, coupling: float | None)
 
 def test_inertia_that_leaves_a_motion_without_any_is_refused(tmp_path: Path) -> None:
     """All mass on one line below CO, and no water: swaying and rolling about it, the ship could turn without effort."""
-    line = full_M_A(np.zeros((6, 6))).replace("mass = 8.2e6", "mass = 8.2e6\nr_bg = [0.0, 0.0, 4.0]\nk_xx = 1e-6")
+    line = full_M_A(np.zeros((6, 6))).replace(
+        "mass = 8200000.0", "mass = 8200000.0\nr_bg = [0.0, 0.0, 4.0]\nk_xx = 1e-6"
+    )
     with pytest.raises(
         ShipError,
         match=r"the inertia M_RB \+ M_A is not positive definite \(diagonal \[8200000.0, .*\]\): check r_bg, "

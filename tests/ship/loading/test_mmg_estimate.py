@@ -15,6 +15,7 @@ from shipcollision_fmu.ship.loading.mmg_estimate import (
     completed,
     hull_derivatives,
 )
+from tests.ship_files import ship_toml
 
 BULK = Dimensions(279.0, 44.0, 16.1, 0.84, 0.0, 1025.0)
 CONTAINER = Dimensions(250.0, 32.2, 8.5, 0.60, 0.0, 1025.0)
@@ -89,22 +90,10 @@ def test_resistance_is_ittc_57_on_the_wetted_surface() -> None:
     assert tables["manoeuvring"]["R_0"] == pytest.approx(0.00785, abs=5e-6)
 
 
-BARGE = """
-[ship]
-name = "Anything"
-kind = "general cargo"
-source = "made up for this test"
-[particulars]
-L_pp = 100.0
-B = 20.0
-T = 6.0
-mass = 7.38e6
-[hull]
-shape = "box"
-depth = 9.0
-[manoeuvring]
-estimate = true
-"""
+BARGE = ship_toml(
+    ship={"name": "Anything", "kind": "general cargo"}, particulars={"T": 6.0, "mass": 7.38e6}, hull={"depth": 9.0},
+    manoeuvring={"estimate": True},
+)  # fmt: skip
 
 
 def load(folder: Path, text: str) -> object:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 import math
 from typing import Any
 
@@ -11,26 +10,11 @@ import pytest
 from shipcollision_fmu.errors import ShipError
 from shipcollision_fmu.ship.loading.ship_file import ship_file
 from shipcollision_fmu.ship.tables.manoeuvring import ManoeuvringTable
+from tests.ship_files import ship_tables
 
-BARE: dict[str, Any] = {
-    "ship": {"name": "Barge", "kind": "barge", "source": "made up for this test"},
-    "particulars": {"L_pp": 100.0, "B": 20.0, "T": 5.0, "mass": 8.2e6},
-    "hull": {"shape": "box", "depth": 8.0},
-}
+BARE = ship_tables()
 MMG = {key: 0.01 for key, field in ManoeuvringTable.model_fields.items() if field.is_required()}
 PARAMETRIC = {"shape": "parametric", "depth": 8.0, "bow_length": 15.0, "stern_length": 20.0}
-
-
-def changed(**tables: Any) -> dict[str, Any]:
-    """BARE with keys of tables added or replaced; None removes a key or a table."""
-    data = copy.deepcopy(BARE)
-    for table, keys in tables.items():
-        if keys is None:
-            del data[table]
-            continue
-        data.setdefault(table, {}).update(keys)
-        data[table] = {k: v for k, v in data[table].items() if v is not None}
-    return data
 
 
 def test_least_file_is_accepted() -> None:
@@ -41,65 +25,101 @@ def test_least_file_is_accepted() -> None:
 
 
 def test_integers_are_numbers() -> None:
-    assert ship_file(changed(particulars={"B": 20}), "barge.toml").particulars.B == 20.0
+    assert ship_file(ship_tables(particulars={"B": 20}), "barge.toml").particulars.B == 20.0
 
 
 # C_b from the mass: 1025 x 100 x 20 x 5 = 10.25e6 kg fill the box.
 REFUSED: list[tuple[dict[str, Any], str]] = [
-    (changed(particulars={"mass": -2.0}), r"\[particulars\] mass = -2\.0 must be greater than 0: it is the displ"),
-    (changed(particulars={"mass": 0.0}), r"mass = 0\.0 must be greater than 0"),
-    (changed(particulars={"mass": math.nan}), r"mass = nan must be a finite number: it is the displacement \[kg\]"),
-    (changed(particulars={"B": math.inf}), r"B = inf must be a finite number: it is the breadth \[m\]"),
-    (changed(particulars={"T": "5"}), r"T = '5' must be a valid number: it is the draught"),
-    (changed(particulars={"T": True}), r"T = True must be a valid number"),
-    (changed(particulars={"mass": 10.3e6}), r"mass = 1\.03e\+07 kg is more than rho L_pp B T = 1\.025e\+07 kg.*allow"),
-    (changed(particulars={"mass": 3.0e6}), r"means C_b = mass / \(rho L_pp B T\) = 0\.293, outside 0\.40 to 0\.90"),
-    (changed(particulars={"mass": 9.9e6}), r"C_b = mass / \(rho L_pp B T\) = 0\.966, outside"),
-    (changed(particulars={"C_b": 0.7}), r"C_b = 0\.7 contradicts mass / \(rho L_pp B T\) = 0\.800 by more than 2%"),
-    (changed(particulars={"L_pp": None}), r"\[particulars\] L_pp is missing: give the length between perp"),
-    (changed(particulars={"L_pp": None, "Lpp": 1.0}), r"Lpp is not a known key: did you mean L_pp\? known: L_pp, L_oa"),
-    (changed(particulars={"colour": "red"}), r"\[particulars\] colour is not a known key: known: L_pp"),
-    (changed(particulars={"r_bg": [0.0, 0.0]}), r"r_bg = \[0\.0, 0\.0\] .*at least 3 items.*centre of gravity"),
-    (changed(particulars={"r_bg": [0.0, math.nan, 0.0]}), r"\[particulars\] r_bg\[1\] = nan must be a finite number"),
-    (changed(particulars={"r_bg": [60.0, 0.0, 0.0]}), r"r_bg: x = 60\.0 m puts CG outside the ship: at most 50\.0 m"),
-    (changed(particulars={"k_xx": 0.0}), r"k_xx = 0\.0 must be greater than 0: it is the radius of gyration in roll"),
-    (changed(particulars={"allow_inconsistent": ""}), r"allow_inconsistent = '' .*at least 1 character"),
-    (changed(added_mass={"m_y": -0.1}), r"\[added_mass\] m_y = -0\.1 must be greater than or equal to 0: it is the sw"),
-    (changed(added_mass={"m_y": 0.8, "M_A": [[0.0] * 6] * 6}), r"gives M_A and m_y: M_A says it all, remove the rest"),
-    (changed(added_mass={"M_A": [[0.0] * 6] * 5}), r"\[added_mass\] M_A = .*at least 6 items"),
-    (changed(hull={"depth": 4.0}), r"\[hull\] depth = 4\.0 m must be greater than the draught T = 5\.0 m"),
-    (changed(hull={"shape": "mesh"}), r'\[hull\] file is missing: shape = "mesh" needs the name'),
-    (changed(hull={"shape": "round"}), r"\[hull\] shape = 'round' must be 'parametric', 'box' or 'mesh'"),
-    (changed(hull={"bilge": 1.0}), r'\[hull\] shape = "box" has no bilge: give depth only'),
-    (changed(hull={**PARAMETRIC, "bow_length": None}), r"\[hull\] bow_length = 0\.0 m must be greater than 0"),
-    (changed(hull={**PARAMETRIC, "bow_length": 80.0}), r"= 100\.0 m leave no parallel midbody in 100\.0 m"),
-    (changed(hull={**PARAMETRIC, "bilge": 6.0}), r"\[hull\] bilge = 6\.0 m must be less than T = 5\.0 m and B/2 = 10"),
-    (changed(hull=None), r"\[hull\] is missing: give the table \[hull\]"),
+    (ship_tables(particulars={"mass": -2.0}), r"\[particulars\] mass = -2\.0 must be greater than 0: it is the displ"),
+    (ship_tables(particulars={"mass": 0.0}), r"mass = 0\.0 must be greater than 0"),
+    (ship_tables(particulars={"mass": math.nan}), r"mass = nan must be a finite number: it is the displacement \[kg\]"),
+    (ship_tables(particulars={"B": math.inf}), r"B = inf must be a finite number: it is the breadth \[m\]"),
+    (ship_tables(particulars={"T": "5"}), r"T = '5' must be a valid number: it is the draught"),
+    (ship_tables(particulars={"T": True}), r"T = True must be a valid number"),
     (
-        changed(manoeuvring=MMG, engine={"rate": 0.1, "max_rev_per_s": 1.0}),
+        ship_tables(particulars={"mass": 10.3e6}),
+        r"mass = 1\.03e\+07 kg is more than rho L_pp B T = 1\.025e\+07 kg.*allow",
+    ),
+    (ship_tables(particulars={"mass": 3.0e6}), r"means C_b = mass / \(rho L_pp B T\) = 0\.293, outside 0\.40 to 0\.90"),
+    (ship_tables(particulars={"mass": 9.9e6}), r"C_b = mass / \(rho L_pp B T\) = 0\.966, outside"),
+    (ship_tables(particulars={"C_b": 0.7}), r"C_b = 0\.7 contradicts mass / \(rho L_pp B T\) = 0\.800 by more than 2%"),
+    (ship_tables(particulars={"L_pp": None}), r"\[particulars\] L_pp is missing: give the length between perp"),
+    (
+        ship_tables(particulars={"L_pp": None, "Lpp": 1.0}),
+        r"Lpp is not a known key: did you mean L_pp\? known: L_pp, L_oa",
+    ),
+    (ship_tables(particulars={"colour": "red"}), r"\[particulars\] colour is not a known key: known: L_pp"),
+    (ship_tables(particulars={"r_bg": [0.0, 0.0]}), r"r_bg = \[0\.0, 0\.0\] .*at least 3 items.*centre of gravity"),
+    (
+        ship_tables(particulars={"r_bg": [0.0, math.nan, 0.0]}),
+        r"\[particulars\] r_bg\[1\] = nan must be a finite number",
+    ),
+    (
+        ship_tables(particulars={"r_bg": [60.0, 0.0, 0.0]}),
+        r"r_bg: x = 60\.0 m puts CG outside the ship: at most 50\.0 m",
+    ),
+    (
+        ship_tables(particulars={"k_xx": 0.0}),
+        r"k_xx = 0\.0 must be greater than 0: it is the radius of gyration in roll",
+    ),
+    (ship_tables(particulars={"allow_inconsistent": ""}), r"allow_inconsistent = '' .*at least 1 character"),
+    (
+        ship_tables(added_mass={"m_y": -0.1}),
+        r"\[added_mass\] m_y = -0\.1 must be greater than or equal to 0: it is the sw",
+    ),
+    (
+        ship_tables(added_mass={"m_y": 0.8, "M_A": [[0.0] * 6] * 6}),
+        r"gives M_A and m_y: M_A says it all, remove the rest",
+    ),
+    (ship_tables(added_mass={"M_A": [[0.0] * 6] * 5}), r"\[added_mass\] M_A = .*at least 6 items"),
+    (ship_tables(hull={"depth": 4.0}), r"\[hull\] depth = 4\.0 m must be greater than the draught T = 5\.0 m"),
+    (ship_tables(hull={"shape": "mesh"}), r'\[hull\] file is missing: shape = "mesh" needs the name'),
+    (ship_tables(hull={"shape": "round"}), r"\[hull\] shape = 'round' must be 'parametric', 'box' or 'mesh'"),
+    (ship_tables(hull={"bilge": 1.0}), r'\[hull\] shape = "box" has no bilge: give depth only'),
+    (ship_tables(hull={**PARAMETRIC, "bow_length": None}), r"\[hull\] bow_length = 0\.0 m must be greater than 0"),
+    (ship_tables(hull={**PARAMETRIC, "bow_length": 80.0}), r"= 100\.0 m leave no parallel midbody in 100\.0 m"),
+    (
+        ship_tables(hull={**PARAMETRIC, "bilge": 6.0}),
+        r"\[hull\] bilge = 6\.0 m must be less than T = 5\.0 m and B/2 = 10",
+    ),
+    (ship_tables(hull=None), r"\[hull\] is missing: give the table \[hull\]"),
+    (
+        ship_tables(manoeuvring=MMG, engine={"rate": 0.1, "max_rev_per_s": 1.0}),
         r"\[manoeuvring\] needs \[propeller\], \[rudder\] as well: propeller, rudder and engine work together",
     ),
-    (changed(manoeuvring={**MMG, "m_x": 0.02}), r"\[manoeuvring\] gives m_x of m_x, m_y, J_z: give all three or none"),
-    (changed(particulars={"GM_T": -0.4}), r"\[particulars\] GM_T = -0\.4 must be greater than 0: it is the transverse"),
     (
-        changed(particulars={"mass": 3.0e6, "allow_inconsistent": "a test"}, manoeuvring={"estimate": True}),
+        ship_tables(manoeuvring={**MMG, "m_x": 0.02}),
+        r"\[manoeuvring\] gives m_x of m_x, m_y, J_z: give all three or none",
+    ),
+    (
+        ship_tables(particulars={"GM_T": -0.4}),
+        r"\[particulars\] GM_T = -0\.4 must be greater than 0: it is the transverse",
+    ),
+    (
+        ship_tables(particulars={"mass": 3.0e6, "allow_inconsistent": "a test"}, manoeuvring={"estimate": True}),
         r"\[manoeuvring\] estimate = true with C_b = mass / \(rho L_pp B T\) = 0\.293: must be 0\.40 to 0\.90; give",
     ),
-    (changed(manoeuvring={"estimate": True}, rudder={"A_R": "big"}), r"\[rudder\] A_R = 'big' must be a valid number"),
-    (changed(manoeuvring={"estimate": True}, rudder={"area": 2.0}), r"\[rudder\] area is not a known key: .* A_R"),
     (
-        changed(manoeuvring={"estimate": True}, propeller={"D_p": 0.0}),
+        ship_tables(manoeuvring={"estimate": True}, rudder={"A_R": "big"}),
+        r"\[rudder\] A_R = 'big' must be a valid number",
+    ),
+    (ship_tables(manoeuvring={"estimate": True}, rudder={"area": 2.0}), r"\[rudder\] area is not a known key: .* A_R"),
+    (
+        ship_tables(manoeuvring={"estimate": True}, propeller={"D_p": 0.0}),
         r"\[propeller\] D_p = 0\.0 must be greater than 0",
     ),
     (
-        changed(manoeuvring={"estimate": "yes"}),
+        ship_tables(manoeuvring={"estimate": "yes"}),
         r"\[manoeuvring\] estimate = 'yes' must be a valid boolean: it is true:",
     ),
-    (changed(manoeuvring={"estimate": False}), r"\[manoeuvring\] R_0 is missing: give the resistance coefficient"),
-    (changed(seakeeping={"zeta_roll": -0.1}), r"\[seakeeping\] zeta_roll = -0\.1 must be greater than or equal to 0"),
-    (changed(wind={"type": "gondola"}), r"\[wind\] type = 'gondola' must be 'car carrier', .* or 'tender'"),
-    (changed(wind={"A_L": 100.0}), r"\[wind\] A_L is not a known key: did you mean A_Lw\?"),
-    (changed(sails={"area": 3.0}), r"\[sails\] is not a known key: known: ship, particulars"),
+    (ship_tables(manoeuvring={"estimate": False}), r"\[manoeuvring\] R_0 is missing: give the resistance coefficient"),
+    (
+        ship_tables(seakeeping={"zeta_roll": -0.1}),
+        r"\[seakeeping\] zeta_roll = -0\.1 must be greater than or equal to 0",
+    ),
+    (ship_tables(wind={"type": "gondola"}), r"\[wind\] type = 'gondola' must be 'car carrier', .* or 'tender'"),
+    (ship_tables(wind={"A_L": 100.0}), r"\[wind\] A_L is not a known key: did you mean A_Lw\?"),
+    (ship_tables(sails={"area": 3.0}), r"\[sails\] is not a known key: known: ship, particulars"),
 ]
 
 
@@ -114,13 +134,13 @@ def test_refused(data: dict[str, Any], message: str) -> None:
 
 def test_further_problems_are_counted() -> None:
     with pytest.raises(ShipError, match=r"B = -1\.0 must be .*\(and 2 more problems\)$"):
-        ship_file(changed(particulars={"mass": -1.0, "B": -1.0, "T": -1.0}), "barge.toml")
+        ship_file(ship_tables(particulars={"mass": -1.0, "B": -1.0, "T": -1.0}), "barge.toml")
 
 
 @pytest.mark.parametrize("key", ["m_x", "m_y", "j_z", "M_A"])
 def test_two_added_masses_are_refused(key: str) -> None:
     value: Any = [[0.0] * 6] * 6 if key == "M_A" else 0.1
-    data = changed(manoeuvring={**MMG, "m_x": 0.02, "m_y": 0.2, "J_z": 0.01}, added_mass={key: value})
+    data = ship_tables(manoeuvring={**MMG, "m_x": 0.02, "m_y": 0.2, "J_z": 0.01}, added_mass={key: value})
     with pytest.raises(ShipError, match=rf"\[added_mass\] {key} and \[manoeuvring\] m_x, m_y, J_z are two"):
         ship_file(data, "barge.toml")
 
@@ -128,12 +148,12 @@ def test_two_added_masses_are_refused(key: str) -> None:
 @pytest.mark.parametrize("particulars", [{"mass": 12e6}, {"mass": 3e6}, {"C_b": 0.5}])
 def test_inconsistent_mass_is_let_through_with_a_reason(particulars: dict[str, Any]) -> None:
     reason = "the paper prints dead-weights"
-    content = ship_file(changed(particulars={**particulars, "allow_inconsistent": reason}), "barge.toml")
+    content = ship_file(ship_tables(particulars={**particulars, "allow_inconsistent": reason}), "barge.toml")
     assert content.particulars.allow_inconsistent == reason
 
 
 def test_fresh_water_has_its_own_limit() -> None:
     """10.3e6 kg fit into 10 000 m3 of the Dead Sea, and 9.1e6 kg are too much for fresh water's 0.90."""
-    assert ship_file(changed(particulars={"mass": 10.3e6, "rho": 1240.0}), "barge.toml").particulars.rho == 1240.0
+    assert ship_file(ship_tables(particulars={"mass": 10.3e6, "rho": 1240.0}), "barge.toml").particulars.rho == 1240.0
     with pytest.raises(ShipError, match=r"outside 0\.40 to 0\.90"):
-        ship_file(changed(particulars={"mass": 9.1e6, "rho": 1000.0}), "barge.toml")
+        ship_file(ship_tables(particulars={"mass": 9.1e6, "rho": 1000.0}), "barge.toml")
