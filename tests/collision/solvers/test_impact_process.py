@@ -251,9 +251,12 @@ def test_plastic_impact_that_ends_in_stick_is_the_closed_form_and_pgs(impact: Im
     form = solve_newton_impact(impact.W, impact.v, impact.mu, 0.0)
     assert form.mode == "stick"
     pgs = solve_gauss_seidel(impact.W, impact.v, impact.mu).P[0]
+    # Ships that move along a direction by a share below 1e-12 count as held there; sqrt(share) of the speed is left.
+    values = np.linalg.eigvalsh(impact.W)
+    held = max(1e-8, 2.0 * abs(values[0] / values[2]) ** 0.5 if values[0] < 1e-12 * values[2] else 0.0)
     for P in (form.P, pgs):
         # Velocities, not impulses: W of ships that move in the plane leaves some of the impulse free.
-        np.testing.assert_allclose(impact.W @ P, impact.W @ path.P, rtol=0.0, atol=1e-8 * np.linalg.norm(impact.v))
+        np.testing.assert_allclose(impact.W @ P, impact.W @ path.P, rtol=0.0, atol=held * np.linalg.norm(impact.v))
     lost = path.energy_normal + path.energy_tangential
     assert lost == pytest.approx(stick_energy(impact.W, impact.v), rel=1e-8)
 
