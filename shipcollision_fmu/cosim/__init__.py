@@ -1,15 +1,20 @@
-"""Scenarios run in time: the master, its components, and what is recorded.
+"""Scenarios run in time: a master, its components, the helms of the ships, and the finished run.
 
-tables, scenario            a scenario file
-component, fmu_component    a model in process and an FMU, seen alike
-master, wiring              the two algorithms; from a scenario to connected components
-recorder                    what happened, at communication points
-events, reference, summary  what follows from it: collisions, the paper beside us, the books
-fmu_files, folder           where FMUs are found and runs are written
-simulate                    all of it in one call
-helm                        who steers: autopilot, route, evasion
-wanted, touching, tracks, aim, encounters, encounter_text, imazu    scenarios in which ships do meet
-traffic_schema, traffic_ships, tangent_plane, traffic               scenarios from traffic situations in JSON
-approach, trial_track, trials, trial_report                         standard manoeuvres of one ship
-report, compliance          for people: tables, and the FMI check
+    simulate.py         simulate(): a Scenario becomes a Run; the loop over the communication steps
+    master.py           the two algorithms, gauss-seidel and jacobi; System and Wire
+    wiring.py           a scenario becomes a System of connected instances; parameters.py has their parameters
+    component.py        what a master asks of an instance, and a model in process that answers it
+      fmi2_component.py, fmi3_component.py    instances of FMUs; fmu_instance.py has what both versions share
+      factories.py      makes the components of a run
+      fmu_files.py      where the FMUs of a run lie, built when they are missing
+    helm.py             timed orders and steering of one ship; scenario_helm.py reads them from a scenario
+      autopilot.py, route.py, evasion.py      the laws of steering
+    recorder.py         writes down states and contacts at communication points: the Record of results/
+    interrupt.py        Ctrl-C waits for the end of the step
+    run.py              Run: tables, events and files of a finished run
+      run_repr.py, run_frames.py, run_page.py     as text and HTML, as data frames, as a page in a notebook
+
+Data flow: Scenario -> instances and wires (System) -> steps -> Record -> events, summary, bodies (results/) -> Run.
+Imports from: results, show (the page of a run only), scenario, fmi, ship. Used by: cli, packaging and users of the
+package.
 """

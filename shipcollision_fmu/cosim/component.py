@@ -1,15 +1,15 @@
-"""One FMU instance, or one model in process, as a master sees it.
+"""The interface of an instance to a master, and a model in process that has it.
 
-The order of calls is FMI's:
+The order of calls is that of FMI:
 
-    reals / integers            name the variables that will be read or written together: a Group with one buffer
-    initialise                  parameters, start values of inputs; afterwards outputs are those of time 0
+    reals / integers            a Group of variables that are read or written together, on one buffer
+    initialise                  parameters, start values of inputs; afterwards the outputs are those of time 0
     Group.read, Group.write     at communication points
     step                        over one communication step
     close                       always, also after an error
 
-A Group may share another's buffer. A connection is then one read and one write, and no value is touched on the way.
-`Fmi2Component` (fmi2_component.py) and `InProcessComponent` have the same interface and give the same bits.
+A Group may share the buffer of another Group. A connection is then one read and one write, without a copy between them.
+`Fmi2Component`, `Fmi3Component` and `InProcessComponent` give the same bits.
 
 Errors: StepError when a model refuses a step (its state before the step stays), HostError when an FMU cannot be used.
 """
@@ -44,7 +44,7 @@ class Group(Protocol):
 
 
 class Component(Protocol):
-    """A slave of the master."""
+    """An instance that a master steps."""
 
     @property
     def name(self) -> str:
@@ -67,7 +67,7 @@ class Component(Protocol):
 
 
 class InProcessComponent:
-    """A model driven through its ports without FMI: same variables, same order of calls, same bits."""
+    """A model that is driven through its ports without FMI, with the same variables and the same order of calls."""
 
     def __init__(self, name: str, ports: Ports) -> None:
         self.name = name
@@ -100,13 +100,13 @@ class InProcessComponent:
         try:
             self._ports.do_step(t, h)
         except ShipCollisionError as error:
-            raise StepError(f"{self.name}: {error}") from None  # our models say when
+            raise StepError(f"{self.name}: {error}") from None  # the model's message has the time
 
     def close(self) -> None:
         """See Component."""
-        leave = getattr(self._ports.model, "close", None)  # the collision model holds a world of Bullet's
-        if leave is not None:
-            leave()
+        close_model = getattr(self._ports.model, "close", None)  # the collision model holds a world of Bullet's
+        if close_model is not None:
+            close_model()
 
     def _references(self, names: Sequence[str]) -> list[int]:
         try:
@@ -129,9 +129,9 @@ class InProcessComponent:
 
 
 def item_number(component: str, name: str, item: str, items: Sequence[str]) -> int:
-    """Number of an Enumeration's item; ours count from 1."""
+    """Number of an item of an Enumeration, from 1. Raises HostError for a text that is no item of it."""
     if item not in items:
-        raise HostError(f"{component}: {name} = {item!r} is not one of {', '.join(items)}")
+        raise HostError(f"{component}: {name} = {item!r} must be one of {', '.join(items)}")
     return list(items).index(item) + 1
 
 

@@ -66,13 +66,13 @@ class Fmi3Component(FmuInstance):
 
     def places(self, names: Sequence[str], kinds: Sequence[Kind]) -> list[tuple[int, int]]:
         """Array and position of each name. Raises HostError for a name that is not there, or of another kind."""
-        found = []
+        places = []
         for name in names:
             place = self._layout.place(name)
             if place is None or self._table[name].kind not in kinds:
                 raise HostError(f"{self.name}: the FMU has no {' or '.join(sorted(kinds))} {name!r}; {REMEDY}")
-            found.append(place)
-        return found
+            places.append(place)
+        return places
 
     def size(self, reference: int) -> int:
         """Values of the array with that value reference."""
@@ -112,13 +112,13 @@ class _Part:
     """The values of one kind in a group: the arrays that hold them, and where each goes in the group's buffer."""
 
     def __init__(self, owner: Fmi3Component, kind: Kind, places: Sequence[tuple[int, tuple[int, int]]], into: Buffer):
-        held = list(dict.fromkeys(reference for _, (reference, _) in places))
+        arrays = list(dict.fromkeys(reference for _, (reference, _) in places))
         self._kind = kind
         self._owner, (self._get, self._put) = owner, owner.calls(kind)
-        self._references: Array[c_uint] = (c_uint * len(held))(*held)
-        self._size = sum(map(owner.size, held))
+        self._references: Array[c_uint] = (c_uint * len(arrays))(*arrays)
+        self._size = sum(map(owner.size, arrays))
         offsets, offset = {}, 0
-        for reference in held:
+        for reference in arrays:
             offsets[reference] = offset
             offset += owner.size(reference)
         moves = [(target, offsets[reference] + index) for target, (reference, index) in places]
@@ -152,15 +152,15 @@ class _Group:
     def __init__(self, owner: Fmi3Component, names: Sequence[str], kinds: Sequence[Kind], values: Buffer) -> None:
         self.values = values
         self._owner, self._names, self._kinds = owner, names, kinds
-        self._parts = self._made(len(names))
+        self._parts = self._build_parts(len(names))
         self._heads: dict[int, list[_Part]] = {len(names): self._parts}
 
     def read(self, count: int | None = None) -> None:
         if count is None:
             parts = self._parts
         else:
-            found = self._heads.get(count)
-            parts = self._heads.setdefault(count, self._made(count)) if found is None else found
+            known = self._heads.get(count)
+            parts = self._heads.setdefault(count, self._build_parts(count)) if known is None else known
         for part in parts:
             part.read()
 
@@ -168,10 +168,10 @@ class _Group:
         for part in self._parts:
             part.write()
 
-    def _made(self, count: int) -> list[_Part]:
+    def _build_parts(self, count: int) -> list[_Part]:
         """Parts of the first `count` names."""
         places = list(enumerate(self._owner.places(self._names[:count], self._kinds)))
         by_kind = {
             kind: [(k, place) for k, place in places if self._owner.kind(place[0]) == kind] for kind in self._kinds
         }
-        return [_Part(self._owner, kind, held, self.values) for kind, held in by_kind.items() if held]
+        return [_Part(self._owner, kind, part, self.values) for kind, part in by_kind.items() if part]

@@ -1,4 +1,4 @@
-"""Where a run finds its FMUs; they are built when missing or older than the sources."""
+"""Places of the FMUs of a run; they are built when they are missing or older than the sources."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ _PACKAGE = Path(__file__).resolve().parent.parent
 
 
 def require_pybullet() -> None:
-    """Raise HostError, which says how to install it, when pybullet is missing: without it no contact can be found."""
+    """Raise HostError, with the command that installs it, when pybullet is missing: it detects the contacts."""
     if find_spec("pybullet") is None:
         raise HostError(
-            "pybullet, which finds the contacts, is not installed: run `python -m pip install pybullet` with CPython "
+            "pybullet, which detects the contacts, is not installed: run `python -m pip install pybullet` with CPython "
             "3.10 or 3.11 on Linux, for which it has wheels"
         )
 

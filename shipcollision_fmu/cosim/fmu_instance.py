@@ -1,4 +1,4 @@
-"""What the two versions of FMI have in common for a master: the unpacked file, and the life of an instance.
+"""The unpacked FMU file and the life of an instance, the same in FMI 2.0 and 3.0.
 
     set parameters -> enter initialisation -> write inputs -> exit initialisation -> step ... step -> terminate, free
 
@@ -55,13 +55,15 @@ class UnpackedFmu:
 
 
 class FmuInstance(ABC):
-    """An instance of an FMU for co-simulation, called through FMPy's library loader. Raises HostError when there is
-    none to be had."""
+    """An instance of an FMU for co-simulation, called through FMPy's library loader.
+
+    Raises HostError when the FMU cannot be instantiated.
+    """
 
     _do_step: Any
     """fmi2DoStep or fmi3DoStep of the library."""
     _step_options: tuple[Any, ...]
-    """Its arguments after the step size."""
+    """The arguments of the call after the step size."""
 
     def __init__(self, name: str, fmu: UnpackedFmu) -> None:
         self.name = name
@@ -77,7 +79,7 @@ class FmuInstance(ABC):
                 "instanceName": name,
             })  # fmt: skip
         except Exception as error:
-            reason = self._said(ERROR) if self._messages else error
+            reason = self._message(ERROR) if self._messages else error
             raise HostError(f"{name}: {fmu.file.name} cannot be instantiated: {reason}") from None
         self._component = self._fmu.component
 
@@ -91,11 +93,11 @@ class FmuInstance(ABC):
 
     @abstractmethod
     def _enter_initialisation(self, stop_time: float) -> None:
-        """Up to initialisation mode."""
+        """Bring the instance into initialisation mode."""
 
     @abstractmethod
     def _exit_initialisation(self) -> int:
-        """The status of its end."""
+        """Leave initialisation mode; the status of the call."""
 
     def initialise(self, parameters: Mapping[str, Value], stop_time: float, inputs: Sequence[Group] = ()) -> None:
         """See Component."""
@@ -112,7 +114,7 @@ class FmuInstance(ABC):
         status = self._do_step(self._component, t, h, *self._step_options)
         if status > WARNING:
             self._initialised = status < ERROR  # FMI 2.0, section 4.2.4: no terminate after an error
-            raise StepError(f"{self.name}: {self._said(status, f'step at t = {t:g} s ')}")
+            raise StepError(f"{self.name}: {self._message(status, f'step at t = {t:g} s ')}")
 
     def close(self) -> None:
         """See Component."""
@@ -129,14 +131,14 @@ class FmuInstance(ABC):
         """Raise HostError, with the FMU's own message, for a status beyond warning."""
         if status > WARNING:
             self._initialised = False
-            raise HostError(f"{self.name}: {doing} failed: {self._said(status)}")
+            raise HostError(f"{self.name}: {doing} failed: {self._message(status)}")
 
     def _remember(self, status: int, message: bytes) -> None:
         """Keep a message of the FMU for the error that may follow."""
         if status > WARNING and message:
             self._messages.append(message.decode("utf-8", "replace").strip())
 
-    def _said(self, status: int, doing: str = "") -> str:
+    def _message(self, status: int, doing: str = "") -> str:
         """The FMU's last message, in one line, without what the wrapper puts before it."""
         if not self._messages:
             return f"{doing}{_SILENT[status]}, without a message"

@@ -5,11 +5,12 @@
     jacobi          everything is exchanged first, then all step: impulses reach the ships one step late, and hulls
                     overlap by about closing speed x h
 
-Neither loses or repeats an impulse, because the collision FMU keeps books of what it issued and what was applied. The
-sequential master keeps momentum to rounding; under the parallel one a ship has turned, by her rate times h, when the
-impulse reaches her. Connections are data: a Wire is a group of outputs and a group of inputs on one buffer.
+Neither algorithm loses or repeats an impulse, because the collision FMU keeps a ledger of issued and applied impulses.
+Both keep momentum to rounding. Under the parallel one a ship has turned by its rate times h before the impulse reaches
+it, so the collision FMU expresses the impulse for the pose at which the ship applies it.
 
-After `start` and after every step all wires hold the outputs of that communication point: a recorder reads them there.
+Connections are data: a Wire is a group of outputs and a group of inputs on one buffer. After the initialisation and
+after every step all wires hold the outputs of that communication point, and a recorder reads them there.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""What a run leaves behind, taken down at communication points.
+"""Records a run at its communication points.
 
-The ships' states are in the wires' buffers already. Of the collision FMU the recorder reads a few counters per step,
-and contact points only while there are any.
+The ships' states are in the wires' buffers already. From the collision FMU the recorder reads a few counters per step,
+and contact points only while there are any: reading all of them at every step would cost more than the step.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ class _ContactLog:
 
 
 class Recorder:
-    """Takes down a run of `steps` steps of `step` [s] of a system of named ships, and of obstacles that they meet."""
+    """Records `steps` steps of `step` [s] of a system: its ships by name, and the obstacles that they meet."""
 
     def __init__(
         self, system: System, names: list[str], step: float, steps: int, obstacles: Sequence[str] = ()
@@ -58,7 +58,7 @@ class Recorder:
         self._least, self._nearest = float("inf"), list[int]()
 
     def record(self, k: int) -> None:
-        """Take down communication point k; its values are in the wires."""
+        """Record communication point k, whose values are in the wires."""
         row = self._state_rows[k]
         row[0] = round(k * self._step, 9)  # 27.15, not 27.150000000000002
         width = len(STATE)
@@ -78,7 +78,7 @@ class Recorder:
             self._record_contacts(k, count)
 
     def build_record(self) -> Record:
-        """The record of the whole run."""
+        """The record of the whole run, at its end."""
         states = _table(self._state_rows, [f"{name}.{variable}" for name in self._names for variable in STATE])
         signals = _table(self._signal_rows, SIGNALS)
         text = f"U{max(map(len, self._bodies))}"

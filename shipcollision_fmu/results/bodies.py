@@ -1,12 +1,12 @@
-"""bodies.json: what the ships and obstacles of a run look like and weigh, so that the run's folder needs nothing else.
+"""bodies.json: shapes and inertias of ships and obstacles. With it a run can be shown from its folder alone.
 
     ships        by name: the model's name and kind, L_pp, L_oa, B, T [m], the hull's shape ("parametric" | "box" |
-                 "mesh"), the inertia M_RB + M_A about CO in b (6, 6) [kg, kg m, kg m2], the degrees of freedom
-                 (3 | 4 | 6) that say of which motions it is (ship/kinetic_energy.py), the hull's surface
-    obstacles    by name: kind, position of its b in n [m], heading [rad], its surface in its b
+                 "mesh"), the inertia M_RB + M_A about CO (6, 6) [kg, kg m, kg m2], the degrees of freedom (3 | 4 | 6:
+                 the inertia is in level axes for 3 and 4, else in b), the hull's surface
+    obstacles    by name: kind, position of its b in n [m], heading [rad], the surface in its b
 
-A surface is vertices (n, 3) [m], z down, and triangles (m, 3), indices from 0, counter-clockwise seen from outside:
-that of the very solid which contact is computed with, before it is cut into convex parts.
+A surface is vertices (n, 3) [m], z down, and triangles (m, 3), indices from 0, counter-clockwise from outside.
+It is that of the solid of the contact computation, before it is cut into convex parts.
 """
 
 from __future__ import annotations

@@ -10,8 +10,9 @@
     wedge            R_T = t_eq delta^2 tan(phi)    penetration delta [m] of a bow of half-angle phi; t_eq [m]: plate
                      thickness of decks and bottoms of both ships, summed over the depth that overlaps
 
-None of it enters the dynamics. The bow takes all of the energy in Pedersen's, the side all in Minorsky's: two bounds of
-one sharing that is not computed. Overlap of the hulls in the contact model is numerics, and is never reported here.
+No value of this module enters the dynamics. The bow takes all of the energy in Pedersen's formula, the side all of it
+in Minorsky's: two bounds, because the sharing between bow and side is not computed. The overlap of hulls in the contact
+model is numerical and never reported as damage.
 
 Sources: Minorsky (1959), constants in SI; Woisin (1979); Pedersen (1993), as in EN 1991-1-7, annex C. The wedge
 estimate is this project's own.
@@ -34,9 +35,9 @@ MJ, MN = 1e6, 1e6
 STEEL = 47.2
 """Energy per volume of destroyed steel [MJ/m3]: Minorsky's 414.5 (long tons, knots, square feet times inches) in SI."""
 SHELL = 32.7
-"""Energy at which Minorsky's line has no volume [MJ]: it says nothing below, and little near it."""
+"""Energy at which Minorsky's line has no volume [MJ]. Below it the line gives no volume, and little is sure near it."""
 BOW = 0.3
-"""A contact farther ahead of midship than this share of L is one of the bow."""
+"""Share of L_pp ahead of midship from which a contact counts as one of the bow. Less, and a side would be a bow."""
 
 
 def minorsky_volume(energy: float) -> float:
@@ -59,12 +60,12 @@ def bow_force(energy: float, length: float) -> float:
 
 
 def bow_crush(energy: float, length: float) -> float:
-    """Length [m] by which that bow is crushed."""
+    """Length [m] by which the bow of bow_force is crushed."""
     return pi * energy / (2.0 * bow_force(energy, length)) if energy > 0.0 else 0.0
 
 
 def crush_duration(crush: float, speed: float) -> float:
-    """How long [s] the crush [m] takes from the approach speed [m/s]."""
+    """Duration [s] of a crush of the length [m] from the approach speed [m/s]."""
     return 1.67 * crush / speed
 
 
@@ -84,7 +85,7 @@ def estimate_damage(
 ) -> dict[str, Any]:
     """The object "damage" of a collision, JSON-able: energy [J], and by method its formula and values in SI.
 
-    bow_length: L_pp [m] of the ship whose bow strikes; None when no bow does: then no crush and no penetration.
+    bow_length: L_pp [m] of the ship whose bow strikes. None, and there is neither crush nor penetration.
     Raises InputError for t_eq or half_angle [rad] out of range.
     """
     if not t_eq > 0.0:

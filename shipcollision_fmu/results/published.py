@@ -5,11 +5,11 @@
     v_x, v_y, v_z   velocity of the centre of gravity [m/s]
     w_x, w_y, w_z   angular velocity [rad/s]
 
-That is Bullet's world w (ship/frames.py); the centre of gravity is the origin of Bullet's bodies:
+The frame is Bullet's world w (ship/frames.py); the centre of gravity is the origin of Bullet's bodies:
 
     x_g = x + R_nb r_bg          v_g = R_nb (v + omega x r_bg)
 
-The published time seldom is a communication point: the states are interpolated linearly between the two rows around it.
+The published time is seldom a communication point, so states are interpolated linearly between two rows.
 """
 
 from __future__ import annotations
@@ -40,8 +40,10 @@ _KINDS = {
 def compare_published(
     reference: Reference, states: npt.NDArray[Any], ships: Mapping[str, Ship]
 ) -> list[dict[str, Any]]:
-    """A row per published number: ship, quantity, unit, printed, paper (as corrected), computed, difference, tolerance,
-    and whether it is within."""
+    """A row for each published number.
+
+    Keys: ship, quantity, unit, printed, paper (as corrected), computed, difference, tolerance, within (the tolerance).
+    """
     rows = []
     for name, published in reference.ships.items():
         computed = paper_quantities(interpolate_state(states, name, reference.time), ships[name].r_bg)

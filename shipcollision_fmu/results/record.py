@@ -1,4 +1,4 @@
-"""A run as recorded: tables of states, signals and contact points, and the starts of its collisions."""
+"""The record of a run: tables of states, signals and contact points, and the starts of its collisions."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ SIGNALS = ("clearance", *ENERGY)
 
 @dataclass(frozen=True)
 class CollisionStart:
-    """The start of a collision, as the collision FMU gave it: time [s], closing speed [m/s], angle [rad], and the
-    middle of what touched first, in n [m]."""
+    """The start of a collision as the collision FMU shows it: time [s], closing speed [m/s], angle between the headings
+    [rad], and the middle of the points that touched first, in n [m]."""
 
     time: float
     closing_speed: float
@@ -31,19 +31,20 @@ class CollisionStart:
 
 @dataclass
 class Record:
-    """A run as recorded.
+    """The record of a run.
 
     states     structured array, a row per communication point: time and 12 states per ship
     signals    structured array, a row per communication point: time and SIGNALS
     contacts   structured array, a row per contact point and step; time is the step's end
-    issued     per communication point k that ends a step with contact: cumulative impulses (ships, 6) after it
-    starts    by number of the collision; one is missing when another began in the same communication step
+    issued     by communication point k that ends a step with contact: cumulative impulses (ships, 6) after the step
+    starts     by number of the collision; of several that begin in one communication step only the last is there
     energy     dissipated, normal, tangential [J] at the end
-    applied    what the ships say they applied at the end (ships, 6); the final `issued` is `issued_at_end`
+    issued_at_end    cumulative impulses (ships, 6) at the end, as the collision FMU issued them
+    applied    the same, as the ships applied them
     clearance  least distance between hulls at any communication point [m], capped
-    nearest    between which, at the first of them: two names, none if they were never within the cap
-    solver     answers that did not meet the law of contact to 1e-9, and answers scaled back so as not to add energy
-    fender     stored in fenders, dissipated in them [J] at the end
+    nearest    names of the pair with that clearance, at the first such point; empty if it was never below the cap
+    solver     answers that missed the law of contact by more than 1e-9, and answers scaled back so as not to add energy
+    fender     energy stored in fenders, and dissipated in them [J], at the end
     """
 
     states: npt.NDArray[Any]

@@ -22,7 +22,11 @@ def csv_text(rows: npt.NDArray[Any]) -> str:
 def json_text(data: Any) -> str:
     """JSON, indented, with a list of plain values on one line; floats as repr."""
     text = json.dumps(data, indent=1, allow_nan=False, default=_plain) + "\n"
-    return re.sub(r"\[\n[^][{}]*\]", lambda found: re.sub(r"\n *", " ", found[0]).replace("[ ", "[")[:-2] + "]", text)
+    return re.sub(r"\[\n[^][{}]*\]", _on_one_line, text)
+
+
+def _on_one_line(plain_list: re.Match[str]) -> str:
+    return re.sub(r"\n *", " ", plain_list[0]).replace("[ ", "[")[:-2] + "]"
 
 
 def _cell(value: Any) -> str:

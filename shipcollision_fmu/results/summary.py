@@ -1,22 +1,22 @@
-"""The books of a run: what was exchanged, and what became of momentum and energy.
+"""summary.json: the balance of a run, of impulses, momentum and energy.
 
-    ledger     per ship: impulse issued by the collision FMU, applied by the ship, and their difference, pending;
-               in b about CO, cumulative [N s, N m s]. What jacobi issues in the very last step stays pending
-    momentum   M nu of every ship, summed: linear in n [N s], angular in n about the scenario's origin [N m s]; nu is
-               that of the motions which M is of: in b, in 3 and 4 degrees of freedom level (ship/degrees_of_freedom.py)
-    energy     1/2 nu' M nu of every ship [J]; what contact dissipated, along the normals and across them; what fenders
-               hold and dissipated, which is counted apart
-    solver     answers of the contact solver that missed the law by more than 1e-9 of the approach, and answers
-               that were scaled back because they would have added energy
-    obstacles  by name: impulse that it took, in n [N s]. It has no momentum of its own
-    closed     of momentum: whether the ships' linear momentum must be the same after as before. Contact gives both
-               ships the same; but an obstacle takes some, water, rudder and propeller change it, and so does
-               coasting with added mass, which turns with the hull while the velocity does not
+    ledger     per ship: impulse issued by the collision FMU, impulse applied by the ship, and the difference, pending;
+               cumulative, in b about CO [N s, N m s]. An impulse that jacobi issues in the last step stays pending
+    momentum   M nu of every ship, summed: linear in n [N s], angular in n about the scenario's origin [N m s]. nu is in
+               b, or in level axes for 3 and 4 degrees of freedom (ship/kinetic_energy.py)
+    closed     of momentum: whether the ships' linear momentum must be the same after as before. An obstacle takes some;
+               water, rudder and propeller change it, and so does coasting with added mass, which turns with the hull,
+               while the velocity does not
+    energy     kinetic energy of every ship [J]; the energy that contact dissipated, along the normals and across them;
+               the energy stored in fenders and dissipated by them, which is counted apart
+    solver     answers of the contact solver that missed the law by more than 1e-9 of the approach, and answers that
+               were scaled back because they would have added energy
+    obstacles  by name: the impulse that the obstacle took, in n [N s]. An obstacle has no momentum of its own
 
-M = M_RB + M_A is that of the ship file. Outside contact, ships that coast without added mass keep linear momentum and,
-where the inertia about their axis of turning is one, energy; added mass, water, rudder and propeller change them.
+M = M_RB + M_A is that of the ship file. Ships that coast without added mass keep linear momentum outside contact. They
+also keep their energy, if they turn about a principal axis.
 
-Nothing here depends on the machine's speed, nor on whether FMUs or models in process ran: see timing.json for those.
+The summary depends neither on the machine's speed nor on whether FMUs or models in process ran; timing.json does.
 """
 
 from __future__ import annotations
@@ -69,11 +69,11 @@ def build_summary(
         "momentum": {
             "before": _momentum(ships, free, before),
             "after": _momentum(ships, free, after),
-            "closed": _closed(scenario, ships, record),
+            "closed": _is_momentum_closed(scenario, ships, record),
         },
         "solver": dict(zip(("unconverged", "scaled"), record.solver, strict=True)),
         "obstacles": {
-            name: {"kind": table.kind, "impulse": _impulse_taken(record, name)}
+            name: {"kind": table.kind, "impulse": _impulse_on_obstacle(record, name)}
             for name, table in scenario.obstacles.items()
         },
         "energy": {
@@ -89,7 +89,7 @@ def build_summary(
     return data
 
 
-def _closed(scenario: Scenario, ships: Mapping[str, Ship], record: Record) -> bool:
+def _is_momentum_closed(scenario: Scenario, ships: Mapping[str, Ship], record: Record) -> bool:
     coast = not any(table.hydrodynamics for table in scenario.ships.values())
     dry = not any(ship.M_A.any() for ship in ships.values())
     return coast and dry and not any(name in scenario.obstacles for name in record.contacts["ship_b"].tolist())
@@ -127,7 +127,7 @@ def _axes(attitude: Array, free: int) -> Array:
     return rotation(attitude if free == 6 else [0.0, 0.0, attitude[2]])
 
 
-def _impulse_taken(record: Record, obstacle: str) -> list[float]:
+def _impulse_on_obstacle(record: Record, obstacle: str) -> list[float]:
     rows = record.contacts[record.contacts["ship_b"] == obstacle]
     return [float(rows[f"impulse.{axis}"].sum()) for axis in ("north", "east", "down")]
 

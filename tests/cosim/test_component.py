@@ -147,7 +147,7 @@ def test_a_variable_that_is_not_there_is_named(make: Make) -> None:
 
 
 def test_an_item_that_is_not_there_is_named(make: Make) -> None:
-    with pytest.raises(HostError, match=r"one: response = 'magic' is not one of pgs"):
+    with pytest.raises(HostError, match=r"one: response = 'magic' must be one of pgs"):
         make("ShipCollision").initialise({"response": "magic"}, 1.0)
 
 
