@@ -23,9 +23,9 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
-from shipcollision_fmu.manoeuvring.mmg import CALM, Machines, Sailing, Six
-from shipcollision_fmu.manoeuvring.mmg_3dof import Mmg
-from shipcollision_fmu.manoeuvring.mmg_6dof import SpatialMmg
+from shipcollision_fmu.manoeuvring.mmg import CALM, Machines, Mmg, Six
+from shipcollision_fmu.manoeuvring.mmg_3dof import Mmg3Dof
+from shipcollision_fmu.manoeuvring.mmg_6dof import Mmg6Dof
 from shipcollision_fmu.ship.loading.library import load_ship
 
 ROUNDS = 40
@@ -53,20 +53,20 @@ def alone(call: Callable[[], object]) -> float:
     return CALLS / (process_time() - begin)
 
 
-def ours(sailing: Sailing) -> Contender:
+def ours(mmg: Mmg) -> Contender:
     """Our equations of motion."""
     steps = round(DURATION / STEP)
     eta: Six = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     nu: Six = (SPEED, 0.0, 0.0, 0.0, 0.0, 0.0)
 
     u, v, r = TURN
-    x = sailing._packed(eta, (u, v, 0.0, 0.0, 0.0, r))
+    x = mmg._pack(eta, (u, v, 0.0, 0.0, 0.0, r))
 
     def run() -> Measured:
         begin = process_time()
-        sailing.sailed(eta, nu, Machines(HELM, REVOLUTIONS, (1.0, 0.0)), (HELM, REVOLUTIONS), CALM, DURATION, steps)
+        mmg.advance(eta, nu, Machines(HELM, REVOLUTIONS, (1.0, 0.0)), (HELM, REVOLUTIONS), CALM, DURATION, steps)
         whole = 4 * steps / (process_time() - begin)
-        return alone(lambda: sailing._derivative(x, HELM, REVOLUTIONS, CALM)), whole
+        return alone(lambda: mmg._derivative(x, HELM, REVOLUTIONS, CALM)), whole
 
     return run
 
@@ -144,7 +144,7 @@ def main() -> None:
     """Print the table."""
     ship = load_ship("kvlcc2_l7")
     contenders: dict[str, Contender] = {
-        f"{freedom} degrees of freedom": ours(Mmg(ship) if freedom == 3 else SpatialMmg(ship, freedom))
+        f"{freedom} degrees of freedom": ours(Mmg3Dof(ship) if freedom == 3 else Mmg6Dof(ship, freedom))
         for freedom in (3, 4, 6)
     }
     peer = shipmmg()

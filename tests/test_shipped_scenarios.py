@@ -58,10 +58,12 @@ def runs() -> dict[tuple[str, str], Watched]:
         scenario = load_scenario(name)
         for algorithm in ALGORITHMS:
             watch = Watch()
-            step, struck = ShipCollision.step, ShipManoeuvring._struck
+            step, apply_pending = ShipCollision.step, ShipManoeuvring._apply_pending
             with pytest.MonkeyPatch.context() as patch:
                 patch.setattr(ShipCollision, "step", lambda m, t, h, w=watch, o=step: w.step(m, o, t, h))
-                patch.setattr(ShipManoeuvring, "_struck", lambda m, *a, w=watch, o=struck: w.strike(m, o, *a))
+                patch.setattr(
+                    ShipManoeuvring, "_apply_pending", lambda m, *a, w=watch, o=apply_pending: w.strike(m, o, *a)
+                )
                 run = simulate(scenario, algorithm=algorithm, step=0.05, in_process=True)
             found[name, algorithm] = Watched(scenario, run, watch)
     return found

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from shipcollision_fmu import load_scenario, simulate
-from shipcollision_fmu.manoeuvring.trials.steady_course import approach
-from shipcollision_fmu.manoeuvring.trials.trials import turning_circle
+from shipcollision_fmu.manoeuvring.trials.steady_course import find_steady_course
+from shipcollision_fmu.manoeuvring.trials.trials import sail_turning_circle
 
 from .markdown import table
 
@@ -40,7 +40,7 @@ def guan2014() -> str:
 def turning_circles() -> str:
     """Advance and tactical diameter [L] of KVLCC2 and its 7 m model, published and computed."""
     sailed = {
-        (ship, port): turning_circle(approach(ship), 35.0, port=port)
+        (ship, port): sail_turning_circle(find_steady_course(ship), 35.0, port=port)
         for ship, port in {(ship, port) for ship, port, *_ in CIRCLES}
     }
     rows = []

@@ -6,7 +6,7 @@ from dataclasses import fields
 
 from rich.table import Table
 
-from ..manoeuvring.trials.steady_course import Approach
+from ..manoeuvring.trials.steady_course import SteadyCourse
 from ..manoeuvring.trials.trial import Figure, Moment, Trial
 from .table import make_table
 
@@ -16,7 +16,7 @@ SHORTEST = 100.0
 """[m] IMO's standards apply to ships of this length and more."""
 
 
-def make_trial_table(start: Approach, trial: Trial) -> Table:
+def make_trial_table(start: SteadyCourse, trial: Trial) -> Table:
     """Table of a trial's figures with IMO's limits."""
     rows = make_table(
         "figure", ">value", "unit", ">IMO limit", "",
@@ -36,7 +36,7 @@ def format_track_csv(trial: Trial) -> str:
     return "\n".join([",".join(names), *rows]) + "\n"
 
 
-def _judge(start: Approach, figure: Figure) -> str:
+def _judge(start: SteadyCourse, figure: Figure) -> str:
     if figure.within is None:
         return ""
     verdict = "kept" if figure.within else "NOT KEPT"

@@ -18,7 +18,7 @@ __all__ = ["trial"]
 @click.option("--rudder-deg", type=float, metavar="DEG", help="Rudder angle.  [default: 35, in a zigzag 10]")
 @click.option("--heading-deg", type=float, metavar="DEG", help="Of a zigzag.  [default: 10]")
 @click.option("--starboard/--port", default=True, help="Side of the first rudder.  [default: --starboard]")
-@click.option("--speed", type=float, metavar="M/S", help="Approach speed.  [default: the service speed]")
+@click.option("--speed", type=float, metavar="M/S", help="SteadyCourse speed.  [default: the service speed]")
 @click.option(
     "--rev-per-s", type=float, metavar="REV/S", help="Propeller on the approach.  [default: those that keep the speed]"
 )
@@ -41,24 +41,24 @@ def trial(
     ships of 100 m and more. Distances are of midship, in lengths L.
     """
     from ..files import check_writable, write_file
-    from ..manoeuvring.trials.steady_course import approach
-    from ..manoeuvring.trials.trials import crash_stop, turning_circle, zigzag
+    from ..manoeuvring.trials.steady_course import find_steady_course
+    from ..manoeuvring.trials.trials import sail_crash_stop, sail_turning_circle, sail_zigzag
     from .trial_table import format_track_csv, make_trial_table
 
     if manoeuvre != "zigzag" and heading_deg is not None:
         raise click.UsageError("--heading-deg goes with a zigzag only")
     if manoeuvre == "crash-stop" and rudder_deg is not None:
         raise click.UsageError("--rudder-deg goes with a turning-circle or a zigzag: a crash-stop keeps it amidships")
-    start = approach(ship, speed=speed, rev_per_s=rev_per_s, degrees_of_freedom=int(degrees_of_freedom))
+    start = find_steady_course(ship, speed=speed, rev_per_s=rev_per_s, degrees_of_freedom=int(degrees_of_freedom))
     if out is not None:
         check_writable(out.parent)
     if manoeuvre == "turning-circle":
-        trial_run = turning_circle(start, 35.0 if rudder_deg is None else rudder_deg, port=not starboard)
+        trial_run = sail_turning_circle(start, 35.0 if rudder_deg is None else rudder_deg, port=not starboard)
     elif manoeuvre == "zigzag":
         by, to = (10.0 if angle is None else angle for angle in (rudder_deg, heading_deg))
-        trial_run = zigzag(start, by, to, port=not starboard)
+        trial_run = sail_zigzag(start, by, to, port=not starboard)
     else:
-        trial_run = crash_stop(start)
+        trial_run = sail_crash_stop(start)
     if out is not None:
         write_file(out, format_track_csv(trial_run))
     console().print(make_trial_table(start, trial_run))

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from math import cos, radians, sin
 from typing import NamedTuple
 
-from ..manoeuvring.trials.steady_course import self_propulsion
+from ..manoeuvring.trials.steady_course import find_self_propulsion
 from .request import Kind, Request, value_or_default
 from .ship_table import require_manoeuvring
 
@@ -77,7 +77,7 @@ def plan_approaching_ships(
 def _order_straight_course(ship: str, speed: float) -> HelmOrder:
     """Rudder amidships and the revolutions that keep the speed [m/s]."""
     require_manoeuvring(ship, "take --coasting, or another ship")
-    return HelmOrder(0, 0.0, self_propulsion(ship, speed) if speed > 0.0 else 0.0)
+    return HelmOrder(0, 0.0, find_self_propulsion(ship, speed) if speed > 0.0 else 0.0)
 
 
 def _insert_rudder_order(orders: tuple[HelmOrder, ...] | None, k: int, rudder_deg: float) -> tuple[HelmOrder, ...]:

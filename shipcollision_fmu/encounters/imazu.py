@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ScenarioError
-from ..manoeuvring.trials.steady_course import self_propulsion
+from ..manoeuvring.trials.steady_course import find_self_propulsion
 from ..scenario.scenario import Scenario, parse_scenario
 from ..scenario.toml_writer import format_toml
 from .encounter_file import CONTACT_LAW
@@ -123,7 +123,9 @@ def _ship_table(
         float(course),
         speed,
         hydrodynamics=hydrodynamics or None,
-        orders=[{"time": 0.0, "rudder_deg": 0.0, "rev_per_s": self_propulsion(file, speed)}] if hydrodynamics else None,
+        orders=[{"time": 0.0, "rudder_deg": 0.0, "rev_per_s": find_self_propulsion(file, speed)}]
+        if hydrodynamics
+        else None,
     )
 
 

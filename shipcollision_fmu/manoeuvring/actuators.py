@@ -12,7 +12,7 @@ from math import copysign, radians
 
 from ..ship.tables.manoeuvring import EngineTable, RudderTable
 
-__all__ = ["NEUTRAL", "Actuator", "Engine", "Gear", "engine", "steering_gear"]
+__all__ = ["NEUTRAL", "Actuator", "Engine", "Gear", "make_engine", "make_steering_gear"]
 
 Gear = tuple[float, float]
 """The side that the engine runs or last ran to, 1.0 ahead, -1.0 astern, 0.0 not yet; how long the reversal has
@@ -28,13 +28,13 @@ class Actuator:
     most: float
     rate: float
 
-    def limited(self, order: float) -> float:
+    def limit(self, order: float) -> float:
         """The order, within range."""
         return min(self.most, max(self.least, order))
 
-    def followed(self, value: float, order: float, time: float) -> float:
+    def follow(self, value: float, order: float, time: float) -> float:
         """The value after `time` [s] of moving towards the order: exact, whatever the length of the step."""
-        target, reach = self.limited(order), self.rate * time
+        target, reach = self.limit(order), self.rate * time
         return value + min(reach, max(-reach, target - value))
 
 
@@ -45,33 +45,33 @@ class Engine:
     speed: Actuator
     reversal_delay: float = 0.0
 
-    def limited(self, order: float) -> float:
+    def limit(self, order: float) -> float:
         """The order, within range."""
-        return self.speed.limited(order)
+        return self.speed.limit(order)
 
-    def started(self, n: float) -> Gear:
+    def find_gear(self, n: float) -> Gear:
         """The gear of an engine that runs at n [1/s]."""
         return (copysign(1.0, n) if n else 0.0, 0.0)
 
-    def followed(self, n: float, gear: Gear, order: float, time: float) -> tuple[float, Gear]:
+    def follow(self, n: float, gear: Gear, order: float, time: float) -> tuple[float, Gear]:
         """Propeller speed and gear after `time` [s] under the order; exact, whatever the length of the step."""
         speed, delay = self.speed, self.reversal_delay
         if delay == 0.0:
-            return speed.followed(n, order, time), gear
+            return speed.follow(n, order, time), gear
         side, waited = gear
-        target = speed.limited(order)
+        target = speed.limit(order)
         if target * side >= 0.0:  # the way it runs, or stop
-            return speed.followed(n, target, time), (side or copysign(1.0, target) if target else side, 0.0)
+            return speed.follow(n, target, time), (side or copysign(1.0, target) if target else side, 0.0)
         stopping = abs(n) / speed.rate
         if time < stopping:
-            return speed.followed(n, 0.0, time), (side, 0.0)
+            return speed.follow(n, 0.0, time), (side, 0.0)
         waited += time - stopping
         if waited < delay:
             return 0.0, (side, waited)
-        return speed.followed(0.0, target, waited - delay), (-side, 0.0)
+        return speed.follow(0.0, target, waited - delay), (-side, 0.0)
 
 
-def steering_gear(table: RudderTable | None) -> Actuator:
+def make_steering_gear(table: RudderTable | None) -> Actuator:
     """The rudder angle's [rad]; none: it stays amidships."""
     if table is None:
         return Actuator(0.0, 0.0, 0.0)
@@ -79,7 +79,7 @@ def steering_gear(table: RudderTable | None) -> Actuator:
     return Actuator(-most, most, radians(table.rate_deg_per_s))
 
 
-def engine(table: EngineTable | None) -> Engine:
+def make_engine(table: EngineTable | None) -> Engine:
     """The propeller speed's [1/s]; none: it stays at rest."""
     if table is None:
         return Engine(Actuator(0.0, 0.0, 0.0))

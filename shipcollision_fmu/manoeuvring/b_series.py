@@ -16,7 +16,7 @@ from __future__ import annotations
 from bisect import bisect_left
 from math import cos, pi, radians, sin
 
-__all__ = ["FOURIER", "PITCHES", "ROTATION", "bollard", "coefficient", "pitch_of"]
+__all__ = ["FOURIER", "PITCHES", "ROTATION", "compute_bollard_pull", "compute_coefficient", "find_pitch"]
 
 ROTATION = 0.7 * pi
 """Speed of a blade at 0.7 of the radius over n D."""
@@ -64,7 +64,7 @@ FOURIER: dict[float, tuple[tuple[float, ...], tuple[float, ...]]] = {
 PITCHES = tuple(FOURIER)
 
 
-def coefficient(pitch: float, beta_deg: float) -> float:
+def compute_coefficient(pitch: float, beta_deg: float) -> float:
     """C_T* at an angle [deg], linear in P/D between the measured pitches; beyond them that of the nearest."""
     pitch = min(PITCHES[-1], max(PITCHES[0], pitch))
     k = max(1, bisect_left(PITCHES, pitch))
@@ -73,17 +73,17 @@ def coefficient(pitch: float, beta_deg: float) -> float:
     return (1.0 - share) * _measured(low, beta_deg) + share * _measured(high, beta_deg)
 
 
-def bollard(pitch: float) -> float:
+def compute_bollard_pull(pitch: float) -> float:
     """K_T on the spot, turning ahead."""
-    return pi / 8.0 * ROTATION**2 * coefficient(pitch, 0.0)
+    return pi / 8.0 * ROTATION**2 * compute_coefficient(pitch, 0.0)
 
 
-def pitch_of(k_0: float) -> float:
+def find_pitch(k_0: float) -> float:
     """P/D of the propeller of the series that pulls K_T = k_0 on the spot, within the measured pitches."""
     low, high = PITCHES[0], PITCHES[-1]
     for _ in range(50):
         middle = 0.5 * (low + high)
-        low, high = (middle, high) if bollard(middle) < k_0 else (low, middle)
+        low, high = (middle, high) if compute_bollard_pull(middle) < k_0 else (low, middle)
     return 0.5 * (low + high)
 
 

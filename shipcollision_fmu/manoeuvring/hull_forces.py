@@ -29,7 +29,7 @@ from math import atan2, hypot, radians, tan
 from ..ship.ship import Ship
 from ..ship.tables.manoeuvring import ManoeuvringTable
 
-__all__ = ["HullForces", "cross_flow"]
+__all__ = ["HullForces", "integrate_cross_flow"]
 
 C_D = 1.0
 """Drag coefficient of a full section in cross flow, related to L d."""
@@ -61,9 +61,9 @@ class HullForces:
         share = 0.0
         s = self._half_L * r
         if not (abs(v) < _STEEPEST * u and abs(s) < _QUICKEST * u):
-            share = _cross_flow_share(u, v, s)
+            share = _find_cross_flow_share(u, v, s)
             if share == 1.0:
-                return self._beyond(u, v, r)
+                return self._compute_cross_flow(u, v, r)
         U = hypot(u, v)  # with a share below 1, U > 0 and |r'| < 3.5, or all is at rest
         if U == 0.0:
             return 0.0, 0.0, 0.0
@@ -79,20 +79,20 @@ class HullForces:
         X, Y, N = self._force * UU * X, self._force * UU * Y, self._moment * UU * N
         if share == 0.0:
             return X, Y, N
-        X_b, Y_b, N_b = self._beyond(u, v, r)
+        X_b, Y_b, N_b = self._compute_cross_flow(u, v, r)
         return X + share * (X_b - X), Y + share * (Y_b - Y), N + share * (N_b - N)
 
-    def _beyond(self, u: float, v: float, r: float) -> tuple[float, float, float]:
+    def _compute_cross_flow(self, u: float, v: float, r: float) -> tuple[float, float, float]:
         """Linear terms and cross-flow drag."""
         rL = r * self._L
-        drag, drag_moment = cross_flow(v, 0.5 * rL)
+        drag, drag_moment = integrate_cross_flow(v, 0.5 * rL)
         X = -self._X[0] * u * abs(u)
         Y = self._Y[0] * abs(u) * v + self._Y[1] * u * rL - C_D * drag
         N = self._N[0] * u * v + self._N[1] * abs(u) * rL - C_D * drag_moment
         return self._force * X, self._force * Y, self._moment * N
 
 
-def cross_flow(v: float, s: float) -> tuple[float, float]:
+def integrate_cross_flow(v: float, s: float) -> tuple[float, float]:
     """Means of w|w| and of (x/L) w|w| over the length, w = v + s xi, xi = 2x/L from -1 to 1 [m2/s2].
 
     Exact integrals; s = r L/2 is the sway speed that yawing gives the ship's ends.
@@ -105,7 +105,7 @@ def cross_flow(v: float, s: float) -> tuple[float, float]:
     return v * (b + v * v / (3.0 * b)), one * (s * s / 8.0 + v * v / 4.0 - v * v * (v / s) * (v / s) / 24.0)
 
 
-def _cross_flow_share(u: float, v: float, s: float) -> float:
+def _find_cross_flow_share(u: float, v: float, s: float) -> float:
     """0: the polynomials hold; 1: cross flow alone; smooth between."""
     beta = abs(atan2(v, u))
     gamma = atan2(abs(s), abs(u))

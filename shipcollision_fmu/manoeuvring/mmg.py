@@ -15,13 +15,13 @@ from ..errors import ShipError
 from ..ship.degrees_of_freedom import Six
 from ..ship.ship import Ship
 from ..ship.windage import windage
-from .actuators import Actuator, Engine, Gear, engine, steering_gear
+from .actuators import Actuator, Engine, Gear, make_engine, make_steering_gear
 from .hull_forces import HullForces
 from .propeller import Propeller
 from .rudder import Rudder
 from .wind import WindForces
 
-__all__ = ["CALM", "Forces", "Machines", "Sailing", "Six", "Surroundings"]
+__all__ = ["CALM", "Forces", "Machines", "Mmg", "Six", "Surroundings"]
 
 
 class Surroundings(NamedTuple):
@@ -60,7 +60,7 @@ class Forces(NamedTuple):
     wind: Six
 
 
-class Sailing(ABC):
+class Mmg(ABC):
     """One ship's equations of motion: what is common to 3, 4 and 6 degrees of freedom.
 
     Raises ShipError when the ship has no MMG set or is not symmetric to its centreline. A ship without propeller,
@@ -85,8 +85,8 @@ class Sailing(ABC):
                 f"ship {ship.name!r} is not symmetric to its centreline (M[{i}][{j}] = {M[i, j]:g}, must be 0 with "
                 "hydrodynamics = true): put CG on the centreline, r_bg = [x, 0, z]"
             )
-        self.steering: Actuator = steering_gear(ship.rudder)
-        self.engine: Engine = engine(ship.engine)
+        self.steering: Actuator = make_steering_gear(ship.rudder)
+        self.engine: Engine = make_engine(ship.engine)
         self.propelled = ship.propeller is not None
         self._hull = HullForces(ship, ship.manoeuvring)
         self._wind = WindForces(windage(ship), ship.L_oa)
@@ -98,15 +98,15 @@ class Sailing(ABC):
         )
 
     @abstractmethod
-    def forces(self, eta: Six, nu: Six, machines: Machines, around: Surroundings) -> Forces:
+    def compute_forces(self, eta: Six, nu: Six, machines: Machines, around: Surroundings) -> Forces:
         """The forces at a pose and a velocity over ground."""
 
     @abstractmethod
-    def _packed(self, eta: Six, nu: Six) -> tuple[float, ...]:
+    def _pack(self, eta: Six, nu: Six) -> tuple[float, ...]:
         """What is integrated, of eta and nu."""
 
     @abstractmethod
-    def _unpacked(self, x: tuple[float, ...], eta: Six, nu: Six) -> tuple[Six, Six]:
+    def _unpack(self, x: tuple[float, ...], eta: Six, nu: Six) -> tuple[Six, Six]:
         """eta and nu with what was integrated put in."""
 
     @abstractmethod
@@ -115,22 +115,22 @@ class Sailing(ABC):
 
     @staticmethod
     @abstractmethod
-    def _moved(x: tuple[float, ...], k: Sequence[float], dt: float) -> tuple[float, ...]:
+    def _add_scaled(x: tuple[float, ...], k: Sequence[float], dt: float) -> tuple[float, ...]:
         """x + dt k."""
 
-    def sailed(
+    def advance(
         self, eta: Six, nu: Six, machines: Machines, orders: Sequence[float], around: Surroundings, h: float,
         substeps: int,
     ) -> tuple[Six, Six, Machines]:  # fmt: skip
         """(eta, nu, machines) after h [s] in equal substeps; nu over ground in b about CO."""
         dt = h / substeps
         delta, n, gear = machines
-        x, moved, derivative = self._packed(eta, nu), self._moved, self._derivative
+        x, moved, derivative = self._pack(eta, nu), self._add_scaled, self._derivative
         for _ in range(substeps):
-            delta_mid = self.steering.followed(delta, orders[0], 0.5 * dt)
-            delta_end = self.steering.followed(delta, orders[0], dt)
-            n_mid, _half = self.engine.followed(n, gear, orders[1], 0.5 * dt)
-            n_end, gear = self.engine.followed(n, gear, orders[1], dt)
+            delta_mid = self.steering.follow(delta, orders[0], 0.5 * dt)
+            delta_end = self.steering.follow(delta, orders[0], dt)
+            n_mid, _half = self.engine.follow(n, gear, orders[1], 0.5 * dt)
+            n_end, gear = self.engine.follow(n, gear, orders[1], dt)
             a = derivative(x, delta, n, around)
             b = derivative(moved(x, a, 0.5 * dt), delta_mid, n_mid, around)
             c = derivative(moved(x, b, 0.5 * dt), delta_mid, n_mid, around)
@@ -138,10 +138,10 @@ class Sailing(ABC):
             mean = [(ka + 2.0 * (kb + kc) + kd) / 6.0 for ka, kb, kc, kd in zip(a, b, c, d, strict=True)]
             x = moved(x, mean, dt)
             delta, n = delta_end, n_end
-        eta, nu = self._unpacked(x, eta, nu)
+        eta, nu = self._unpack(x, eta, nu)
         return eta, nu, Machines(delta, n, gear)
 
-    def _felt_wind(self, u: float, v: float, psi: float, around: Surroundings) -> tuple[float, float, float, float]:
+    def _compute_wind(self, u: float, v: float, psi: float, around: Surroundings) -> tuple[float, float, float, float]:
         """X, Y, K, N of the wind at the velocity u, v over ground; nothing in a calm."""
         north, east = around.wind_north, around.wind_east
         if north == 0.0 == east:

@@ -18,18 +18,18 @@ from collections.abc import Sequence
 from math import atan2, cos, hypot, sin
 
 from ..ship.ship import Ship
-from .mmg import Forces, Machines, Sailing, Six, Surroundings
-from .propeller import drift
+from .mmg import Forces, Machines, Mmg, Six, Surroundings
+from .propeller import speed_and_drift_angle
 
-__all__ = ["Mmg"]
+__all__ = ["Mmg3Dof"]
 
 Planar = tuple[float, float, float]
 """X, Y [N] and N [N m]."""
 
-NOTHING: Planar = (0.0, 0.0, 0.0)
+ZERO: Planar = (0.0, 0.0, 0.0)
 
 
-class Mmg(Sailing):
+class Mmg3Dof(Mmg):
     """One ship in three degrees of freedom. What is integrated: x, y, psi, u, v, r."""
 
     def __init__(self, ship: Ship) -> None:
@@ -40,31 +40,31 @@ class Mmg(Sailing):
         self._m_r = float(ship.M[5, 5])  # I_zG + x_G^2 m + J_z
         self._determinant = self._m_v * self._m_r - self._m_vr**2
 
-    def forces(self, eta: Six, nu: Six, machines: Machines, around: Surroundings) -> Forces:
+    def compute_forces(self, eta: Six, nu: Six, machines: Machines, around: Surroundings) -> Forces:
         """X, Y, N by origin, the other components 0."""
         psi, (u, v, _w, _p, _q, r) = eta[5], nu
-        X, Y, _K, N = self._felt_wind(u, v, psi, around)
+        X, Y, _K, N = self._compute_wind(u, v, psi, around)
         c, s = cos(psi), sin(psi)
         north, east = around.current_north, around.current_east
         u_r, v_r = u - (north * c + east * s), v - (east * c - north * s)
-        hull, X_P, rudder = self._hull(u_r, v_r, r), 0.0, NOTHING
+        hull, X_P, rudder = self._hull(u_r, v_r, r), 0.0, ZERO
         if self._propeller is not None and self._rudder is not None:
-            U, beta = drift(u_r, v_r)
-            u_P = self._propeller.inflow(u_r, U, beta, r)
-            thrust = self._propeller.thrust(u_P, machines.propeller_speed)
+            U, beta = speed_and_drift_angle(u_r, v_r)
+            u_P = self._propeller.compute_inflow(u_r, U, beta, r)
+            thrust = self._propeller.compute_thrust(u_P, machines.propeller_speed)
             X_P = self._propeller.remaining * thrust
             rudder = self._rudder(U, beta, r, u_P, thrust, machines.rudder_angle)
         return Forces(_wrench(hull), _wrench((X_P, 0.0, 0.0)), _wrench(rudder), _wrench((X, Y, N)))
 
-    def _packed(self, eta: Six, nu: Six) -> tuple[float, ...]:
+    def _pack(self, eta: Six, nu: Six) -> tuple[float, ...]:
         return eta[0], eta[1], eta[5], nu[0], nu[1], nu[5]
 
-    def _unpacked(self, x: tuple[float, ...], eta: Six, nu: Six) -> tuple[Six, Six]:
+    def _unpack(self, x: tuple[float, ...], eta: Six, nu: Six) -> tuple[Six, Six]:
         north, east, psi, u, v, r = x
         return (north, east, *eta[2:5], psi), (u, v, *nu[2:5], r)
 
     @staticmethod
-    def _moved(x: tuple[float, ...], k: Sequence[float], dt: float) -> tuple[float, ...]:
+    def _add_scaled(x: tuple[float, ...], k: Sequence[float], dt: float) -> tuple[float, ...]:
         return (
             x[0] + dt * k[0], x[1] + dt * k[1], x[2] + dt * k[2],
             x[3] + dt * k[3], x[4] + dt * k[4], x[5] + dt * k[5],
@@ -83,13 +83,13 @@ class Mmg(Sailing):
         propeller, rudder = self._propeller, self._rudder
         if propeller is not None and rudder is not None:
             U, beta = hypot(u_r, v_r), atan2(-v_r, abs(u_r))
-            u_P = propeller.inflow(u_r, U, beta, r)
-            thrust = propeller.thrust(u_P, n)
+            u_P = propeller.compute_inflow(u_r, U, beta, r)
+            thrust = propeller.compute_thrust(u_P, n)
             X_R, Y_R, N_R = rudder(U, beta, r, u_P, thrust, delta)
             X, Y, N = X + propeller.remaining * thrust + X_R, Y + Y_R, N + N_R
         X, Y, N = X + X_E, Y + Y_E, N + N_E
         if wind_north or wind_east:
-            X_W, Y_W, _K, N_W = self._felt_wind(u, v, psi, around)
+            X_W, Y_W, _K, N_W = self._compute_wind(u, v, psi, around)
             X, Y, N = X + X_W, Y + Y_W, N + N_W
 
         X += self._m_v * v_r * r + self._m_vr * r * r

@@ -35,16 +35,16 @@ from ..ship.degrees_of_freedom import free_inverse, from_level, to_level
 from ..ship.seakeeping import seakeeping
 from ..ship.ship import Ship
 from .damping import Damping
-from .mmg import Forces, Machines, Sailing, Six, Surroundings
+from .mmg import Forces, Machines, Mmg, Six, Surroundings
 from .restoring import Restoring
 
-__all__ = ["SpatialMmg"]
+__all__ = ["Mmg6Dof"]
 
 Three = tuple[float, float, float]
-NOTHING: Six = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+ZERO: Six = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
-class SpatialMmg(Sailing):
+class Mmg6Dof(Mmg):
     """One ship in 4 or 6 degrees of freedom. What is integrated: eta and nu.
 
     Raises ShipError when it does not float upright.
@@ -71,7 +71,7 @@ class SpatialMmg(Sailing):
         stiffness = ((2, sea.K_33), (3, sea.K_44), (4, sea.K_55))
         self.shortest_time = 1.0 / sqrt(max(K * float(inverse[i, i]) for i, K in stiffness))
 
-    def forces(self, eta: Six, nu: Six, machines: Machines, around: Surroundings) -> Forces:
+    def compute_forces(self, eta: Six, nu: Six, machines: Machines, around: Surroundings) -> Forces:
         """Wrenches by origin; that of the hull has buoyancy, weight and damping in it."""
         _N, _E, D, phi, theta, psi = eta
         s_phi, c_phi, s_theta, c_theta = sin(phi), cos(phi), sin(theta), cos(theta)
@@ -81,14 +81,14 @@ class SpatialMmg(Sailing):
         u, v, w, p, q, r = to_level(nu, phi) if self._level else nu
         u_r, v_r, w_r = u - current[0], v - current[1], w - current[2]
         delta, n, _gear = machines
-        hull, propeller, rudder = self._by_origin(u_r, v_r, p, q, r, delta, n)
+        hull, propeller, rudder = self._compute_wrenches(u_r, v_r, p, q, r, delta, n)
         Z_D, K_D, M_D = self._damping(w_r, p, q)
         if self._level:
-            X_G, Y_G, Z_G, K_G, M_G, N_G = 0.0, 0.0, 0.0, self.restoring.roll(s_phi, c_phi), 0.0, 0.0
+            X_G, Y_G, Z_G, K_G, M_G, N_G = 0.0, 0.0, 0.0, self.restoring.compute_roll_moment(s_phi, c_phi), 0.0, 0.0
         else:
             X_G, Y_G, Z_G, K_G, M_G, N_G = self.restoring(D, s_phi, c_phi, s_theta, c_theta)
         X, Y, Z, K, M, N = hull
-        X_W, Y_W, K_W, N_W = self._felt_wind(u, v, psi, around)
+        X_W, Y_W, K_W, N_W = self._compute_wind(u, v, psi, around)
         forces = Forces(
             (X + X_G, Y + Y_G, Z + Z_G + Z_D, K + K_G + K_D, M + M_G + M_D, N + N_G),
             propeller,
@@ -97,16 +97,16 @@ class SpatialMmg(Sailing):
         )
         return Forces(*(from_level(wrench, phi) for wrench in forces)) if self._level else forces
 
-    def _packed(self, eta: Six, nu: Six) -> tuple[float, ...]:
+    def _pack(self, eta: Six, nu: Six) -> tuple[float, ...]:
         return (*eta, *(to_level(nu, eta[3]) if self._level else nu))
 
-    def _unpacked(self, x: tuple[float, ...], eta: Six, nu: Six) -> tuple[Six, Six]:
+    def _unpack(self, x: tuple[float, ...], eta: Six, nu: Six) -> tuple[Six, Six]:
         N, E, D, phi, theta, psi, u, v, w, p, q, r = x
         nu = (u, v, w, p, q, r)
         return (N, E, D, phi, theta, psi), from_level(nu, phi) if self._level else nu
 
     @staticmethod
-    def _moved(x: tuple[float, ...], k: Sequence[float], dt: float) -> tuple[float, ...]:
+    def _add_scaled(x: tuple[float, ...], k: Sequence[float], dt: float) -> tuple[float, ...]:
         return (
             x[0] + dt * k[0], x[1] + dt * k[1], x[2] + dt * k[2], x[3] + dt * k[3], x[4] + dt * k[4],
             x[5] + dt * k[5], x[6] + dt * k[6], x[7] + dt * k[7], x[8] + dt * k[8], x[9] + dt * k[9],
@@ -121,7 +121,7 @@ class SpatialMmg(Sailing):
         u_r, v_r, w_r = u - u_c, v - v_c, w - w_c
 
         # Forces.
-        hull, propeller, rudder = self._by_origin(u_r, v_r, p, q, r, delta, n)
+        hull, propeller, rudder = self._compute_wrenches(u_r, v_r, p, q, r, delta, n)
         (X_H, Y_H, _, K_H, M_H, N_H), (X_P, _, _, _, M_P, _), (X_R, Y_R, _, K_R, M_R, N_R) = hull, propeller, rudder
         Z_D, K_D, M_D = self._damping(w_r, p, q)
         external = (around.X, around.Y, around.Z, around.K, around.M, around.N)
@@ -133,7 +133,7 @@ class SpatialMmg(Sailing):
         M = M_H + M_P + M_R + M_D + M_E
         N = N_H + N_R + N_E
         if around.wind_north or around.wind_east:
-            X_W, Y_W, K_W, N_W = self._felt_wind(u, v, psi, around)
+            X_W, Y_W, K_W, N_W = self._compute_wind(u, v, psi, around)
             X, Y, K, N = X + X_W, Y + Y_W, K + K_W, N + N_W
 
         # - C(nu_r) nu_r, with the Munk moment in yaw put back.
@@ -150,7 +150,7 @@ class SpatialMmg(Sailing):
         N += q * L_x - p * L_y + v_r * P_x - u_r * P_y + u_r * (self._munk[0] * v_r + self._munk[1] * p)
 
         if self._level:
-            K += self.restoring.roll(s_phi, c_phi)
+            K += self.restoring.compute_roll_moment(s_phi, c_phi)
             (b_1, b_2, b_3), (b_4, b_5, b_6), (b_7, b_8, b_9) = self._odd
             return (
                 u * c_psi - v * s_psi, u * s_psi + v * c_psi, 0.0, p, 0.0, r,
@@ -187,7 +187,7 @@ class SpatialMmg(Sailing):
             return ahead, abeam, 0.0
         return ahead * c_theta, ahead * s_theta * s_phi + abeam * c_phi, ahead * s_theta * c_phi - abeam * s_phi
 
-    def _by_origin(
+    def _compute_wrenches(
         self, u: float, v: float, p: float, q: float, r: float, delta: float, n: float
     ) -> tuple[Six, Six, Six]:
         """Wrenches of hull, propeller and rudder, at velocities of CO relative to the water."""
@@ -196,10 +196,10 @@ class SpatialMmg(Sailing):
         X, Y, N = self._hull(u_H, v_H, r)
         hull = (X, Y, 0.0, -z_H * Y, z_H * X, N)
         if self._propeller is None or self._rudder is None:
-            return hull, NOTHING, NOTHING
+            return hull, ZERO, ZERO
         U, beta = hypot(u_H, v_H), atan2(-v_H, abs(u_H))
-        u_P = self._propeller.inflow(u_H, U, beta, r)
-        thrust = self._propeller.thrust(u_P, n)
+        u_P = self._propeller.compute_inflow(u_H, U, beta, r)
+        thrust = self._propeller.compute_thrust(u_P, n)
         X_P = self._propeller.remaining * thrust
         X_R, Y_R, N_R = self._rudder(U, beta, r, u_P, thrust, delta)
         rudder = (X_R, Y_R, 0.0, -self._z_RY * Y_R, self._z_R * X_R, N_R)

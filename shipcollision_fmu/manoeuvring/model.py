@@ -31,9 +31,9 @@ from ..ship.loading.library import Ship, load_ship
 from .actuators import NEUTRAL, Gear
 from .held_motions import project_start
 from .interface import ShipInputs, ShipOutputs, ShipParameters
-from .mmg import Forces, Machines, Sailing, Six, Surroundings
-from .mmg_3dof import Mmg
-from .mmg_6dof import SpatialMmg
+from .mmg import Forces, Machines, Mmg, Six, Surroundings
+from .mmg_3dof import Mmg3Dof
+from .mmg_6dof import Mmg6Dof
 
 __all__ = ["ShipManoeuvring"]
 
@@ -46,7 +46,7 @@ MAXIMUM_SUBSTEPS = 100_000
 STEEPEST = 1.4
 """Pitch angle [rad] from which Euler angles are no longer to be trusted, 80 degrees: no ship stands on end."""
 
-_NOUGHT: Six = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+_ZERO: Six = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 class State(NamedTuple):
@@ -72,10 +72,10 @@ class _SetUp(NamedTuple):
     free: int  # degrees of freedom
     upright: Array  # (6, 6) inverse of the free block of M
     M_inverse: list[list[float]]  # the same as lists
-    sailing: Sailing | None
+    mmg: Mmg | None
     substep: float
 
-    def kicked(self, eta: Six, nu: Six, impulse: Sequence[float]) -> Six:
+    def apply_impulse(self, eta: Six, nu: Six, impulse: Sequence[float]) -> Six:
         """nu + M^-1 impulse, in the motions that are free at that attitude."""
         upright = self.free == 6 or not (eta[3] or eta[4])
         rows = self.M_inverse if upright else tilted_inverse(self.upright, self.free, eta[3:]).tolist()
@@ -106,23 +106,23 @@ class ShipManoeuvring:
         start_values = {name: value for name, value in _reals(p).items() if name != "substep"}
         _refuse_not_finite(start_values, ScenarioError, "must be finite")
         _refuse_not_finite(_reals(self.inputs), ScenarioError, "at the start must be finite")
-        set_up = self._prepared()
+        set_up = self._prepare()
         eta = _six(map(float, [*p.initial_position, *p.initial_attitude]))
         nu = _six(map(float, [*p.initial_velocity, *p.initial_rate]))
         if _is_absurd(nu, set_up.ship):
             raise ScenarioError(f"initial {_too_fast(nu)}")
         machines, warning = Machines(0.0, 0.0, NEUTRAL), ""
-        if set_up.sailing is not None:
+        if set_up.mmg is not None:
             eta, nu, warning = project_start(eta, nu, p.degrees_of_freedom)
             _refuse_steep_start(eta)
             self._refuse_orders(set_up, ScenarioError, "at the start")
-            propeller_speed = set_up.sailing.engine.limited(self.inputs.propeller_order)
-            machines = Machines(0.0, propeller_speed, set_up.sailing.engine.started(propeller_speed))
-        forces = self._forces(set_up.sailing, eta, nu, machines)
+            propeller_speed = set_up.mmg.engine.limit(self.inputs.propeller_order)
+            machines = Machines(0.0, propeller_speed, set_up.mmg.engine.find_gear(propeller_speed))
+        forces = self._compute_forces(set_up.mmg, eta, nu, machines)
         self._set_up, self.warning = set_up, warning
-        self._publish(State(eta, nu, _NOUGHT, *machines, *forces))
+        self._publish(State(eta, nu, _ZERO, *machines, *forces))
 
-    def _prepared(self) -> _SetUp:
+    def _prepare(self) -> _SetUp:
         """What the parameters ask for; what is there already when they are unchanged."""
         p = self.parameters
         wanted = (p.ship, p.degrees_of_freedom, p.hydrodynamics, p.substep)
@@ -133,15 +133,15 @@ class ShipManoeuvring:
             raise ScenarioError(f"substep = {substep} s must be finite and greater than 0, e.g. 0.05")
         ship = load_ship(p.ship, self.directory)
         upright = free_inverse(ship.M, p.degrees_of_freedom)
-        sailing: Sailing | None = None
+        mmg: Mmg | None = None
         if p.hydrodynamics:
-            sailing = Mmg(ship) if p.degrees_of_freedom == 3 else SpatialMmg(ship, p.degrees_of_freedom)
-            if substep > sailing.shortest_time:
+            mmg = Mmg3Dof(ship) if p.degrees_of_freedom == 3 else Mmg6Dof(ship, p.degrees_of_freedom)
+            if substep > mmg.shortest_time:
                 raise ScenarioError(
                     f"substep = {substep} s is too long for the heave, roll or pitch of ship {ship.name!r}: must be at "
-                    f"most {sailing.shortest_time:.3g} s, a sixth of its shortest period"
+                    f"most {mmg.shortest_time:.3g} s, a sixth of its shortest period"
                 )
-        return _SetUp(wanted, ship, p.degrees_of_freedom, upright, upright.tolist(), sailing, substep)
+        return _SetUp(wanted, ship, p.degrees_of_freedom, upright, upright.tolist(), mmg, substep)
 
     # -- a step ---------------------------------------------------------------------------------------------------
 
@@ -151,11 +151,11 @@ class ShipManoeuvring:
             raise StepError("step before initialise: call initialise() first")
         before, set_up = self._state, self._set_up
         substeps = self._check(t, h, set_up)
-        nu, applied = self._struck(before, set_up)
-        if set_up.sailing is None:
-            after = self._coasted(before, nu, applied, set_up, t, h)
+        nu, applied = self._apply_pending(before, set_up)
+        if set_up.mmg is None:
+            after = self._coast(before, nu, applied, set_up, t, h)
         else:
-            after = self._sailed(before, nu, applied, set_up, set_up.sailing, t, h, substeps)
+            after = self._advance(before, nu, applied, set_up, set_up.mmg, t, h, substeps)
         self.warning = ""
         self._publish(after)
 
@@ -183,7 +183,7 @@ class ShipManoeuvring:
 
     def _refuse_orders(self, set_up: _SetUp, refusal: type[InputError | StepError], when: str) -> None:
         """A ship that drifts has nobody to carry them out."""
-        if set_up.sailing is None or set_up.sailing.propelled:
+        if set_up.mmg is None or set_up.mmg.propelled:
             return
         for name, order in (("rudder", self.inputs.rudder_order), ("propeller", self.inputs.propeller_order)):
             if order != 0.0:
@@ -192,36 +192,36 @@ class ShipManoeuvring:
                     "the tables [propeller], [rudder] and [engine] to its file"
                 )
 
-    def _struck(self, before: State, set_up: _SetUp) -> tuple[Six, Six]:
+    def _apply_pending(self, before: State, set_up: _SetUp) -> tuple[Six, Six]:
         """Twist and ledger after the impulses that are not yet applied."""
         impulse = _six(map(float, self.inputs.impulse))
         pending = [issued - applied for issued, applied in zip(impulse, before.impulse_applied, strict=True)]
-        return (set_up.kicked(before.eta, before.nu, pending) if any(pending) else before.nu), impulse
+        return (set_up.apply_impulse(before.eta, before.nu, pending) if any(pending) else before.nu), impulse
 
-    def _coasted(self, before: State, nu: Six, applied: Six, set_up: _SetUp, t: float, h: float) -> State:
+    def _coast(self, before: State, nu: Six, applied: Six, set_up: _SetUp, t: float, h: float) -> State:
         """Kick, drift, kick: of second order in h, and exact for a force along a straight course."""
         half = [0.5 * h * F for F in self.inputs.force]
         pushed = any(half)
         if pushed:
-            nu = set_up.kicked(before.eta, nu, half)
+            nu = set_up.apply_impulse(before.eta, nu, half)
         _refuse_absurd(nu, set_up.ship, t)
         r_bg = set_up.ship.r_bg.tolist()
         position, attitude, velocity = coast(before.eta[:3], before.eta[3:], nu[:3], nu[3:], r_bg, h)
         eta, nu = _six([*position, *attitude]), _six([*velocity, *nu[3:]])
         if pushed:
-            nu = set_up.kicked(eta, nu, half)
+            nu = set_up.apply_impulse(eta, nu, half)
             _refuse_absurd(nu, set_up.ship, t)
         return before._replace(eta=eta, nu=nu, impulse_applied=applied)
 
-    def _sailed(
-        self, before: State, nu: Six, applied: Six, set_up: _SetUp, sailing: Sailing, t: float, h: float, substeps: int
+    def _advance(
+        self, before: State, nu: Six, applied: Six, set_up: _SetUp, mmg: Mmg, t: float, h: float, substeps: int
     ) -> State:
         """The MMG model, in the degrees of freedom that are free."""
         i = self.inputs
-        _refuse_absurd(set_up.kicked(before.eta, nu, [h * F for F in i.force]), set_up.ship, t)
+        _refuse_absurd(set_up.apply_impulse(before.eta, nu, [h * F for F in i.force]), set_up.ship, t)
         machines = Machines(before.rudder_angle, before.propeller_speed, before.gear)
         try:
-            eta, nu, machines = sailing.sailed(
+            eta, nu, machines = mmg.advance(
                 before.eta, nu, machines, (i.rudder_order, i.propeller_order), self._surroundings(), h, substeps
             )  # fmt: skip
         except (OverflowError, ValueError, ZeroDivisionError):  # the cosine of infinity
@@ -235,7 +235,7 @@ class ShipManoeuvring:
                 f"in the step at t = {t:g} s the pitch angle comes to {eta[4]:.3g} rad, must stay below {STEEPEST} "
                 "rad; look at impulse and force"
             )
-        return State(eta, nu, applied, *machines, *self._forces(sailing, eta, nu, machines))
+        return State(eta, nu, applied, *machines, *self._compute_forces(mmg, eta, nu, machines))
 
     def _surroundings(self) -> Surroundings:
         i = self.inputs
@@ -243,11 +243,11 @@ class ShipManoeuvring:
         wind = (-speed * cos(direction), -speed * sin(direction)) if speed else (0.0, 0.0)  # where it blows to
         return Surroundings(i.current[0], i.current[1], *wind, *i.force)
 
-    def _forces(self, sailing: Sailing | None, eta: Six, nu: Six, machines: Machines) -> Forces:
+    def _compute_forces(self, mmg: Mmg | None, eta: Six, nu: Six, machines: Machines) -> Forces:
         """Forces by origin; nought when coasting."""
-        if sailing is None:
-            return Forces(_NOUGHT, _NOUGHT, _NOUGHT, _NOUGHT)
-        return sailing.forces(eta, nu, machines, self._surroundings())
+        if mmg is None:
+            return Forces(_ZERO, _ZERO, _ZERO, _ZERO)
+        return mmg.compute_forces(eta, nu, machines, self._surroundings())
 
     # -- outputs and state ----------------------------------------------------------------------------------------
 
@@ -270,7 +270,7 @@ class ShipManoeuvring:
         if not state:
             self._state = None
             return
-        self._set_up = self._prepared()
+        self._set_up = self._prepare()
         values: dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in state.items()}
         self._publish(State(**values))
 

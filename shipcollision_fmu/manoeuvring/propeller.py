@@ -35,15 +35,15 @@ from math import atan2, degrees, exp, floor, hypot, pi, sqrt
 from ..errors import ShipError
 from ..ship.ship import Ship
 from ..ship.tables.manoeuvring import PropellerTable
-from .b_series import ROTATION, bollard, coefficient, pitch_of
+from .b_series import ROTATION, compute_bollard_pull, compute_coefficient, find_pitch
 
-__all__ = ["Propeller", "drift"]
+__all__ = ["Propeller", "speed_and_drift_angle"]
 
 PER_DEGREE = 4
 """Entries of the table of the series per degree of beta: linear between them, within 1e-3 of its largest."""
 
 
-def drift(u: float, v: float) -> tuple[float, float]:
+def speed_and_drift_angle(u: float, v: float) -> tuple[float, float]:
     """U [m/s] and beta = atan2(-v, |u|) [rad], which propeller and rudder take."""
     return hypot(u, v), atan2(-v, abs(u))
 
@@ -60,9 +60,9 @@ class Propeller:
         self._k_0, self._k_1, self._k_2 = table.k_0, table.k_1, table.k_2
         self._astern = table.astern_factor
         self.unit = ship.rho * table.D_p**2  # times velocity^2 is a thrust [N]
-        self._series = _series(self._k_0, _own_zero(ship.name, self._k_0, self._k_1, self._k_2))
+        self._series = _tabulate_series(self._k_0, _find_own_zero(ship.name, self._k_0, self._k_1, self._k_2))
 
-    def inflow(self, u: float, U: float, beta: float, r: float) -> float:
+    def compute_inflow(self, u: float, U: float, beta: float, r: float) -> float:
         """u_P [m/s]."""
         if U == 0.0:
             return 0.0
@@ -71,7 +71,7 @@ class Propeller:
             return u * self._through * (1.0 + (1.0 - exp(-self._C_1 * beta_P)) * self._plus)
         return u * self._through * (1.0 + (1.0 - exp(self._C_1 * beta_P)) * self._minus)
 
-    def thrust(self, u_P: float, n: float) -> float:
+    def compute_thrust(self, u_P: float, n: float) -> float:
         """Open-water thrust [N] at n [1/s] in the inflow u_P."""
         nD = n * self.D_P
         if nD >= 0.0 and u_P >= 0.0:
@@ -93,14 +93,14 @@ class Propeller:
 
 
 @lru_cache(maxsize=64)
-def _series(k_0: float, own_zero: float) -> tuple[float, ...]:
+def _tabulate_series(k_0: float, own_zero: float) -> tuple[float, ...]:
     """T over rho D^2 (u_P^2 + (0.7 pi n D)^2) at the angles beta from -180 to 180 deg, PER_DEGREE.
 
     own_zero [deg]: where the ship's own curve comes to zero thrust.
     """
-    pitch = pitch_of(k_0)
-    scale = k_0 / bollard(pitch)
-    zero = _zero(pitch)
+    pitch = find_pitch(k_0)
+    scale = k_0 / compute_bollard_pull(pitch)
+    zero = _find_series_zero(pitch)
     values = []
     for i in range(360 * PER_DEGREE + 1):
         beta = i / PER_DEGREE - 180.0
@@ -109,11 +109,11 @@ def _series(k_0: float, own_zero: float) -> tuple[float, ...]:
             times = 1.0 + (scale - 1.0) * (beta - 90.0) / 90.0
         elif beta > 0.0:
             times, at = 1.0, 90.0 - (90.0 - beta) * (90.0 - zero) / (90.0 - own_zero)
-        values.append(pi / 8.0 * times * coefficient(pitch, at))
+        values.append(pi / 8.0 * times * compute_coefficient(pitch, at))
     return tuple(values)
 
 
-def _own_zero(name: str, k_0: float, k_1: float, k_2: float) -> float:
+def _find_own_zero(name: str, k_0: float, k_1: float, k_2: float) -> float:
     """beta [deg] at which the ship's own curve comes to zero thrust. Raises ShipError when it never does."""
     root = k_1 * k_1 - 4.0 * k_0 * k_2
     falls = -k_1 + sqrt(root) if root >= 0.0 else 0.0  # k_0 + k_1 J + k_2 J^2 = 0, the least J above 0
@@ -125,10 +125,10 @@ def _own_zero(name: str, k_0: float, k_1: float, k_2: float) -> float:
     return degrees(atan2(2.0 * k_0 / falls, ROTATION))
 
 
-def _zero(pitch: float) -> float:
+def _find_series_zero(pitch: float) -> float:
     """beta [deg] of the series' zero of thrust ahead."""
     low, high = 0.0, 90.0
     for _ in range(50):
         middle = 0.5 * (low + high)
-        low, high = (middle, high) if coefficient(pitch, middle) > 0.0 else (low, middle)
+        low, high = (middle, high) if compute_coefficient(pitch, middle) > 0.0 else (low, middle)
     return low

@@ -33,7 +33,7 @@ class Restoring:
         self._tan2_deck = sea.tan_deck**2
         self._cos_deck = cos(atan(sea.tan_deck))
 
-    def roll(self, s_phi: float, c_phi: float) -> float:
+    def compute_roll_moment(self, s_phi: float, c_phi: float) -> float:
         """Q_phi [N m]."""
         tan2 = s_phi * s_phi / (c_phi * c_phi) if c_phi > self._cos_deck else self._tan2_deck
         return -(self._K_44 + self._K_44_BM * tan2) * s_phi
@@ -41,7 +41,7 @@ class Restoring:
     def __call__(self, D: float, s_phi: float, c_phi: float, s_theta: float, c_theta: float) -> Six:
         """(X, Y, Z, K, M, N) [N, N m] at the depth D [m] of CO and the sines and cosines of phi and theta."""
         Z_n = -self._K_33 * (D - self._x_F * s_theta)
-        Q_phi, Q_theta = self.roll(s_phi, c_phi), -self._K_55 * s_theta
+        Q_phi, Q_theta = self.compute_roll_moment(s_phi, c_phi), -self._K_55 * s_theta
         about_z = Q_phi * s_theta / c_theta
         Y, Z = Z_n * c_theta * s_phi, Z_n * c_theta * c_phi
         return (
@@ -51,7 +51,7 @@ class Restoring:
             about_z * c_phi - Q_theta * s_phi + self._x_F * Y,
         )  # fmt: skip
 
-    def energy(self, D: float, phi: float, theta: float) -> float:
+    def compute_energy(self, D: float, phi: float, theta: float) -> float:
         """Potential energy [J], 0 afloat at rest."""
         c_phi = cos(phi)
         if c_phi > self._cos_deck:

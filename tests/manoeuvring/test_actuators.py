@@ -19,7 +19,7 @@ GEAR = Actuator(least=-0.5, most=0.5, rate=0.1)
     [(0.0, 0.3, 1.0, 0.1), (0.0, 0.3, 10.0, 0.3), (0.2, -0.3, 1.0, 0.1), (0.0, 9.0, 100.0, 0.5), (0.3, 0.3, 1.0, 0.3)],
 )
 def test_follows(value: float, order: float, time: float, expected: float) -> None:
-    assert GEAR.followed(value, order, time) == pytest.approx(expected, rel=1e-14)
+    assert GEAR.follow(value, order, time) == pytest.approx(expected, rel=1e-14)
 
 
 def test_rudder_rate_and_range(start: Start) -> None:
@@ -61,43 +61,43 @@ DIESEL = Engine(Actuator(least=-1.0, most=1.6, rate=0.1), reversal_delay=30.0)
     ],
 )
 def test_reversal_takes_its_time(time: float, n: float, gear: tuple[float, float]) -> None:
-    reached, state = DIESEL.followed(0.5, DIESEL.started(0.5), -0.8, time)
+    reached, state = DIESEL.follow(0.5, DIESEL.find_gear(0.5), -0.8, time)
     assert reached == pytest.approx(n, abs=1e-12)
     assert state == pytest.approx(gear, abs=1e-12)
 
 
 @pytest.mark.parametrize("steps", [7, 60, 1000])
 def test_reversal_does_not_depend_on_the_step(steps: int) -> None:
-    n, gear = 0.5, DIESEL.started(0.5)
+    n, gear = 0.5, DIESEL.find_gear(0.5)
     for _ in range(steps):
-        n, gear = DIESEL.followed(n, gear, -0.8, 40.0 / steps)
+        n, gear = DIESEL.follow(n, gear, -0.8, 40.0 / steps)
     assert n == pytest.approx(-0.5, abs=1e-9)
 
 
 def test_an_order_back_ends_the_reversal() -> None:
-    n, gear = DIESEL.followed(0.5, DIESEL.started(0.5), -0.8, 20.0)
-    n, gear = DIESEL.followed(n, gear, 0.3, 2.0)
+    n, gear = DIESEL.follow(0.5, DIESEL.find_gear(0.5), -0.8, 20.0)
+    n, gear = DIESEL.follow(n, gear, 0.3, 2.0)
     assert (n, gear) == (pytest.approx(0.2), (1.0, 0.0))
-    n, gear = DIESEL.followed(n, gear, -0.8, 2.0 + 29.0)
+    n, gear = DIESEL.follow(n, gear, -0.8, 2.0 + 29.0)
     assert n == 0.0  # waits anew
 
 
 def test_a_stop_is_no_reversal() -> None:
-    n, gear = DIESEL.followed(0.5, DIESEL.started(0.5), 0.0, 100.0)
+    n, gear = DIESEL.follow(0.5, DIESEL.find_gear(0.5), 0.0, 100.0)
     assert (n, gear) == (0.0, (1.0, 0.0))
-    n, gear = DIESEL.followed(n, gear, 0.4, 1.0)
+    n, gear = DIESEL.follow(n, gear, 0.4, 1.0)
     assert n == pytest.approx(0.1)
 
 
 @pytest.mark.parametrize("order", [0.5, -0.5])
 def test_an_engine_at_rest_starts_either_way_at_once(order: float) -> None:
-    n, gear = DIESEL.followed(0.0, DIESEL.started(0.0), order, 2.0)
+    n, gear = DIESEL.follow(0.0, DIESEL.find_gear(0.0), order, 2.0)
     assert n == pytest.approx(0.4 * order)
     assert gear == (2.0 * order, 0.0)
 
 
 def test_without_delay_the_engine_runs_through() -> None:
-    n, _ = Engine(DIESEL.speed).followed(0.5, (1.0, 0.0), -0.8, 10.0)
+    n, _ = Engine(DIESEL.speed).follow(0.5, (1.0, 0.0), -0.8, 10.0)
     assert n == pytest.approx(-0.5)
 
 

@@ -7,7 +7,14 @@ from math import atan2, degrees, pi
 import numpy as np
 import pytest
 
-from shipcollision_fmu.manoeuvring.b_series import FOURIER, PITCHES, ROTATION, bollard, coefficient, pitch_of
+from shipcollision_fmu.manoeuvring.b_series import (
+    FOURIER,
+    PITCHES,
+    ROTATION,
+    compute_bollard_pull,
+    compute_coefficient,
+    find_pitch,
+)
 
 K_T = (
     (0.00880496, 0, 0, 0, 0), (-0.204554, 1, 0, 0, 0), (0.166351, 0, 1, 0, 0), (0.158114, 0, 2, 0, 0),
@@ -31,7 +38,7 @@ def polynomial(J: float, pitch: float) -> float:
 
 
 def measured(J: float, pitch: float) -> float:
-    return pi / 8 * (J**2 + ROTATION**2) * coefficient(pitch, degrees(atan2(J, ROTATION)))
+    return pi / 8 * (J**2 + ROTATION**2) * compute_coefficient(pitch, degrees(atan2(J, ROTATION)))
 
 
 @pytest.mark.parametrize(("pitch", "tolerance"), [(0.6, 0.012), (0.8, 0.012), (1.0, 0.012), (1.2, 0.03)])
@@ -49,16 +56,16 @@ def test_it_is_whole() -> None:
 @pytest.mark.parametrize("pitch", [0.5, 0.6, 0.7, 0.85, 1.0, 1.1, 1.2, 1.4])
 def test_signs_of_the_quadrants(pitch: float) -> None:
     """Astern in a flow from ahead it pulls astern all the way; ahead in a flow from astern, ahead."""
-    assert all(coefficient(pitch, beta) < 0.0 for beta in np.linspace(90.0, 180.0, 91))
-    assert all(coefficient(pitch, beta) > 0.0 for beta in np.linspace(-90.0, 0.0, 91))
-    assert coefficient(pitch, 180.0) == pytest.approx(coefficient(pitch, -180.0), abs=1e-12)
+    assert all(compute_coefficient(pitch, beta) < 0.0 for beta in np.linspace(90.0, 180.0, 91))
+    assert all(compute_coefficient(pitch, beta) > 0.0 for beta in np.linspace(-90.0, 0.0, 91))
+    assert compute_coefficient(pitch, 180.0) == pytest.approx(compute_coefficient(pitch, -180.0), abs=1e-12)
 
 
 @pytest.mark.parametrize("k_0", [0.27, 0.2931, 0.35, 0.45, 0.5])
 def test_the_pitch_for_a_thrust_on_the_spot(k_0: float) -> None:
-    assert bollard(pitch_of(k_0)) == pytest.approx(k_0, rel=1e-9)
+    assert compute_bollard_pull(find_pitch(k_0)) == pytest.approx(k_0, rel=1e-9)
 
 
 def test_beyond_the_measured_pitches_the_nearest_is_taken() -> None:
-    assert pitch_of(0.1) == pytest.approx(0.6)
-    assert pitch_of(0.9) == pytest.approx(1.2)
+    assert find_pitch(0.1) == pytest.approx(0.6)
+    assert find_pitch(0.9) == pytest.approx(1.2)

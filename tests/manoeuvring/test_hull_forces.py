@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from shipcollision_fmu.manoeuvring.hull_forces import BETA, GAMMA, HullForces, cross_flow
+from shipcollision_fmu.manoeuvring.hull_forces import BETA, GAMMA, HullForces, integrate_cross_flow
 from shipcollision_fmu.ship.loading.library import load_ship
 
 SHIP = load_ship("kvlcc2")
@@ -99,11 +99,13 @@ def test_astern_is_braked_as_ahead() -> None:
 def test_cross_flow_against_strips(v: float, s: float) -> None:
     xi = (np.arange(4000) + 0.5) / 2000.0 - 1.0
     w = v + s * xi
-    drag, moment = cross_flow(v, s)
+    drag, moment = integrate_cross_flow(v, s)
     assert drag == pytest.approx(np.mean(w * np.abs(w)), abs=1e-4)
     assert moment == pytest.approx(np.mean(0.5 * xi * w * np.abs(w)), abs=1e-4)
 
 
 @given(st.floats(-5.0, 5.0))
 def test_cross_flow_is_one_function_where_its_halves_meet(v: float) -> None:
-    np.testing.assert_allclose(cross_flow(v, v * (1 + 1e-12)), cross_flow(v, v), rtol=1e-9, atol=1e-300)
+    np.testing.assert_allclose(
+        integrate_cross_flow(v, v * (1 + 1e-12)), integrate_cross_flow(v, v), rtol=1e-9, atol=1e-300
+    )

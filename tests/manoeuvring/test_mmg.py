@@ -1,4 +1,4 @@
-"""The sailing ship: signs, current, equilibrium, convergence, standstill."""
+"""The MMG model: signs, current, equilibrium, convergence, standstill."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from shipcollision_fmu.errors import StepError
-from shipcollision_fmu.manoeuvring.mmg_6dof import SpatialMmg
+from shipcollision_fmu.manoeuvring.mmg_6dof import Mmg6Dof
 from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
 from shipcollision_fmu.ship.degrees_of_freedom import FREE, level_axes
 from shipcollision_fmu.ship.frames import Array, rotation
@@ -68,9 +68,9 @@ def state(model: ShipManoeuvring) -> Array:
     return np.array([*o.position, *o.attitude, *o.velocity, *o.rate])
 
 
-def energy(model: ShipManoeuvring, sailing: SpatialMmg) -> float:
+def energy(model: ShipManoeuvring, mmg: Mmg6Dof) -> float:
     x = state(model)
-    return float(0.5 * x[6:] @ M @ x[6:]) + sailing.restoring.energy(x[2], x[3], x[4])
+    return float(0.5 * x[6:] @ M @ x[6:]) + mmg.restoring.compute_energy(x[2], x[3], x[4])
 
 
 # -- natural motions ------------------------------------------------------------------------------------------------
@@ -215,16 +215,16 @@ def test_an_impulse_changes_M_nu_by_itself_at_any_speed(n: int, P: list[float], 
 )  # fmt: skip
 def test_without_input_the_energy_only_falls(nu: list[float], phi: float, theta: float, D: float) -> None:
     """Kinetic and potential, propeller stopped, from any motion."""
-    sailing = SpatialMmg(KVLCC2, 6)
+    mmg = Mmg6Dof(KVLCC2, 6)
     x = np.array(nu) * [8.0, 4.0, 0.5, 0.03, 0.005, 0.02]
     ship = started(
         **SIX, velocity=x[:3], rate=x[3:], attitude=[phi, theta, 0.4], position=[0.0, 0.0, D], again=REUSED,
         orders=[0.0, 0.0], impulse=[0.0] * 6,
     )  # fmt: skip
-    before = energy(ship, sailing)
+    before = energy(ship, mmg)
     for k in range(120):
         ship.step(0.5 * k, 0.5)
-        after = energy(ship, sailing)
+        after = energy(ship, mmg)
         assert after <= before * (1.0 + 1e-9) + 1.0
         before = after
 

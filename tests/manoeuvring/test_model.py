@@ -17,7 +17,7 @@ Start = Callable[..., ShipManoeuvring]
 MMG = {"degrees_of_freedom": 3, "hydrodynamics": True}
 SPATIAL = {"degrees_of_freedom": 6, "hydrodynamics": True}
 MODES: list[dict[str, Any]] = [{}, MMG, {**MMG, "degrees_of_freedom": 4}, SPATIAL]
-NAMES = ["coasting", "sailing", "sailing with roll", "sailing in six"]
+NAMES = ["coasting", "MMG", "MMG with roll", "MMG in six"]
 
 
 def outputs(model: ShipManoeuvring) -> dict[str, float | list[float]]:

@@ -38,7 +38,7 @@ def test_power_is_the_loss_of_potential_energy(D: float, phi: float, theta: floa
     e = 1e-6
 
     def V(s: float) -> float:
-        return SHIFTED.energy(D + s * D_dot, phi + s * phi_dot, theta + s * theta_dot)
+        return SHIFTED.compute_energy(D + s * D_dot, phi + s * phi_dot, theta + s * theta_dot)
 
     power = float(wrench(SHIFTED, D, phi, theta) @ nu)
     scale = SEA.K_55 * (abs(theta_dot) + 1e-3) + SEA.K_44 * (abs(phi_dot) + 1e-3) + SEA.K_33 * (abs(D_dot) + 1e-3)
@@ -60,11 +60,11 @@ def test_wall_sided_to_the_deck_edge() -> None:
     assert deck == pytest.approx(radians(17.6), abs=1e-3)
     for phi in (0.1, 0.3, -0.2):
         GZ = (SEA.GM_T + 0.5 * SEA.BM_T * tan(phi) ** 2) * sin(phi)
-        assert restoring.roll(sin(phi), cos(phi)) == pytest.approx(-SEA.K_44 / SEA.GM_T * GZ)
-    below, above = (restoring.roll(sin(deck + e), cos(deck + e)) for e in (-1e-9, 1e-9))
+        assert restoring.compute_roll_moment(sin(phi), cos(phi)) == pytest.approx(-SEA.K_44 / SEA.GM_T * GZ)
+    below, above = (restoring.compute_roll_moment(sin(deck + e), cos(deck + e)) for e in (-1e-9, 1e-9))
     assert above == pytest.approx(below, rel=1e-7)
     beyond = (SEA.GM_T + 0.5 * SEA.BM_T * SEA.tan_deck**2) * sin(1.0)
-    assert restoring.roll(sin(1.0), cos(1.0)) == pytest.approx(-SEA.K_44 / SEA.GM_T * beyond)
+    assert restoring.compute_roll_moment(sin(1.0), cos(1.0)) == pytest.approx(-SEA.K_44 / SEA.GM_T * beyond)
 
 
 def test_centre_of_flotation_couples_heave_and_pitch() -> None:

@@ -9,7 +9,7 @@ from math import radians
 import pytest
 
 from shipcollision_fmu.manoeuvring.mmg import CALM, Machines, Six
-from shipcollision_fmu.manoeuvring.mmg_3dof import Mmg
+from shipcollision_fmu.manoeuvring.mmg_3dof import Mmg3Dof
 from shipcollision_fmu.ship.loading.library import load_ship, ship_names
 
 from .conftest import started
@@ -84,11 +84,11 @@ def test_crash_stop() -> None:
 def _stopped(factor: float) -> float:
     ship = load_ship("kvlcc2")
     assert ship.propeller is not None
-    sailing = Mmg(replace(ship, propeller=ship.propeller.model_copy(update={"astern_factor": factor})))
+    mmg = Mmg3Dof(replace(ship, propeller=ship.propeller.model_copy(update={"astern_factor": factor})))
     U, n = service("kvlcc2")
     eta: Six = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     nu: Six = (U, 0.0, 0.0, 0.0, 0.0, 0.0)
     machines = Machines(0.0, n, (1.0, 0.0))
     while nu[0] > 0.0:
-        eta, nu, machines = sailing.sailed(eta, nu, machines, [0.0, -1.0], CALM, 5.0, 10)
+        eta, nu, machines = mmg.advance(eta, nu, machines, [0.0, -1.0], CALM, 5.0, 10)
     return eta[0] / ship.L_pp

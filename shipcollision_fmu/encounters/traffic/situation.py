@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ...errors import ScenarioError
-from ...manoeuvring.trials.steady_course import self_propulsion
+from ...manoeuvring.trials.steady_course import find_self_propulsion
 from ...scenario.scenario import load_scenario
 from ...scenario.toml_writer import format_toml
 from ..request import count_steps
@@ -215,7 +215,7 @@ def _list_orders(start: TrafficStart, ship: str, duration: float) -> list[dict[s
 
 def _find_revolutions(ship: str, speed: float) -> float:
     """Revolutions [1/s] that keep a speed [m/s]; zero for a ship at rest."""
-    return self_propulsion(ship, speed) if speed > 0.0 else 0.0
+    return find_self_propulsion(ship, speed) if speed > 0.0 else 0.0
 
 
 def _environment_table(around: Environment) -> dict[str, Any]:

@@ -8,9 +8,9 @@ from math import hypot
 
 from ...errors import StepError
 from ..model import ShipManoeuvring
-from .steady_course import STEP, Approach, under_way_model
+from .steady_course import STEP, SteadyCourse, make_model
 
-__all__ = ["Figure", "Moment", "Trial", "sail", "when_turned"]
+__all__ = ["Figure", "Moment", "Trial", "find_moment_of_heading", "sail_trial"]
 
 PATIENCE = 150.0
 """Lengths at the approach speed after which a trial that has not ended is given up."""
@@ -67,15 +67,15 @@ class Trial:
         return self.figures[name].value
 
 
-def sail(
-    start: Approach, what: str, rudder: Callable[[Moment], float], rev_per_s: float | None = None
+def sail_trial(
+    start: SteadyCourse, what: str, rudder: Callable[[Moment], float], rev_per_s: float | None = None
 ) -> Iterator[Moment]:
     """The ship at every step from the order on; `rudder` is asked what to order [rad] before each."""
-    model, h = under_way_model(start.name, start.speed, start.rev_per_s, start.degrees_of_freedom), start.step
+    model, h = make_model(start.name, start.speed, start.rev_per_s, start.degrees_of_freedom), start.step
     model.parameters.substep = h
     model.initialise()
     for k in range(round(PATIENCE / STEP)):
-        now = _moment(model, k * h)
+        now = _read_moment(model, k * h)
         yield now
         model.inputs.rudder_order = rudder(now)
         model.inputs.propeller_order = start.rev_per_s if rev_per_s is None else rev_per_s
@@ -83,7 +83,7 @@ def sail(
     raise StepError(f"ship {start.name!r}: {what} has not ended after {PATIENCE:g} lengths at {start.speed:g} m/s")
 
 
-def _moment(model: ShipManoeuvring, time: float) -> Moment:
+def _read_moment(model: ShipManoeuvring, time: float) -> Moment:
     o = model.outputs
     return Moment(
         time, o.position[0], o.position[1], o.attitude[2], o.velocity[0], o.velocity[1], o.rate[2], o.rudder_angle,
@@ -91,7 +91,7 @@ def _moment(model: ShipManoeuvring, time: float) -> Moment:
     )  # fmt: skip
 
 
-def when_turned(track: list[Moment], heading: float) -> Moment:
+def find_moment_of_heading(track: list[Moment], heading: float) -> Moment:
     """The moment of a change of heading [rad], between two steps."""
     k = next(k for k, now in enumerate(track) if abs(now.heading) >= abs(heading) and now.heading * heading > 0.0)
     before, after = track[k - 1], track[k]

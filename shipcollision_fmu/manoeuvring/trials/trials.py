@@ -28,10 +28,10 @@ from __future__ import annotations
 from math import atan2, degrees, hypot, isfinite, pi, radians
 
 from ...errors import ScenarioError
-from .steady_course import Approach
-from .trial import Figure, Moment, Trial, sail, when_turned
+from .steady_course import SteadyCourse
+from .trial import Figure, Moment, Trial, find_moment_of_heading, sail_trial
 
-__all__ = ["crash_stop", "turning_circle", "zigzag"]
+__all__ = ["sail_crash_stop", "sail_turning_circle", "sail_zigzag"]
 
 STEADY = 1e-4
 """A turn is steady when speed and rate change by less than this part of themselves over 10 deg of heading."""
@@ -41,14 +41,14 @@ OVERSHOOTS = 4
 """Counter-rudders of a zigzag."""
 
 
-def turning_circle(start: Approach, rudder_deg: float, *, port: bool = False) -> Trial:
+def sail_turning_circle(start: SteadyCourse, rudder_deg: float, *, port: bool = False) -> Trial:
     """A turn with the rudder over to starboard, or to port; rudder_deg > 0. Raises ScenarioError, StepError."""
     _check_angle(start, "rudder_deg", rudder_deg)
     sign = -1.0 if port else 1.0
     L = start.ship.L_pp
     track: list[Moment] = []
     last_ten = [(0.0, 0.0, 0.0)]
-    for now in sail(start, f"the turn with {rudder_deg:g} deg of rudder", lambda _: sign * radians(rudder_deg)):
+    for now in sail_trial(start, f"the turn with {rudder_deg:g} deg of rudder", lambda _: sign * radians(rudder_deg)):
         track.append(now)
         turned = sign * now.heading
         if turned >= last_ten[-1][0] + radians(10.0):
@@ -57,7 +57,7 @@ def turning_circle(start: Approach, rudder_deg: float, *, port: bool = False) ->
             changed = max(abs(now.speed - speed) / now.speed, abs(now.yaw_rate - rate) / abs(now.yaw_rate))
             if turned >= 2.0 * pi and (changed < STEADY or turned >= MOST_TURN):
                 break
-    at_90, at_180 = (when_turned(track, sign * angle) for angle in (0.5 * pi, pi))
+    at_90, at_180 = (find_moment_of_heading(track, sign * angle) for angle in (0.5 * pi, pi))
     end = track[-1]
     imo = rudder_deg >= 35.0 - 1e-9
     figures = [
@@ -75,7 +75,7 @@ def turning_circle(start: Approach, rudder_deg: float, *, port: bool = False) ->
     return Trial(f"turning circle, {rudder_deg:g} deg to {side}", {f.name: f for f in figures}, track)
 
 
-def zigzag(start: Approach, rudder_deg: float, heading_deg: float, *, port: bool = False) -> Trial:
+def sail_zigzag(start: SteadyCourse, rudder_deg: float, heading_deg: float, *, port: bool = False) -> Trial:
     """A zigzag, first to starboard or to port; both angles > 0. Raises ScenarioError, StepError."""
     _check_angle(start, "rudder_deg", rudder_deg)
     if not (isfinite(heading_deg) and 0.0 < heading_deg <= 60.0):
@@ -90,7 +90,7 @@ def zigzag(start: Approach, rudder_deg: float, heading_deg: float, *, port: bool
         return side * delta
 
     initial_turning = 0.0
-    for now in sail(start, f"the {rudder_deg:g}/{heading_deg:g} zigzag", order):
+    for now in sail_trial(start, f"the {rudder_deg:g}/{heading_deg:g} zigzag", order):
         if track:
             sailed += hypot(now.x - track[-1].x, now.y - track[-1].y)
         track.append(now)
@@ -105,7 +105,7 @@ def zigzag(start: Approach, rudder_deg: float, heading_deg: float, *, port: bool
             executes.append((now, side * now.heading))
             side = -side
     overshoots = [degrees(largest) - heading_deg for _, largest in executes]
-    limits = _overshoot_limits(rudder_deg, heading_deg, L / start.speed)
+    limits = _compute_overshoot_limits(rudder_deg, heading_deg, L / start.speed)
     figures = [
         Figure(f"{which} overshoot", overshoot, "deg", limit)
         for which, overshoot, limit in zip(("first", "second", "third", "fourth"), overshoots, limits, strict=True)
@@ -121,7 +121,7 @@ def zigzag(start: Approach, rudder_deg: float, heading_deg: float, *, port: bool
     return Trial(f"zigzag {rudder_deg:g}/{heading_deg:g}, {first} first", {f.name: f for f in figures}, track)
 
 
-def crash_stop(start: Approach, *, rev_per_s: float | None = None) -> Trial:
+def sail_crash_stop(start: SteadyCourse, *, rev_per_s: float | None = None) -> Trial:
     """Full astern until there is no way on; `rev_per_s` > 0 instead of the engine's most. ScenarioError, StepError."""
     engine = start.ship.engine
     assert engine is not None
@@ -133,7 +133,7 @@ def crash_stop(start: Approach, *, rev_per_s: float | None = None) -> Trial:
         )
     L, sailed = start.ship.L_pp, 0.0
     track: list[Moment] = []
-    for now in sail(start, "the crash stop", lambda _: 0.0, -astern):
+    for now in sail_trial(start, "the crash stop", lambda _: 0.0, -astern):
         if track:
             sailed += hypot(now.x - track[-1].x, now.y - track[-1].y)
         track.append(now)
@@ -150,7 +150,7 @@ def crash_stop(start: Approach, *, rev_per_s: float | None = None) -> Trial:
     return Trial(f"crash stop, {astern:g} rev/s astern", {f.name: f for f in figures}, track)
 
 
-def _overshoot_limits(rudder_deg: float, heading_deg: float, L_over_V: float) -> tuple[float | None, ...]:
+def _compute_overshoot_limits(rudder_deg: float, heading_deg: float, L_over_V: float) -> tuple[float | None, ...]:
     if rudder_deg == heading_deg == 20.0:
         return 25.0, None, None, None
     if not rudder_deg == heading_deg == 10.0:
@@ -159,7 +159,7 @@ def _overshoot_limits(rudder_deg: float, heading_deg: float, L_over_V: float) ->
     return 5.0 + 0.5 * between, 17.5 + 0.75 * between, None, None
 
 
-def _check_angle(start: Approach, what: str, angle_deg: float) -> None:
+def _check_angle(start: SteadyCourse, what: str, angle_deg: float) -> None:
     assert start.ship.rudder is not None
     most = start.ship.rudder.max_angle_deg
     if not (isfinite(angle_deg) and 0.0 < angle_deg <= most):
