@@ -13,7 +13,7 @@ import pytest
 
 from docs.generate.frames import FIGURE, GLTF_FROM_N, svg
 from shipcollision_fmu.encounters.imazu import KNOT
-from shipcollision_fmu.results.published import world_state
+from shipcollision_fmu.results.published import paper_quantities
 from shipcollision_fmu.scenario.tables.environment import Environment
 from shipcollision_fmu.scenario.tables.ship_start import ShipStart
 from shipcollision_fmu.ship.frames import SWAP, Array, quaternion, quaternion_w, rotation, swapped
@@ -52,7 +52,7 @@ def osg(v: tuple[float, ...]) -> tuple[float, ...]:
 
 def paper(v: tuple[float, ...]) -> tuple[float, ...]:
     """The position of a ship at v in n, upright, with CG at CO."""
-    state = world_state(ShipState(*v, *[0.0] * 9), np.zeros(3))
+    state = paper_quantities(ShipState(*v, *[0.0] * 9), np.zeros(3))
     return state["x"], state["y"], state["z"]
 
 
@@ -101,9 +101,9 @@ def test_the_papers_quaternion_and_rates() -> None:
     """phi, theta, psi go with r, p, -h; and u, v, w with v_y, v_x, -v_z of a ship that heads north."""
     for i, quantity, sign in ((0, "r", 1), (1, "p", 1), (2, "h", -1)):
         attitude = [0.2 if i == k else 0.0 for k in range(3)]
-        heeled = world_state(ShipState(0.0, 0.0, 0.0, *attitude, *[0.0] * 6), np.zeros(3))
+        heeled = paper_quantities(ShipState(0.0, 0.0, 0.0, *attitude, *[0.0] * 6), np.zeros(3))
         assert heeled[quantity] == pytest.approx(sign * np.sin(0.1))  # type: ignore[index]
-    state = world_state(ShipState(*[0.0] * 6, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0), np.zeros(3))
+    state = paper_quantities(ShipState(*[0.0] * 6, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0), np.zeros(3))
     assert (state["v_y"], state["v_x"], -state["v_z"]) == (1.0, 2.0, 3.0)
     assert (state["w_y"], state["w_x"], -state["w_z"]) == (4.0, 5.0, 6.0)
 
