@@ -32,7 +32,7 @@ __all__ = ["PROBES", "Probe", "run_probes"]
 
 OK, WARNING = 0, 1
 TIME_OUT = 60.0
-"""[s] Limit of a process; an FMU that hangs is then reported. Python FMUs need up to 20 s to start."""
+"""[s] Limit of a process with all its probes; a process that takes longer is ended and reported."""
 _MARK = "finding "
 """Beginning of a line with findings, since the FMU may print lines of its own."""
 

@@ -28,9 +28,9 @@ class RunPage:
 
 def run_page(write: Callable[[Path], None], height: int) -> RunPage:
     """The page of the run that `write` writes into a folder. Raises HostError when the page's bundle is missing."""
-    from ..show.page import replay_html  # only a run that is shown needs the pictures
+    from ..show.page import build_page  # only a run that is shown needs the pictures
     from ..show.scene.scene import load_scene
 
     with TemporaryDirectory(prefix="shipcollision-") as folder:
         write(Path(folder))
-        return RunPage(replay_html(load_scene(Path(folder))), height)
+        return RunPage(build_page(load_scene(Path(folder))), height)

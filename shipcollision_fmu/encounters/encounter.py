@@ -36,11 +36,11 @@ from .targeting import ACCEPTED, ImpactFinder, aim_track
 __all__ = ["Encounter", "encounter"]
 
 SLOWEST_CLOSING = 0.05
-"""[m/s] Least closing speed along the normal. Slower hulls come to lie against each other, and the time of the impact
-depends on rounding."""
+"""[m/s] Least closing speed along the normal. Slower hulls come to lie against each other instead of
+colliding."""
 GRAZING = 0.03
-"""Least closing speed as a fraction of the relative speed: 1.7 deg from the hull's side. Nearer to the side a
-centimetre of overlap moves the place by more than the tolerance."""
+"""Least closing speed as a fraction of the relative speed: 1.7 deg from the hull's side. Nearer to it,
+the overlap that targeting needs moves the place along the hull by more than the accepted distance."""
 TOLERANCE = 0.45
 """[m] Largest distance of the impact from the place when the scenario is run as written; 0.5 m is promised."""
 HAIR = 1e-5

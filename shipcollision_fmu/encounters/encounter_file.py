@@ -17,7 +17,7 @@ from .ship_table import build_ship_table, refer_to_ship, round_off
 __all__ = ["CONTACT_LAW", "Approach", "write_encounter"]
 
 CONTACT_LAW = {"friction": 0.3, "restitution": 0.0}
-"""The table [collision] of every generated encounter: steel on steel, plastic."""
+"""The table [collision] of every generated encounter: a plastic impact with friction."""
 
 
 class Approach(NamedTuple):

@@ -22,7 +22,7 @@ FASTEST = 50.0
 """[m/s] Limit of every speed. No ship is faster, so a higher value was meant in another unit. The check for an earlier
 contact also relies on it: its strides are safe for ships up to twice this speed."""
 LONGEST = 7200.0
-"""[s] Limit of the times before and after the impact; a longer track takes minutes to compute."""
+"""[s] Limit of the times before and after the impact; a longer time was meant in another unit."""
 FREEDOMS = (3, 4, 6)
 """Degrees of freedom that the manoeuvring model offers."""
 

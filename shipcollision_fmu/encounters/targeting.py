@@ -30,8 +30,7 @@ HALF_A_SUBSTEP = 0.005
 """[s] Half of the collision model's default substep, by which the hulls touch early so that the contact is found in the
 right step."""
 GOOD = 0.02
-"""[m] Distance from the place below which no correction follows. Smaller costs corrections and gains nothing: the
-contact itself is known to about as much."""
+"""[m] Distance from the place below which no correction follows; smaller costs runs of the model."""
 ACCEPTED = 0.35
 """[m] Largest distance from the place that targeting accepts. The encounter promises 0.5 m; the rest is left for the
 rounding of the scenario file."""

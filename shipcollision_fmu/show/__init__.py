@@ -1,15 +1,14 @@
-"""A finished run made visible. docs/guide/pictures.md is for users, docs/develop/pictures.md for those who change it.
+"""Pictures of a finished run: page, glTF, OpenSceneGraph, films, figures.
 
-    outputs      the kinds of picture by name, for the command `show`
-    extras       optional libraries, imported when a picture needs them
-    scene/       the run's folder read and checked, and one scene made of it: SI units, frames n and b
-    page/        replay.html: the scene in one file for a browser
-    gltf/        scene.glb
-    osg/         scene.osgt for osgviewer; zup is the one converter to a world with z up
-    film/        stills and films drawn by numpy
-    plots        figures for a report
+    outputs.py   pictures by kind, for `shipcollision show`
+    scene/       the folder of a run becomes a Scene
+    page/        replay.html for a browser
+    gltf/        scene.glb for Blender, Unity, Unreal and viewers
+    osg/         scene.osgt for osgviewer
+    film/        GIF, MP4 and stills, drawn by NumPy
+    plots.py     figures by Matplotlib
+    extras.py    a clear line where an optional package is missing
 
-Data flow: folder of a run -> RunFolder -> Scene -> every picture. Nothing is written back to the run.
-Imports from: ship, fmi (names of the states), files, errors. Drawing libraries are imported here alone.
-Used by: cli.
+Data flow: files of a run -> RunFolder -> Scene -> bytes of a picture. Imports from: ship (frames, convex solids), fmi
+(names of columns), files; drawing libraries only here. Used by: cli, cosim (page of a run).
 """

@@ -7,9 +7,9 @@ from pathlib import Path
 
 from ..files import IN_PLACE, write_file
 from .film import animation
-from .gltf.gltf import glb
+from .gltf.gltf import build_glb
 from .osg import osg
-from .page import PAGE, replay_html
+from .page import PAGE, build_page
 from .plots import FOLDER, write_plots
 from .scene.scene import Scene, load_scene
 
@@ -28,7 +28,7 @@ _FILES = {
 
 def write_page(scene: Scene, folder: Path) -> Path:
     """Write the page; returns its path."""
-    return write_file(folder / PAGE, replay_html(scene), IN_PLACE)
+    return write_file(folder / PAGE, build_page(scene), IN_PLACE)
 
 
 def write(
@@ -41,10 +41,14 @@ def write(
     if kind == "page":
         return [str(write_page(scene, folder))]
     if kind == "glb":
-        return [str(write_file(folder / "scene.glb", glb(scene), IN_PLACE))]
+        return [str(write_file(folder / "scene.glb", build_glb(scene), IN_PLACE))]
     if kind == "osg":
         paths = osg.write_osg(scene, folder)
-        return [str(paths[-1]), "to see it (Debian: apt install openscenegraph):", f"  {osg.viewer_line(folder)}"]
+        return [
+            str(paths[-1]),
+            "to see it (Debian: apt install openscenegraph):",
+            f"  {osg.format_viewer_command(folder)}",
+        ]
     if kind == "plots":
         return [str(path) for path in write_plots(scene, folder)]
     if kind == "gif":

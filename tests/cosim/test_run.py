@@ -13,7 +13,7 @@ from selenium.webdriver.support.ui import WebDriverWait
 
 from shipcollision_fmu import HostError, Run, load_scenario, simulate
 from shipcollision_fmu.cosim.run_repr import run_html, run_text
-from shipcollision_fmu.show.page import replay_html
+from shipcollision_fmu.show.page import build_page
 from shipcollision_fmu.show.scene.scene import load_scene
 from tests.conftest import Write
 from tests.show.browser import PATIENCE, chromium
@@ -104,7 +104,7 @@ def test_pandas_that_is_missing_is_one_line_with_the_command(run: Run, monkeypat
 def test_the_page_of_a_notebook_is_that_of_the_runs_folder(run: Run, tmp_path: Path) -> None:
     run.write(tmp_path / "run")
     page = run.page(height=500)
-    assert page.text == replay_html(load_scene(tmp_path / "run"))
+    assert page.text == build_page(load_scene(tmp_path / "run"))
     frame = page._repr_html_()
     found = re.fullmatch(
         r'<iframe srcdoc="([^"]*)" sandbox="allow-scripts" style="[^"]*height: 500px[^"]*"></iframe>', frame

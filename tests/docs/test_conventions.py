@@ -18,7 +18,7 @@ from shipcollision_fmu.scenario.tables.environment import Environment
 from shipcollision_fmu.scenario.tables.ship_start import ShipStart
 from shipcollision_fmu.ship.frames import SWAP, Array, quaternion, quaternion_w, rotation, swapped
 from shipcollision_fmu.ship.ship_state import ShipState
-from shipcollision_fmu.show.osg.zup import attitudes, places
+from shipcollision_fmu.show.osg.zup import convert_quaternions, convert_vectors
 
 PAGE = Path(__file__).parents[2] / "docs" / "conventions.md"
 POINT = (3.0, 5.0, -7.0)
@@ -47,7 +47,7 @@ def bullet(v: tuple[float, ...]) -> tuple[float, ...]:
 
 
 def osg(v: tuple[float, ...]) -> tuple[float, ...]:
-    return tuple(places(np.array(v)))
+    return tuple(convert_vectors(np.array(v)))
 
 
 def paper(v: tuple[float, ...]) -> tuple[float, ...]:
@@ -93,7 +93,7 @@ def test_both_sides_of_a_rotation_are_swapped() -> None:
     expected = evaluated("(q_y, q_x, -q_z, q_w)", "q_x q_y q_z q_w", (x, y, z, w))
     assert "q_w  = (q_y, q_x, -q_z, q_w)" in PAGE.read_text("utf-8")
     assert quaternion_w(R) == pytest.approx(expected, abs=1e-15)
-    assert attitudes(quaternion(R)) == pytest.approx(expected, abs=1e-15)
+    assert convert_quaternions(quaternion(R)) == pytest.approx(expected, abs=1e-15)
     assert quaternion(SWAP @ R @ SWAP) == pytest.approx(expected, abs=1e-12)
 
 
@@ -116,12 +116,12 @@ def test_the_root_of_a_glb_turns_n_into_gltf(gltf_root: Array) -> None:
 def gltf_root(tmp_path_factory: pytest.TempPathFactory) -> Array:
     """Rotation of the root node in scene.glb of the published run."""
     from shipcollision_fmu import load_scenario, simulate
-    from shipcollision_fmu.show.gltf.gltf import glb
+    from shipcollision_fmu.show.gltf.gltf import build_glb
     from shipcollision_fmu.show.scene.scene import load_scene
 
     run = tmp_path_factory.mktemp("run")
     simulate(load_scenario("guan2014"), in_process=True, out=run)
-    data = glb(load_scene(run))
+    data = build_glb(load_scene(run))
     content = json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")])
     root = content["nodes"][content["scenes"][content["scene"]]["nodes"][0]]
     assert root["name"] == "n"

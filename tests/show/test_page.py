@@ -15,9 +15,9 @@ from selenium.webdriver.common.by import By
 
 from shipcollision_fmu import load_scenario, simulate
 from shipcollision_fmu.ship.frames import rotation, rotation_from_quaternion
-from shipcollision_fmu.show.gltf.gltf import glb
-from shipcollision_fmu.show.gltf.ribbons import ribbon
-from shipcollision_fmu.show.page import replay_html, write_page
+from shipcollision_fmu.show.gltf.gltf import build_glb
+from shipcollision_fmu.show.gltf.ribbons import lay_ribbon
+from shipcollision_fmu.show.page import build_page, write_page
 from shipcollision_fmu.show.scene.run_folder import STATE
 from shipcollision_fmu.show.scene.scene import Scene, load_scene
 
@@ -104,7 +104,7 @@ def test_scratches_have_grown_as_far_as_they_have(page: Page, folder: Path, scen
     at = moments(scene, folder)[when]
     drawn = page.slide(at)
     borne = [(scratch, scene.ship(scratch.ship)) for scratch in scene.scratches]
-    ribbons = [ribbon(scratch, ship.hull, ship.L_pp) for scratch, ship in borne]
+    ribbons = [lay_ribbon(scratch, ship.hull, ship.L_pp) for scratch, ship in borne]
     triangles = sum(int((shape.times[shape.triangles].max(axis=1) <= at + 1e-4).sum()) for shape in ribbons)
     assert drawn["scratchPoints"] == sum(int((scratch.times <= at + 1e-6).sum()) for scratch in scene.scratches)
     assert drawn["scratchTriangles"] == triangles
@@ -279,13 +279,13 @@ def load_scenario_text(name: str) -> str:
 
 def test_the_page_holds_the_very_glb_and_the_same_scene_gives_the_same_page(guan2014: Path) -> None:
     scene = load_scene(guan2014)
-    page = replay_html(scene)
-    assert base64.b64encode(glb(scene)).decode() in page
-    assert replay_html(load_scene(guan2014)) == page
+    page = build_page(scene)
+    assert base64.b64encode(build_glb(scene)).decode() in page
+    assert build_page(load_scene(guan2014)) == page
 
 
 def test_licences_of_what_is_bundled_are_in_the_page(guan2014: Path) -> None:
-    page = replay_html(load_scene(guan2014))
+    page = build_page(load_scene(guan2014))
     assert "Copyright © 2010-20" in page  # three.js
     assert "Leon Sorokin" in page  # uPlot
     assert page.count("Permission is hereby granted") >= 2

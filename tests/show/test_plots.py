@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from shipcollision_fmu.show.plots import drawn, saved, write_plots
+from shipcollision_fmu.show.plots import draw_figures, save_figure, write_plots
 from shipcollision_fmu.show.scene.scene import Scene, load_scene
 from tests.show.osg.test_osg import in_the_world, states
 
@@ -29,7 +29,7 @@ def scene(guan2014: Path) -> Scene:
 
 @pytest.fixture(scope="module")
 def plots(scene: Scene) -> dict[str, Figure]:
-    return drawn(scene)
+    return draw_figures(scene)
 
 
 @pytest.mark.slow
@@ -39,10 +39,10 @@ def test_files(scene: Scene, tmp_path: Path) -> None:
     assert sorted(str(path.relative_to(tmp_path)) for path in paths) == [
         f"plots/{name}.{kind}" for name in ("energy", "motion", "track") for kind in ("png", "svg")
     ]
-    again = drawn(scene)["energy"]
+    again = draw_figures(scene)["energy"]
     for path in paths:
         if path.stem == "energy":
-            assert path.read_bytes() == saved(again, path.suffix[1:])
+            assert path.read_bytes() == save_figure(again, path.suffix[1:])
         if path.suffix == ".svg":
             assert ElementTree.parse(path).getroot().tag.endswith("svg")
             assert b"<dc:date>" not in path.read_bytes()
@@ -94,14 +94,14 @@ def test_names_are_shown_as_they_are(guan2014: Path, tmp_path: Path) -> None:
     """No formula, nothing hidden, any script, without a warning."""
     names = {"own": "_$x^2$ <script>", "target": "船 50 %"}
     scene = load_scene(with_names(guan2014, tmp_path / "named", names))
-    figure = drawn(scene)["track"]
+    figure = draw_figures(scene)["track"]
     assert [text.get_text() for text in figure.legends[0].get_texts()][:2] == [r" _\$x^2\$ <script>", "船 50 %"]
-    assert saved(figure, "svg")
+    assert save_figure(figure, "svg")
 
 
 def test_no_contact_and_an_obstacle(meeting: MakeRun) -> None:
     scene = load_scene(meeting(("speed = 4.0", "speed = 0.5")))
-    track = drawn(scene)["track"]
+    track = draw_figures(scene)["track"]
     assert [text.get_text() for text in track.legends[0].get_texts()] == ["own", "target"]
     quay = track.axes[0].patches[0].get_path().vertices
     np.testing.assert_allclose([quay.min(0), quay.max(0)], [[50.0, -100.0], [70.0, 100.0]])  # type: ignore[union-attr]
@@ -110,4 +110,4 @@ def test_no_contact_and_an_obstacle(meeting: MakeRun) -> None:
 @pytest.mark.slow
 def test_hundred_collisions(guan2014: Path, tmp_path: Path) -> None:
     scene = load_scene(with_many_collisions(guan2014, tmp_path / "many", 100))
-    assert drawn(scene)["track"].legends[0].get_texts()[-1].get_text() == "first contacts"
+    assert draw_figures(scene)["track"].legends[0].get_texts()[-1].get_text() == "first contacts"

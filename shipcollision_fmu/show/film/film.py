@@ -1,4 +1,4 @@
-"""A scene as a film: its picture at any time, seen by the camera of camera.py."""
+"""Film: pictures of a scene at any time, by the camera of scene/camera.py."""
 
 from __future__ import annotations
 
@@ -8,62 +8,64 @@ import numpy as np
 import numpy.typing as npt
 
 from ...ship.frames import Array, rotation, rotation_from_quaternion
-from ..scene.camera import ANGLE, camera_of
-from ..scene.palette import display, paint_of
-from ..scene.parts import Part, obstacle_parts, ship_parts
+from ..scene.camera import ANGLE, place_camera
+from ..scene.palette import convert_to_display, find_paint
+from ..scene.parts import Part, list_obstacle_parts, list_ship_parts
 from ..scene.scene import Scene, Ship
 from ..scene.surface import Surface
-from .picture import Backdrop, Faces, Line, backdrop, picture
-from .puffs import Puffs, puffs
+from .picture import Backdrop, Faces, Line, draw_backdrop, draw_picture
+from .puffs import Puffs, make_puffs
 from .raster import Eye
 
 __all__ = ["Film"]
 
 Pixels = npt.NDArray[np.uint8]
 LINE = 3.0 / 540
-"""Width of a scratch, in heights of the picture."""
+"""Width of a scratch as a fraction of the picture's height."""
 LIFT = 0.15
-"""Of a scratch off the plating [m]."""
+"""[m] Distance of a scratch from the plating, which would otherwise hide it in part."""
 
 
 class Film:
     """A scene ready to be drawn in pictures of `width` x `height` pixels.
 
-    With `fixed`, a time [s], the camera stays where it is then and the waves stand still: one sees who moves, and most
-    of a picture is that before it, which makes a small file.
+    With `fixed`, a time [s], camera and waves stay as they are at this time. The motion of the ships is then visible,
+    and most of a picture equals the picture before it, which makes a small file.
     """
 
     def __init__(self, scene: Scene, width: int, height: int, fixed: float | None = None) -> None:
         self._scene, self._width, self._height = scene, width, height
-        self._camera = camera_of(scene)
+        self._camera = place_camera(scene)
         self._behind = None if fixed is None else self._backdrop(fixed)
-        self._bodies = [_Body(ship_parts(ship, i)) for i, ship in enumerate(scene.ships)]
+        self._bodies = [_Body(list_ship_parts(ship, i)) for i, ship in enumerate(scene.ships)]
         self._fixed = [
-            _Body(obstacle_parts(obstacle)).placed(rotation((0.0, 0.0, obstacle.heading)), obstacle.position)
+            _Body(list_obstacle_parts(obstacle)).place(rotation((0.0, 0.0, obstacle.heading)), obstacle.position)
             for obstacle in scene.obstacles
         ]
 
-    def frame(self, time: float) -> Pixels:
+    def draw(self, time: float) -> Pixels:
         """The picture at `time` [s], (height, width, 3) of red, green and blue."""
-        moved = [body.placed(*_pose(ship, time)) for body, ship in zip(self._bodies, self._scene.ships, strict=True)]
+        moved = [
+            body.place(*_find_pose(ship, time)) for body, ship in zip(self._bodies, self._scene.ships, strict=True)
+        ]
         faces = Faces(
             np.concatenate([faces.corners for faces in (*moved, *self._fixed)]),
             np.concatenate([faces.colours for faces in (*moved, *self._fixed)]),
         )
         behind = self._behind or self._backdrop(time)
-        return picture(behind, faces, self._lines(time), self._clouds(time))
+        return draw_picture(behind, faces, self._lines(time), self._clouds(time))
 
     def _backdrop(self, time: float) -> Backdrop:
-        return backdrop(Eye(*self._camera.at(time), ANGLE, self._width, self._height), time)
+        return draw_backdrop(Eye(*self._camera.at(time), ANGLE, self._width, self._height), time)
 
     def _lines(self, time: float) -> list[Line]:
-        """Scratches as far as they are drawn by then."""
-        colour, width = display(paint_of("scratch").colour), max(1.5, LINE * self._height)
+        """Scratches up to a time [s]."""
+        colour, width = convert_to_display(find_paint("scratch").colour), max(1.5, LINE * self._height)
         lines = []
         for scratch in self._scene.scratches:
             drawn = int(np.searchsorted(scratch.times, time, side="right"))
             if drawn > 1:
-                R, position = _pose(self._scene.ship(scratch.ship), time)
+                R, position = _find_pose(self._scene.ship(scratch.ship), time)
                 points = (scratch.points + LIFT * scratch.normals)[:drawn]
                 lines.append(Line(position + points @ R.T, width, colour))
         return lines
@@ -73,8 +75,8 @@ class Film:
         clouds = []
         for effect in self._scene.effects:
             if effect.time <= time:
-                R, position = _pose(self._scene.ship(effect.ship), time)
-                clouds.append((position + R @ effect.point, puffs(effect, time)))
+                R, position = _find_pose(self._scene.ship(effect.ship), time)
+                clouds.append((position + R @ effect.point, make_puffs(effect, time)))
         return clouds
 
 
@@ -84,18 +86,21 @@ class _Body:
 
     parts: list[Part]
 
-    def placed(self, R: Array, position: Array) -> Faces:
+    def place(self, R: Array, position: Array) -> Faces:
         """Its triangles in n."""
-        corners = [_corners(surface) for _, surface in self.parts]
-        colours = [np.broadcast_to(display(paint.colour), (len(surface.triangles), 3)) for paint, surface in self.parts]
+        corners = [_list_corners(surface) for _, surface in self.parts]
+        colours = [
+            np.broadcast_to(convert_to_display(paint.colour), (len(surface.triangles), 3))
+            for paint, surface in self.parts
+        ]
         return Faces(position + np.concatenate(corners) @ R.T, np.concatenate(colours))
 
 
-def _corners(surface: Surface) -> Array:
+def _list_corners(surface: Surface) -> Array:
     corners: Array = surface.vertices[surface.triangles]
     return corners
 
 
-def _pose(ship: Ship, time: float) -> tuple[Array, Array]:
+def _find_pose(ship: Ship, time: float) -> tuple[Array, Array]:
     position, quaternion = ship.track.at(time)
     return rotation_from_quaternion(quaternion), position

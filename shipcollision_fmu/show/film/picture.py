@@ -1,11 +1,11 @@
-"""One picture of a scene: hulls in the light, sea and sky, scratches, puffs of the effects.
+"""draw_picture(): lit hulls, sea and sky, scratches, and puffs of the effects.
 
-Solids are found at `SAMPLES` x `SAMPLES` points per pixel and averaged; sea, sky and puffs have soft edges of their own
-and are computed once per pixel. Where the sea lies before a hull it shines through, the less the deeper. All in n.
+Solids are sampled at `SAMPLES` x `SAMPLES` points per pixel and averaged. Sea, sky and puffs have soft edges and are
+computed once per pixel. A hull below the sea's surface shines through, the less the deeper it is. All vectors are in n.
 
-Why not a library: what draws without a GPU, a display or system packages (Panda3D's software renderer, 55 MB; that of
-PyBullet, which knows no lines and no particles) leaves water, puffs and anti-aliasing to be written all the same, and
-would do the fifty lines of raster.py. VTK is 140 MB and wants Mesa; matplotlib has no depth buffer.
+No library is used. Renderers without a GPU, a display or system packages (Panda3D's, 55 MB; PyBullet's, without lines
+and particles) would replace the fifty lines of raster.py only: water, puffs and anti-aliasing would still be ours. VTK
+has 140 MB and needs Mesa; Matplotlib has no depth buffer.
 """
 
 from __future__ import annotations
@@ -19,18 +19,20 @@ import numpy.typing as npt
 from ...ship.frames import Array
 from . import sea
 from .puffs import Puffs
-from .raster import NOTHING, Eye, Nearest, nearest
+from .raster import NOTHING, Eye, Nearest, find_nearest
 
-__all__ = ["Backdrop", "Faces", "Line", "backdrop", "picture"]
+__all__ = ["Backdrop", "Faces", "Line", "draw_backdrop", "draw_picture"]
 
 SAMPLES = 2
+"""Points per pixel in each direction for solids; with 1, edges show stairs."""
 SUN = np.array([-0.42, 0.50, -0.76])
 """Towards the sun, in n; a unit vector to three digits."""
 AMBIENT = 0.58
+"""Share of the light that reaches every face."""
 SURFACE = 0.75
-"""Share of what is just under water that is seen; the surface mirrors the rest."""
+"""Share of light from just below the surface that passes it; the surface mirrors the rest."""
 LINE_LIFT = 0.01
-"""Part of its distance by which a scratch is drawn nearer than it is, so that the plating does not cover it."""
+"""Fraction of its distance by which a scratch is drawn nearer, so that the plating does not hide it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,8 +54,8 @@ class Line:
 
 @dataclass(frozen=True, eq=False)
 class Backdrop:
-    """Sky and sea as an eye sees them: colour (height, width, 3), depth of the sea, inf for the sky, and length of a
-    ray of depth 1 (height, width)."""
+    """Sky and sea before an eye: colour (height, width, 3), depth of the sea, inf for the sky, and length of a ray of
+    depth 1 (height, width)."""
 
     eye: Eye
     colour: Array
@@ -61,29 +63,29 @@ class Backdrop:
     stretch: Array
 
 
-def backdrop(eye: Eye, time: float) -> Backdrop:
+def draw_backdrop(eye: Eye, time: float) -> Backdrop:
     """Sky and sea with the waves of `time` [s]."""
     rays = eye.rays()
-    depth = sea.distance(eye, rays)
+    depth = sea.find_depth(eye, rays)
     wet = np.isfinite(depth)
-    colour = sea.sky(rays)
-    colour[wet] = sea.surface(eye, rays[wet], depth[wet], time)
+    colour = sea.colour_sky(rays)
+    colour[wet] = sea.colour_sea(eye, rays[wet], depth[wet], time)
     return Backdrop(eye, colour, depth, np.linalg.norm(rays, axis=-1))
 
 
-def picture(
+def draw_picture(
     behind: Backdrop, faces: Faces, lines: Sequence[Line], clouds: Iterable[tuple[Array, Puffs]]
 ) -> npt.NDArray[np.uint8]:
     """The picture before a backdrop, (height, width, 3). `clouds`: origin (3,) in n and puffs of effects."""
     eye = behind.eye
     fine = replace(eye, width=SAMPLES * eye.width, height=SAMPLES * eye.height)
-    colour, depth = _before(behind, *_solids(fine, faces, lines))
+    colour, depth = _lay_over(behind, *_draw_solids(fine, faces, lines))
     for origin, puffs in clouds:
-        _add(eye, colour, depth, origin + puffs.offset, puffs)
+        _add_puffs(eye, colour, depth, origin + puffs.offset, puffs)
     return np.asarray(np.round(255.0 * np.clip(colour, 0.0, 1.0)), dtype=np.uint8)
 
 
-def _solids(eye: Eye, faces: Faces, lines: Sequence[Line]) -> tuple[Array, Nearest]:
+def _draw_solids(eye: Eye, faces: Faces, lines: Sequence[Line]) -> tuple[Array, Nearest]:
     """Colours (m, 3) of the triangles of solids and lines in their light, and what is seen of them."""
     corners = faces.corners
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -91,13 +93,13 @@ def _solids(eye: Eye, faces: Faces, lines: Sequence[Line]) -> tuple[Array, Neare
     corners, normals = corners[front], normals[front]
     normals /= np.linalg.norm(normals, axis=1)[:, None]
     light = AMBIENT + (1.0 - AMBIENT) * np.clip(normals @ SUN, 0.0, 1.0)
-    ribbons = [_ribbon(eye, line) for line in lines]
-    seen = nearest(eye, np.concatenate([corners, *ribbons]))
+    ribbons = [_widen_line(eye, line) for line in lines]
+    seen = find_nearest(eye, np.concatenate([corners, *ribbons]))
     painted = [np.broadcast_to(line.colour, (len(ribbon), 3)) for line, ribbon in zip(lines, ribbons, strict=True)]
     return np.concatenate([faces.colours[front] * light[:, None], *painted]), seen
 
 
-def _ribbon(eye: Eye, line: Line) -> Array:
+def _widen_line(eye: Eye, line: Line) -> Array:
     """Triangles (m, 3, 3) of a line as wide as it should look, turned to the eye and lifted towards it."""
     points = eye.position + (line.points - eye.position) * (1.0 - LINE_LIFT)
     start, end = points[:-1], points[1:]
@@ -110,12 +112,12 @@ def _ribbon(eye: Eye, line: Line) -> Array:
     return np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
 
 
-def _before(behind: Backdrop, colours: Array, seen: Nearest) -> tuple[Array, Array]:
+def _lay_over(behind: Backdrop, colours: Array, seen: Nearest) -> tuple[Array, Array]:
     """Solids, found at the samples, before sea and sky or shining through the sea: colour and depth per pixel."""
     row, column = np.nonzero(seen.triangle != NOTHING)
     pixel = (row // SAMPLES, column // SAMPLES)
     way = (seen.depth[row, column] - behind.depth[pixel]) * behind.stretch[pixel]
-    share = np.where(way > 0.0, SURFACE * sea.clarity(way), 1.0) / SAMPLES**2
+    share = np.where(way > 0.0, SURFACE * sea.find_clarity(way), 1.0) / SAMPLES**2
     change = share[:, None] * (colours[seen.triangle[row, column]] - behind.colour[pixel])
     place = np.ravel_multi_index(pixel, behind.depth.shape)
     summed = [np.bincount(place, change[:, k], behind.depth.size).reshape(behind.depth.shape) for k in range(3)]
@@ -126,7 +128,7 @@ _SPRITE = 96
 """Width of the picture of a puff [texels]."""
 
 
-def _sprite() -> Array:
+def _make_sprite() -> Array:
     """Density of a puff over its square, (_SPRITE, _SPRITE): round, soft, with lumps."""
     rng = np.random.default_rng(7)
     u = np.linspace(-1.0, 1.0, _SPRITE)
@@ -139,10 +141,10 @@ def _sprite() -> Array:
     return np.asarray(np.clip(round_ * (0.45 + 0.75 * lumps / lumps.max()) * 1.6, 0.0, 1.0))
 
 
-_DENSITY = _sprite()
+_DENSITY = _make_sprite()
 
 
-def _add(eye: Eye, colour: Array, depth: Array, places: Array, puffs: Puffs) -> None:
+def _add_puffs(eye: Eye, colour: Array, depth: Array, places: Array, puffs: Puffs) -> None:
     """Lay puffs over the picture, from the farthest to the nearest; solids and the sea hide what is behind them."""
     projected = eye.project(places)
     for i in np.argsort(-projected[:, 2], kind="stable"):

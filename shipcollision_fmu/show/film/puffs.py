@@ -1,8 +1,8 @@
-"""Explosion, fire, debris and smoke as soft puffs: each a pure function of its age, so that time can run any way.
+"""Explosion, fire, debris and smoke as soft puffs, each a pure function of time, which may run backwards.
 
-A puff is born at a fixed age of its effect, drifts, grows, fades and dies. What looks like chance comes from a
-generator with the effect's seed: the same picture each time. Offsets are in the axes of n from the effect's origin,
-which moves with the ship; lengths and speeds are in units of the effect's `size` [m].
+A puff is born at a fixed age of its effect, drifts, grows, fades and dies. Its randomness comes from a generator with
+the effect's seed, so that every visit to a time gives the same picture. Offsets are in the axes of n from the effect's
+origin, which moves with the ship; lengths and speeds are in units of the effect's `size` [m].
 """
 
 from __future__ import annotations
@@ -15,9 +15,10 @@ import numpy as np
 from ...ship.frames import Array
 from ..scene.effects import Effect, EffectKind
 
-__all__ = ["Puffs", "puffs"]
+__all__ = ["Puffs", "make_puffs"]
 
 GRAVITY = 9.81
+"""[m/s2]"""
 
 
 @dataclass(frozen=True)
@@ -34,7 +35,7 @@ class Puffs:
 
 @dataclass(frozen=True)
 class _Kind:
-    """How an effect's puffs behave; [size] is the effect's, ramps run from birth to death."""
+    """Motion and look of an effect's puffs; [size] is the effect's size, ramps run from birth to death."""
 
     rate: float  # of births, in the time given by `within` or by the effect's duration [1/s]
     within: float | None
@@ -61,7 +62,7 @@ _KINDS: dict[EffectKind, _Kind] = {
 """The four effects of Guan et al. 2014."""
 
 
-def puffs(effect: Effect, time: float) -> Puffs:
+def make_puffs(effect: Effect, time: float) -> Puffs:
     """The puffs of an effect at `time` [s] of the run; none before it begins."""
     kind = _KINDS[effect.kind]
     window = effect.duration if kind.within is None else kind.within
@@ -81,13 +82,13 @@ def puffs(effect: Effect, time: float) -> Puffs:
     offset[:, 2] += 0.5 * kind.fall * GRAVITY * grown**2 - effect.size * kind.rise * grown
     return Puffs(
         offset,
-        effect.size * _ramp(share, kind.radius),
-        np.column_stack([_ramp(share, channel) for channel in zip(*kind.colours, strict=True)]),
-        _ramp(np.sqrt(share), kind.opacity),
-        _ramp(share, kind.glow),
+        effect.size * _interpolate(share, kind.radius),
+        np.column_stack([_interpolate(share, channel) for channel in zip(*kind.colours, strict=True)]),
+        _interpolate(np.sqrt(share), kind.opacity),
+        _interpolate(share, kind.glow),
     )
 
 
-def _ramp(share: Array, stops: Sequence[float]) -> Array:
+def _interpolate(share: Array, stops: Sequence[float]) -> Array:
     ramp: Array = np.interp(share, np.linspace(0.0, 1.0, len(stops)), stops)
     return ramp

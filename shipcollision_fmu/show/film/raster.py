@@ -1,7 +1,7 @@
-"""Triangles to pixels by the central projection, with a depth buffer; numpy only.
+"""Central projection of triangles to pixels with a depth buffer, by NumPy.
 
-Frame n throughout (north, east, down): nothing is converted. A pixel keeps the inverse of its depth along the line of
-sight, which is linear over the picture of a plane triangle, and the number of the nearest triangle.
+All points are in n (north, east, down). A pixel holds the number of its nearest triangle and the inverse of its depth
+along the line of sight, which is linear over the picture of a plane triangle.
 """
 
 from __future__ import annotations
@@ -15,19 +15,19 @@ import numpy.typing as npt
 
 from ...ship.frames import Array
 
-__all__ = ["Eye", "Nearest", "nearest"]
+__all__ = ["Eye", "Nearest", "find_nearest"]
 
 Ints = npt.NDArray[np.int64]
 
 NEAR = 1.0
-"""Triangles that reach nearer to the eye than this [m] are left out: the camera keeps clear of the ships."""
+"""[m] Triangles nearer to the eye are left out, since the projection divides by depth; the camera stays away."""
 NOTHING = -1
-"""Number of the triangle where there is none."""
+"""Number of the triangle at a pixel without one."""
 
 
 @dataclass(frozen=True)
 class Eye:
-    """A camera: where it is and looks at, in n [m], the vertical angle it sees [deg], the picture's size [pixels]."""
+    """A camera: its position and target in n [m], vertical angle of view [deg], and size of the picture [pixels]."""
 
     position: Array
     target: Array
@@ -65,19 +65,19 @@ class Eye:
 
 @dataclass(frozen=True)
 class Nearest:
-    """What each pixel sees: triangle (height, width), NOTHING where none, and depth (height, width) [m], inf there."""
+    """Nearest triangle of each pixel: number and depth [m], (height, width) each; NOTHING and inf without one."""
 
     triangle: Ints
     depth: Array
 
 
-def nearest(eye: Eye, triangles: Array) -> Nearest:
+def find_nearest(eye: Eye, triangles: Array) -> Nearest:
     """The nearest of the triangles (m, 3, 3) in n at each pixel. Triangles are seen from both sides."""
     corners = eye.project(triangles)
     kept = np.flatnonzero((corners[..., 2] > NEAR).all(axis=1))
     corners = corners[kept]
-    owner, x, y = _covered(corners[..., :2], eye.width, eye.height)
-    plane = _inverse_depth(corners)
+    owner, x, y = _find_covered_pixels(corners[..., :2], eye.width, eye.height)
+    plane = _fit_inverse_depth(corners)
     a, b, c = plane.T
     inverse = a[owner] * (x + 0.5) + b[owner] * (y + 0.5) + c[owner]
     pixel = y * eye.width + x
@@ -90,7 +90,7 @@ def nearest(eye: Eye, triangles: Array) -> Nearest:
     return Nearest(triangle.reshape(shape), depth.reshape(shape))
 
 
-def _inverse_depth(corners: Array) -> Array:
+def _fit_inverse_depth(corners: Array) -> Array:
     """Coefficients (m, 3) of 1/depth = a x + b y + c over the picture, from corners (m, 3, 3) of x, y, depth.
 
     A triangle seen edge-on has none; it covers no pixel's middle either, or next to none, and takes its first corner's.
@@ -105,14 +105,14 @@ def _inverse_depth(corners: Array) -> Array:
     return np.column_stack([a, b, i0 - a * x0 - b * y0])
 
 
-def _covered(corners: Array, width: int, height: int) -> tuple[Ints, Ints, Ints]:
+def _find_covered_pixels(corners: Array, width: int, height: int) -> tuple[Ints, Ints, Ints]:
     """Pixels whose middles lie in the triangles (m, 3, 2): triangle, x, y of each.
 
     Row by row: where a row's middle cuts the three edges lies the span of the triangle.
     """
     top = np.clip(np.ceil(corners[..., 1].min(axis=1) - 0.5), 0, height).astype(np.int64)
     bottom = np.clip(np.ceil(corners[..., 1].max(axis=1) - 0.5), 0, height).astype(np.int64)
-    owner, y = _ranges(top, bottom)
+    owner, y = _expand_ranges(top, bottom)
     middle = y + 0.5
     first, last = np.full(len(y), np.inf), np.full(len(y), -np.inf)
     for start, end in ((0, 1), (1, 2), (2, 0)):
@@ -122,11 +122,11 @@ def _covered(corners: Array, width: int, height: int) -> tuple[Ints, Ints, Ints]
         first, last = np.where(cut, np.minimum(first, x), first), np.where(cut, np.maximum(last, x), last)
     left = np.clip(np.ceil(first - 0.5), 0, width).astype(np.int64)
     right = np.clip(np.ceil(last - 0.5), 0, width).astype(np.int64)
-    row, column = _ranges(left, right)
+    row, column = _expand_ranges(left, right)
     return owner[row], column, y[row]
 
 
-def _ranges(start: Ints, end: Ints) -> tuple[Ints, Ints]:
+def _expand_ranges(start: Ints, end: Ints) -> tuple[Ints, Ints]:
     """For all ranges start..end - 1 in turn: the range's number and the value."""
     count = np.maximum(end - start, 0)
     owner = np.repeat(np.arange(len(count)), count)

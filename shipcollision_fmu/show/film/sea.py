@@ -1,7 +1,7 @@
-"""Sky and sea of a picture: waves, reflection, haze; and how far one sees into the water.
+"""Sky and sea of a picture: waves, reflection, haze, and visibility under water.
 
-The sea is the plane of zero depth in n with the slopes of sinusoidal waves of deep water on it, which tilt what is
-mirrored and move nothing. Colours are linear shares of red, green and blue.
+The sea is the plane z = 0 of n. Sinusoidal deep-water waves give it slopes, which tilt reflections and move no point.
+Colours are linear shares of red, green and blue.
 """
 
 from __future__ import annotations
@@ -12,64 +12,65 @@ import numpy.typing as npt
 from ...ship.frames import Array
 from .raster import Eye
 
-__all__ = ["clarity", "distance", "sky", "surface"]
+__all__ = ["colour_sea", "colour_sky", "find_clarity", "find_depth"]
 
 Singles = npt.NDArray[np.float32]
 
 GRAVITY = 9.81
+"""[m/s2]"""
 DEEP = np.array([0.035, 0.185, 0.265], dtype=np.float32)
 ZENITH = np.array([0.36, 0.60, 0.86], dtype=np.float32)
 HORIZON = np.array([0.82, 0.89, 0.94], dtype=np.float32)
 HAZE = 9000.0
 """Distance [m] at which the sea has taken on most of the horizon's colour."""
 VISIBILITY = 5.0
-"""Way [m] through the water after which 1/e of what is below is left to see."""
+"""[m] Length of the way through water that reduces the light from below to 1/e."""
 
 _LENGTHS = 6.0 * 1.27 ** np.arange(11)  # of the waves [m]
 _HEADINGS = np.radians(60.0 + 70.0 * np.sin(4.1 * np.arange(11)))
 _STEEPNESS = np.float32(0.016)
 
 
-def distance(eye: Eye, rays: Array) -> Array:
+def find_depth(eye: Eye, rays: Array) -> Array:
     """Depth along the line of sight at which each ray (..., 3) meets the sea [m]; inf where it does not."""
     down = rays[..., 2]
     meets = down > 1e-6
     return np.where(meets, -eye.position[2] / np.where(meets, down, 1.0), np.inf)
 
 
-def sky(rays: Array) -> Array:
+def colour_sky(rays: Array) -> Array:
     """Colour (..., 3) of the sky along rays."""
     height = np.clip(-rays[..., 2] / np.linalg.norm(rays, axis=-1), 0.0, 1.0)
-    return _between(HORIZON, ZENITH, 1.0 - (1.0 - height) ** 4)
+    return _mix(HORIZON, ZENITH, 1.0 - (1.0 - height) ** 4)
 
 
-def surface(eye: Eye, rays: Array, depth: Array, time: float) -> Array:
+def colour_sea(eye: Eye, rays: Array, depth: Array, time: float) -> Array:
     """Colour (k, 3) of the sea where rays (k, 3) meet it at `depth` (k,), finite, at `time` [s]."""
     place = eye.position[:2].astype(np.float32) + rays[:, :2] * depth[:, None].astype(np.float32)
-    slope = _slopes(place, depth / eye.focal, time)
+    slope = _find_slopes(place, depth / eye.focal, time)
     size = np.linalg.norm(rays, axis=1)
     facing = np.clip((rays[:, 2] + (rays[:, :2] * slope).sum(axis=1)) / size, 0.0, 1.0)
     mirrored = 0.02 + 0.98 * (1.0 - facing) ** 5  # Schlick's approximation for water
     height = np.clip(np.abs(rays[:, 2]) / size + 0.4 * np.abs(slope).sum(axis=1), 0.0, 1.0)
     deep = DEEP * (1.0 + 2.5 * slope.sum(axis=1, keepdims=True))
-    above = 0.85 * _between(HORIZON, ZENITH, 1.0 - (1.0 - height) ** 4)
+    above = 0.85 * _mix(HORIZON, ZENITH, 1.0 - (1.0 - height) ** 4)
     colour = deep + (above - deep) * mirrored[:, None]
     haze = 1.0 - np.exp(-((depth * size / HAZE) ** 2))
     hazy: Array = colour + (HORIZON - colour) * haze[:, None].astype(np.float32)
     return hazy
 
 
-def clarity(way: Array) -> Array:
-    """Share of what is below that is seen through `way` [m] of water."""
+def find_clarity(way: Array) -> Array:
+    """Share of light from below that passes `way` [m] of water."""
     return np.exp(-np.maximum(way, 0.0) / VISIBILITY)
 
 
-def _between(start: Singles, end: Singles, share: Array) -> Array:
+def _mix(start: Singles, end: Singles, share: Array) -> Array:
     mixed: Array = start + (end - start) * share[..., None]
     return mixed
 
 
-def _slopes(place: Array, pixel: Array, time: float) -> Array:
+def _find_slopes(place: Array, pixel: Array, time: float) -> Array:
     """Slope north and east (k, 2) of the waves at places (k, 2); none shorter than four pixels [m]."""
     north, east, pixel = place[:, 0].copy(), place[:, 1].copy(), pixel.astype(np.float32)
     slope_north, slope_east = np.zeros_like(north), np.zeros_like(north)

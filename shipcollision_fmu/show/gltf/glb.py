@@ -1,6 +1,6 @@
 """Writes glTF 2.0 in its binary form (.glb): one JSON document and one buffer. Khronos, glTF 2.0 specification.
 
-Numbers go into the buffer in single precision; those in the JSON are written so that they read back the same.
+Numbers in the buffer have single precision; numbers in the JSON read back as the same double.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ _TYPES = {1: "SCALAR", 3: "VEC3", 4: "VEC4"}
 
 
 class Document:
-    """A glTF document under construction. Every `add` gives the index of what was added."""
+    """A glTF document under construction; every method that adds an item returns its index."""
 
     def __init__(self, generator: str) -> None:
         self._json: dict[str, Any] = {"asset": {"version": "2.0", "generator": generator}}
@@ -36,19 +36,19 @@ class Document:
         items.append(item)
         return len(items) - 1
 
-    def vertices(self, values: npt.ArrayLike) -> int:
-        """Accessor of vertex data (n,) or (n, 3)."""
-        return self._floats(values, VERTICES)
+    def add_vertices(self, values: npt.ArrayLike) -> int:
+        """Add an accessor of vertex data (n,) or (n, 3)."""
+        return self._add_floats(values, VERTICES)
 
-    def keys(self, values: npt.ArrayLike) -> int:
-        """Accessor of times (n,) or values (n, 3 or 4) of an animation."""
-        return self._floats(values, None)
+    def add_keys(self, values: npt.ArrayLike) -> int:
+        """Add an accessor of times (n,) or values (n, 3 or 4) of an animation."""
+        return self._add_floats(values, None)
 
-    def indices(self, triangles: npt.NDArray[np.int64]) -> int:
-        """Accessor of the corners of triangles (m, 3)."""
+    def add_indices(self, triangles: npt.NDArray[np.int64]) -> int:
+        """Add an accessor of the corners of triangles (m, 3)."""
         flat = triangles.reshape(-1)
         short = int(flat.max()) < 65535  # 65535 itself restarts a primitive
-        view = self._view(flat.astype("<u2" if short else "<u4").tobytes(), INDICES)
+        view = self._add_view(flat.astype("<u2" if short else "<u4").tobytes(), INDICES)
         return self.add(
             "accessors",
             {
@@ -57,7 +57,7 @@ class Document:
             },
         )  # fmt: skip
 
-    def written(self) -> bytes:
+    def build(self) -> bytes:
         """The .glb file."""
         buffer = b"".join(self._chunks)
         self._json["buffers"] = [{"byteLength": len(buffer)}]
@@ -70,7 +70,7 @@ class Document:
             struct.pack("<I4s", len(buffer), b"BIN\0"), buffer,
         ])  # fmt: skip
 
-    def _floats(self, values: npt.ArrayLike, target: int | None) -> int:
+    def _add_floats(self, values: npt.ArrayLike, target: int | None) -> int:
         array = np.asarray(values, dtype="<f4") + np.float32(0.0)  # no negative zeros
         if not np.isfinite(array).all():
             raise ValueError("a number of the scene is not finite in single precision")
@@ -78,13 +78,13 @@ class Document:
         return self.add(
             "accessors",
             {
-                "bufferView": self._view(table.tobytes(), target), "componentType": FLOAT, "count": len(table),
+                "bufferView": self._add_view(table.tobytes(), target), "componentType": FLOAT, "count": len(table),
                 "type": _TYPES[table.shape[1]],
                 "min": [float(x) for x in table.min(axis=0)], "max": [float(x) for x in table.max(axis=0)],
             },
         )  # fmt: skip
 
-    def _view(self, data: bytes, target: int | None) -> int:
+    def _add_view(self, data: bytes, target: int | None) -> int:
         view: dict[str, Any] = {"buffer": 0, "byteOffset": self._size, "byteLength": len(data)}
         if target is not None:
             view["target"] = target

@@ -3,7 +3,7 @@
     n                     turns north, east, down into glTF's world: x north, y up, z east
     ├── SHIP              translation and rotation animated; children are in the ship's own b
     │   ├── hull          topsides, boot-top, antifouling, deck
-    │   ├── fittings      what stands on deck, for the eye
+    │   ├── fittings      deckhouse, hatches and masts, for the eye
     │   └── scratch 1.3   a stretch of a scratch: scale 0 until its time has come, then 1 (STEP)
     └── OBSTACLE
 
@@ -12,7 +12,7 @@ from the scene's start. A viewer that plays no animation shows the end of every 
 time at which they are drawn as attribute _TIME, for viewers that want to draw them point by point.
 
 extras of the scene      start [s], origin [m], events, effects (glTF has no particles), frames in words
-extras of a node         what it is: {"ship": name, ...}, {"obstacle": name}, {"scratch": id, "time": s}
+extras of a node         {"ship": name, ...}, {"obstacle": name}, {"scratch": id, "time": s}
 """
 
 from __future__ import annotations
@@ -25,25 +25,25 @@ import numpy as np
 from ... import __version__
 from ...ship.frames import Array
 from ...ship.hull.convex import Indices
-from ..scene.palette import Paint, linear, paint_of, topsides
-from ..scene.parts import Shape, fitting_shapes, hull_shapes
+from ..scene.palette import Paint, choose_topsides, convert_to_linear, find_paint
+from ..scene.parts import Shape, cut_hull, join_fittings
 from ..scene.scene import Obstacle, Scene, Scratch, Ship
-from ..scene.surface import Surface, corner_normals, solid_triangles
+from ..scene.surface import Surface, compute_corner_normals, drop_flat_triangles
 from .glb import Document
-from .ribbons import Ribbon, ribbon
+from .ribbons import Ribbon, lay_ribbon
 
-__all__ = ["extras", "glb"]
+__all__ = ["build_glb", "collect_extras"]
 
 HALF_ROOT = 0.7071067811865476
 STRETCHES = 600
-"""Nodes that all scratches together are cut into, about."""
+"""Approximate number of nodes of all scratches together; it bounds the file's size in long contacts."""
 MOST_STRETCHES = 48
-"""Of one scratch."""
+"""Most nodes of a scratch; with fewer it appears in visible jumps."""
 
 
-def glb(scene: Scene) -> bytes:
+def build_glb(scene: Scene) -> bytes:
     """The scene as a .glb file; the same bytes for the same scene."""
-    return _Writer(scene).written()
+    return _Writer(scene).write()
 
 
 class _Writer:
@@ -55,27 +55,27 @@ class _Writer:
         self._channels: list[dict[str, Any]] = []
         self._times: dict[bytes, int] = {}
 
-    def written(self) -> bytes:
+    def write(self) -> bytes:
         scene, document = self._scene, self._document
-        children = [self._ship(i, ship) for i, ship in enumerate(scene.ships)]
-        children += [self._obstacle(obstacle) for obstacle in scene.obstacles]
+        children = [self._add_ship(i, ship) for i, ship in enumerate(scene.ships)]
+        children += [self._add_obstacle(obstacle) for obstacle in scene.obstacles]
         root = document.add("nodes", {"name": "n", "rotation": [HALF_ROOT, 0.0, 0.0, HALF_ROOT], "children": children})
         document["scene"] = 0
-        document.add("scenes", {"name": scene.name, "nodes": [root], "extras": extras(scene)})
+        document.add("scenes", {"name": scene.name, "nodes": [root], "extras": collect_extras(scene)})
         animation = {"name": "run", "samplers": self._samplers, "channels": self._channels}
         document.add("animations", animation)
-        return document.written()
+        return document.build()
 
     # -- bodies ---------------------------------------------------------------------------------------
 
-    def _ship(self, index: int, ship: Ship) -> int:
+    def _add_ship(self, index: int, ship: Ship) -> int:
         document, track = self._document, ship.track
-        children = [self._node("hull", self._mesh(hull_shapes(ship), {"topsides": topsides(index)}))]
+        children = [self._add_node("hull", self._add_mesh(cut_hull(ship), {"topsides": choose_topsides(index)}))]
         if ship.fittings:
-            children.append(self._node("fittings", self._mesh(fitting_shapes(ship.fittings), {})))
+            children.append(self._add_node("fittings", self._add_mesh(join_fittings(ship.fittings), {})))
         for scratch in self._scene.scratches:
             if scratch.ship == ship.name:
-                children += self._stretches(scratch, ship)
+                children += self._add_stretches(scratch, ship)
         node = document.add(
             "nodes",
             {
@@ -94,27 +94,27 @@ class _Writer:
         self._animate(node, "rotation", times, track.quaternion, "LINEAR")
         return node
 
-    def _obstacle(self, obstacle: Obstacle) -> int:
+    def _add_obstacle(self, obstacle: Obstacle) -> int:
         half = 0.5 * obstacle.heading
-        return self._node(
+        return self._add_node(
             obstacle.name,
-            self._mesh([("concrete", obstacle.surface)], {}),
+            self._add_mesh([("concrete", obstacle.surface)], {}),
             translation=[float(x) for x in obstacle.position - self._scene.origin],
             rotation=[0.0, 0.0, float(np.sin(half)), float(np.cos(half))],
             extras={"obstacle": obstacle.name, "kind": obstacle.kind},
         )
 
-    def _stretches(self, scratch: Scratch, ship: Ship) -> list[int]:
-        """Nodes of a scratch: runs of its triangles, each of which appears at the time of its first."""
-        shape = ribbon(scratch, ship.hull, ship.L_pp)
+    def _add_stretches(self, scratch: Scratch, ship: Ship) -> list[int]:
+        """Nodes of a scratch: runs of its triangles, each of which appears at the time of its first triangle."""
+        shape = lay_ribbon(scratch, ship.hull, ship.L_pp)
         count = max(1, min(MOST_STRETCHES, STRETCHES // len(self._scene.scratches)))
         appears = shape.times[shape.triangles].max(axis=1) - self._scene.start
         nodes = []
-        for number, rows in enumerate(_runs(appears, count)):
+        for number, rows in enumerate(_split_in_time(appears, count)):
             time = float(appears[rows[0]])
-            node = self._node(
+            node = self._add_node(
                 f"scratch {scratch.id}.{number + 1}",
-                self._ribbon_mesh(shape, shape.triangles[rows]),
+                self._add_ribbon_mesh(shape, shape.triangles[rows]),
                 extras={"scratch": scratch.id, "other": scratch.other, "time": time + self._scene.start},
             )
             if time > 0.0:
@@ -124,37 +124,38 @@ class _Writer:
 
     # -- meshes ---------------------------------------------------------------------------------------
 
-    def _mesh(self, shapes: Sequence[Shape], paints: dict[str, Paint]) -> int:
+    def _add_mesh(self, shapes: Sequence[Shape], paints: dict[str, Paint]) -> int:
         primitives = []
         for paint, surface in shapes:
             if len(surface.triangles):
-                vertices, normals, triangles = _joined(surface)
+                vertices, normals, triangles = _join_corners(surface)
                 primitives.append(
                     {
                         "attributes": {
-                            "POSITION": self._document.vertices(vertices), "NORMAL": self._document.vertices(normals),
+                            "POSITION": self._document.add_vertices(vertices),
+                            "NORMAL": self._document.add_vertices(normals),
                         },
-                        "indices": self._document.indices(triangles),
-                        "material": self._material(paints.get(paint) or paint_of(paint)),
+                        "indices": self._document.add_indices(triangles),
+                        "material": self._add_material(paints.get(paint) or find_paint(paint)),
                     }
                 )  # fmt: skip
         return self._document.add("meshes", {"primitives": primitives})
 
-    def _ribbon_mesh(self, shape: Ribbon, triangles: Indices) -> int:
+    def _add_ribbon_mesh(self, shape: Ribbon, triangles: Indices) -> int:
         used, places = np.unique(triangles, return_inverse=True)
         attributes = {
-            "POSITION": self._document.vertices(shape.vertices[used]),
-            "NORMAL": self._document.vertices(shape.normals[used]),
-            "_TIME": self._document.vertices(shape.times[used] - self._scene.start),
+            "POSITION": self._document.add_vertices(shape.vertices[used]),
+            "NORMAL": self._document.add_vertices(shape.normals[used]),
+            "_TIME": self._document.add_vertices(shape.times[used] - self._scene.start),
         }
-        indices = self._document.indices(places.reshape(-1, 3))
-        material = self._material(paint_of("scratch"))
+        indices = self._document.add_indices(places.reshape(-1, 3))
+        material = self._add_material(find_paint("scratch"))
         primitive = {"attributes": attributes, "indices": indices, "material": material}
         return self._document.add("meshes", {"primitives": [primitive]})
 
-    def _material(self, paint: Paint) -> int:
+    def _add_material(self, paint: Paint) -> int:
         if paint.name not in self._materials:
-            colour = linear(paint.colour)
+            colour = convert_to_linear(paint.colour)
             material: dict[str, Any] = {
                 "name": paint.name,
                 "pbrMetallicRoughness": {
@@ -170,27 +171,27 @@ class _Writer:
 
     # -- nodes and animation --------------------------------------------------------------------------
 
-    def _node(self, name: str, mesh: int, **more: Any) -> int:
+    def _add_node(self, name: str, mesh: int, **more: Any) -> int:
         return self._document.add("nodes", {"name": name, "mesh": mesh, **more})
 
     def _animate(self, node: int, path: str, times: Array, values: Array, interpolation: str) -> None:
         key = times.tobytes()
         if key not in self._times:
-            self._times[key] = self._document.keys(times)
-        sampler = {"input": self._times[key], "output": self._document.keys(values), "interpolation": interpolation}
+            self._times[key] = self._document.add_keys(times)
+        sampler = {"input": self._times[key], "output": self._document.add_keys(values), "interpolation": interpolation}
         self._samplers.append(sampler)
         self._channels.append({"sampler": len(self._samplers) - 1, "target": {"node": node, "path": path}})
 
 
-def _joined(surface: Surface) -> tuple[Array, Array, Indices]:
+def _join_corners(surface: Surface) -> tuple[Array, Array, Indices]:
     """Vertices and normals of a surface, corners with the same of both joined, and triangles."""
-    solid = solid_triangles(surface)
-    corners = np.concatenate([solid.vertices[solid.triangles], corner_normals(solid)], axis=2).reshape(-1, 6)
+    solid = drop_flat_triangles(surface)
+    corners = np.concatenate([solid.vertices[solid.triangles], compute_corner_normals(solid)], axis=2).reshape(-1, 6)
     _, first, place = np.unique(np.round(corners, 6), axis=0, return_index=True, return_inverse=True)
     return corners[first, :3], corners[first, 3:], place.reshape(-1, 3).astype(np.int64)
 
 
-def _runs(appears: Array, count: int) -> list[Indices]:
+def _split_in_time(appears: Array, count: int) -> list[Indices]:
     """Triangles in order of time, in at most `count` runs; those of one time stay together."""
     order = np.argsort(appears, kind="stable")
     sizes = np.array_split(order, min(count, len(order)))
@@ -203,8 +204,8 @@ def _runs(appears: Array, count: int) -> list[Indices]:
     return runs
 
 
-def extras(scene: Scene) -> dict[str, Any]:
-    """What of a scene has no place in glTF itself, as JSON-able data."""
+def collect_extras(scene: Scene) -> dict[str, Any]:
+    """Contents of a scene that glTF has no place for, as data for JSON."""
     return {
         "description": scene.description,
         "frames": "n: north, east, down from origin [m]; children of a ship: forward, starboard, down from midship",

@@ -1,18 +1,18 @@
 """OpenSceneGraph's text format: objects as Python values, and their text.
 
-An `.osgt` file is what OSG's serialisers (osgDB, since OSG 3.0) write. They read *in order*: a property that comes too
-late is silently not read, and what follows it is refused. So each class here has the order of its properties, base
-class first, and an Item writes them in that order however it was made. A property that a class does not have is an
-error here; OSG would skip to the end of the object without a word.
+OSG's serialisers (osgDB, since OSG 3.0) read and write `.osgt` files *in order*: they ignore a property that comes too
+late, and refuse the properties after it. Each class here therefore has the order of its properties, base class first,
+and an Item writes its properties in this order. A property that a class does not have is an error here; OSG would skip
+the rest of the object silently.
 
-    osg::Group {                          Item("osg::Group", Name=quoted("fleet"), Children=[...])
+    osg::Group {                          Item("osg::Group", Name=quote("fleet"), Children=[...])
       UniqueID 1
       Name "fleet"
       Children 1 { ... }
     }
 
-An Item that occurs twice is written once; its second place refers to the first by its UniqueID, and OSG shares it.
-Source of the orders: src/osgWrappers/serializers of OpenSceneGraph 3.6.5. OSG's world is z-up; nothing here converts.
+An Item that occurs twice is written once; later occurrences refer to it by its UniqueID, and OSG shares the object.
+Source of the orders: src/osgWrappers/serializers of OpenSceneGraph 3.6.5. OSG's world is z-up; zup.py converts.
 """
 
 from __future__ import annotations
@@ -24,10 +24,10 @@ import numpy as np
 
 from ...ship.frames import Array
 
-__all__ = ["HEADER", "Item", "Raw", "document", "number", "numbers", "quoted", "vectors"]
+__all__ = ["HEADER", "Item", "Raw", "format_document", "format_number", "format_numbers", "format_vectors", "quote"]
 
 HEADER = "#Ascii Scene\n#Version 161\n#Generator OpenSceneGraph 3.6.5\n\n"
-"""Version 161 is that of OSG 3.6: older viewers say so and refuse, newer ones read it."""
+"""Version 161 belongs to OSG 3.6: older viewers refuse it with a message, newer viewers read it."""
 
 _OBJECT = ("Name", "DataVariance")
 _NODE = (*_OBJECT, "UpdateCallback", "CullingActive", "NodeMask", "StateSet")
@@ -93,31 +93,31 @@ class Raw(str):
         return raw
 
 
-def number(value: float) -> str:
+def format_number(value: float) -> str:
     """A number to nine significant digits: a tenth of a millimetre at a hundred kilometres."""
     return f"{float(value):.9g}"
 
 
-def numbers(values: Iterable[float]) -> Raw:
+def format_numbers(values: Iterable[float]) -> Raw:
     """Numbers side by side, such as a vector."""
-    return Raw(" ".join(number(value) for value in values))
+    return Raw(" ".join(format_number(value) for value in values))
 
 
-def quoted(text: str) -> Raw:
+def quote(text: str) -> Raw:
     """A string in quotation marks; its own marks and backslashes are escaped, control characters become spaces."""
     plain = "".join(c if c.isprintable() else " " for c in text)
     return Raw('"' + plain.replace("\\", "\\\\").replace('"', '\\"') + '"')
 
 
-def vectors(rows: Array) -> Raw:
+def format_vectors(rows: Array) -> Raw:
     """Rows (n, k) as the property `vector` of an array; one row a line."""
-    lines = "\n".join(" ".join(number(value) for value in row) for row in np.atleast_2d(rows).tolist())
+    lines = "\n".join(" ".join(format_number(value) for value in row) for row in np.atleast_2d(rows).tolist())
     return Raw(f"{len(rows)} {{\n{lines}\n}}")
 
 
-def document(root: Item) -> str:
+def format_document(root: Item) -> str:
     """Text of the file that holds `root`."""
-    lines = _lines(root, {})
+    lines = _format_lines(root, {})
     depth, out = 0, []
     for line in lines:
         depth -= line.startswith("}")
@@ -126,35 +126,35 @@ def document(root: Item) -> str:
     return HEADER + "\n".join(out) + "\n"
 
 
-def _lines(item: Item, seen: dict[int, int]) -> Iterator[str]:
+def _format_lines(item: Item, seen: dict[int, int]) -> Iterator[str]:
     """Lines of an object, not yet indented. `seen`: UniqueIDs given so far, by Python's id of the Item."""
     yield f"{item.kind} {{"
     known = id(item) in seen
     yield f"UniqueID {seen.setdefault(id(item), len(seen) + 1)}"
     if not known:
         for name, value in item.properties.items():
-            yield from _property(name, value, seen)
+            yield from _format_property(name, value, seen)
     yield "}"
 
 
-def _property(name: str, value: Any, seen: dict[int, int]) -> Iterator[str]:
+def _format_property(name: str, value: Any, seen: dict[int, int]) -> Iterator[str]:
     if isinstance(value, Item):
         yield f"{name} TRUE {{"
-        yield from _lines(value, seen)
+        yield from _format_lines(value, seen)
         yield "}"
     elif isinstance(value, Raw):
-        yield from _raw(f"{name} {value}", value.items, seen)
+        yield from _format_raw(f"{name} {value}", value.items, seen)
     else:
         yield f"{name} {len(value)} {{"
         for item in value:
-            yield from _lines(item, seen)
+            yield from _format_lines(item, seen)
         yield "}"
 
 
-def _raw(text: str, items: tuple[Item, ...], seen: dict[int, int]) -> Iterator[str]:
+def _format_raw(text: str, items: tuple[Item, ...], seen: dict[int, int]) -> Iterator[str]:
     rest = iter(items)
     for line in text.splitlines():
         if line == "{}":
-            yield from _lines(next(rest), seen)
+            yield from _format_lines(next(rest), seen)
         else:
             yield line

@@ -1,9 +1,8 @@
 """replay.html: the scene in one file that any browser plays, without a network and from a file: address.
 
-What is in it: the bundle of src/ (three.js, uPlot, and our own modules), which the package's build makes; the very
-bytes of scene.glb, in base64; and the scene's curves, events and effects as JSON. All text of the run is JSON that the
-page only ever shows as text; `<` is escaped, so that no name can end the element that it stands in. A content security
-policy forbids the page every address.
+It contains the bundle of src/ (three.js, uPlot and our modules), which the package's build makes; the bytes of
+scene.glb in base64; and the scene's curves, events and effects as JSON. The page shows all text of the run as text; `<`
+is escaped, so that no name can end its element. A content security policy forbids the page every address.
 """
 
 from __future__ import annotations
@@ -20,12 +19,12 @@ import numpy as np
 from ... import __version__
 from ...errors import HostError
 from ...files import IN_PLACE, write_file
-from ..gltf.gltf import extras, glb
-from ..scene.palette import topsides
+from ..gltf.gltf import build_glb, collect_extras
+from ..scene.palette import choose_topsides
 from ..scene.scene import Scene, Ship, load_scene
 from ..scene.signals import Signals
 
-__all__ = ["PAGE", "replay_html", "write_page"]
+__all__ = ["PAGE", "build_page", "write_page"]
 
 PAGE = "replay.html"
 
@@ -54,22 +53,22 @@ _TEMPLATE = """<!doctype html>
 
 def write_page(folder: Path) -> Path:
     """Write the page of the run in a folder into it; the page's path. Raises InputError, HostError."""
-    return write_file(folder / PAGE, replay_html(load_scene(folder)), IN_PLACE)
+    return write_file(folder / PAGE, build_page(load_scene(folder)), IN_PLACE)
 
 
-def replay_html(scene: Scene) -> str:
+def build_page(scene: Scene) -> str:
     """The page of a scene; the same text for the same scene. Raises HostError when the bundle has not been built."""
     return _TEMPLATE.format(
         policy=_POLICY,
         title=html.escape(scene.name),
-        style=_bundled("page.css"),
-        data=json.dumps(_data(scene), separators=(",", ":"), allow_nan=False).replace("<", "\\u003c"),
-        glb=base64.b64encode(glb(scene)).decode(),
-        script=_bundled("page.js"),
+        style=_read_bundle("page.css"),
+        data=json.dumps(_collect_data(scene), separators=(",", ":"), allow_nan=False).replace("<", "\\u003c"),
+        glb=base64.b64encode(build_glb(scene)).decode(),
+        script=_read_bundle("page.js"),
     )
 
 
-def _bundled(name: str) -> str:
+def _read_bundle(name: str) -> str:
     file = files(__package__) / "bundle" / name
     if not file.is_file():
         raise HostError(
@@ -79,34 +78,34 @@ def _bundled(name: str) -> str:
     return file.read_text(encoding="utf-8")
 
 
-def _data(scene: Scene) -> dict[str, Any]:
+def _collect_data(scene: Scene) -> dict[str, Any]:
     clearance = scene.signals.of("clearance")
     return {
-        **extras(scene),
+        **collect_extras(scene),
         "name": scene.name,
         "version": __version__,
-        "ships": [_ship(i, ship) for i, ship in enumerate(scene.ships)],
+        "ships": [_describe_ship(i, ship) for i, ship in enumerate(scene.ships)],
         "scratches": [
             {"id": s.id, "ship": s.ship, "other": s.other, "times": s.times.tolist()} for s in scene.scratches
         ],
         "least_clearance": min((float(curve.values.min()) for curve in clearance), default=None),
-        "signals": _signals(scene.signals),
+        "signals": _encode_signals(scene.signals),
     }
 
 
-def _ship(index: int, ship: Ship) -> dict[str, Any]:
-    """What the page shows of a ship in words; `height` is that of the deck above the waterline [m]."""
+def _describe_ship(index: int, ship: Ship) -> dict[str, Any]:
+    """Names, colour and sizes of a ship; `height` of the deck above the waterline [m]."""
     return {
         "name": ship.name,
         "model": ship.model,
         "kind": ship.kind,
         "L_oa": ship.L_oa,
-        "colour": topsides(index).colour,
+        "colour": choose_topsides(index).colour,
         "height": -float(ship.hull.vertices[:, 2].min()),
     }
 
 
-def _signals(signals: Signals) -> dict[str, Any]:
+def _encode_signals(signals: Signals) -> dict[str, Any]:
     """Times and curves, one after the other, in single precision, in base64."""
     numbers = np.concatenate([signals.times, *(curve.values for curve in signals.curves)]).astype("<f4")
     return {

@@ -1,11 +1,12 @@
 """The four effects of Guan et al. 2014 at the first contact point of each scratch: explosion, debris, fire, smoke.
 
-They are made up for the eye; only their place, time and strength come from the run. They sit on the ship that is
-struck, that which was touched less far forward, and move with her.
+Only place, time and strength come from the run; the rest is for the eye. Effects move with the struck ship, the ship
+whose contact point is farther aft.
 
     intensity = (E / E_FULL)^(1/3), within [FAINTEST, 1]      E: energy dissipated along the scratch [J]
 
-as the size of a blast grows with its energy (Hopkinson 1915); a scratch that dissipated nothing is a faint puff.
+since the size of a blast grows with the cube root of its energy (Hopkinson 1915). A scratch without dissipation is a
+faint puff.
 """
 
 from __future__ import annotations
@@ -19,26 +20,27 @@ from ...ship.frames import Array
 from .run_folder import RunFolder
 from .scratches import Scratch
 
-__all__ = ["Effect", "EffectKind", "effects_of"]
+__all__ = ["Effect", "EffectKind", "make_effects"]
 
 EffectKind = Literal["explosion", "debris", "fire", "smoke"]
 
 E_FULL = 1e8
-"""Energy [J] of an effect at full strength."""
+"""[J] Energy of an effect at full strength; a larger value makes every effect smaller."""
 FAINTEST = 0.05
+"""Least intensity; with zero a scratch would have no visible effect."""
 LARGEST = 6.0
-"""Size [m] at full strength: what the sizes and speeds of the particles scale with."""
+"""[m] Size at full strength; sizes and speeds of the particles scale with it."""
 KINDS: dict[EffectKind, tuple[float, float]] = {
     "explosion": (0.0, 1.0), "debris": (0.0, 1.0), "fire": (0.4, 25.0), "smoke": (0.8, 60.0),
 }  # fmt: skip
-"""By kind: delay after the contact and, at full strength, time during which particles are sent out [s]."""
+"""Delay after the contact and duration of the emission at full strength [s], by kind."""
 
 
 @dataclass(frozen=True, eq=False)
 class Effect:
     """An effect: kind, the ship it moves with, its point (3,) and outward direction (3,) in b [m], start [s].
 
-    `duration` [s] is how long it sends out particles, `intensity` in (0, 1], `size` [m] what their sizes scale with.
+    `duration` of the emission [s], `intensity` in (0, 1], `size` [m], with which the particles scale.
     `seed` is the same in every picture of the run.
     """
 
@@ -54,7 +56,7 @@ class Effect:
     seed: int
 
 
-def effects_of(run: RunFolder, scratches: tuple[Scratch, ...]) -> tuple[Effect, ...]:
+def make_effects(run: RunFolder, scratches: tuple[Scratch, ...]) -> tuple[Effect, ...]:
     """Four effects per scratch in events.json, in order of time."""
     lengths = {name: body.L_pp for name, body in run.bodies.ships.items()}
     number, energy = run.contacts["scratch"].astype(int), run.contacts["energy"]

@@ -1,13 +1,13 @@
-"""The colours of things, linear RGB as glTF and OpenSceneGraph light them, and how rough they are.
+"""Colours and roughness of all parts, as sRGB and as linear RGB.
 
-Ships are told apart by their topsides; plots use the same hue, see page/theme.
+Topsides distinguish the ships; curves and figures use the same colours.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-__all__ = ["SHIP_COLOURS", "Paint", "display", "linear", "paint_of", "topsides"]
+__all__ = ["SHIP_COLOURS", "Paint", "choose_topsides", "convert_to_display", "convert_to_linear", "find_paint"]
 
 SHIP_COLOURS = ("#2f6fb7", "#c8102e", "#2e8b57", "#b8860b", "#7a4fa3", "#3a8f9e")
 """Topsides (sRGB) of the first, second ... ship; from the seventh on they repeat."""
@@ -46,23 +46,23 @@ _PAINTS = {
 }
 
 
-def paint_of(name: str) -> Paint:
-    """The paint of a part; KeyError for a part that nobody has thought of."""
+def find_paint(name: str) -> Paint:
+    """The paint of a part. Raises KeyError for an unknown part."""
     return _PAINTS[name]
 
 
-def topsides(index: int) -> Paint:
+def choose_topsides(index: int) -> Paint:
     """The paint of the topsides of ship `index`, from 0."""
     return Paint(f"topsides {index}", SHIP_COLOURS[index % len(SHIP_COLOURS)], 0.45)
 
 
-def display(colour: str) -> tuple[float, float, float]:
+def convert_to_display(colour: str) -> tuple[float, float, float]:
     """Red, green, blue from 0 to 1, as on the screen, of #rrggbb."""
     r, g, b = (int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5))
     return (r, g, b)
 
 
-def linear(colour: str) -> tuple[float, float, float]:
+def convert_to_linear(colour: str) -> tuple[float, float, float]:
     """Linear RGB of an sRGB colour #rrggbb. IEC 61966-2-1."""
-    r, g, b = (c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in display(colour))
+    r, g, b = (c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in convert_to_display(colour))
     return (r, g, b)

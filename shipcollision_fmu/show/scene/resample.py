@@ -1,8 +1,8 @@
-"""Fewer samples of a curve over time, with a bound on what is lost.
+"""Fewer samples of a curve over time, with a bound on the error.
 
-Kept are the first and the last sample and as many between as linear interpolation over time needs to stay within the
-tolerance of every sample left out (Ramer 1972, Douglas & Peucker 1973, with the distance taken at equal times, so that
-timing is kept as well as shape).
+The first and the last sample are chosen, and as many between them as linear interpolation over time needs to stay
+within the tolerance of every omitted sample: Ramer (1972), Douglas and Peucker (1973). The distance is taken at equal
+times, so that timing is kept as well as shape.
 """
 
 from __future__ import annotations
@@ -12,13 +12,13 @@ import numpy.typing as npt
 
 from ...ship.frames import Array
 
-__all__ = ["kept"]
+__all__ = ["choose_samples"]
 
 LONGEST = 512
-"""Samples between two that are kept, at most: bounds the work on a curve that is nearly straight everywhere."""
+"""Most samples between two chosen ones; it bounds the work on curves that are nearly straight."""
 
 
-def kept(times: Array, samples: Array, tolerance: float) -> npt.NDArray[np.int64]:
+def choose_samples(times: Array, samples: Array, tolerance: float) -> npt.NDArray[np.int64]:
     """Indices of the samples to keep, increasing.
 
     times (n,) increasing; samples (n, m): the error of an omitted sample is the Euclidean norm of its row's difference

@@ -1,4 +1,4 @@
-"""Reads the folder of a finished run, whichever master wrote it, and refuses one that is not whole.
+"""Reads the folder of a finished run, from any master, and refuses an incomplete folder.
 
     states.csv     time [s] and 12 states per ship, a row per communication point
     contacts.csv   a row per contact point and step
@@ -7,8 +7,8 @@
     bodies.json    hulls, inertias, obstacles
     summary.json   scenario, steps
 
-What is checked: every file is there and ends where it should, the tables have as many rows as the summary says and hold
-finite numbers, and every body that is named has a shape. Columns and keys that nobody here needs are let through.
+Checks: every file exists and is complete, tables have the summary's number of rows and finite numbers, and every named
+body has a shape. Columns and keys that pictures do not need are ignored.
 """
 
 from __future__ import annotations
@@ -132,7 +132,7 @@ class Events(_Model):
 
 
 class Summary(_Model):
-    """summary.json, as far as a picture needs it."""
+    """The keys of summary.json that pictures need."""
 
     scenario: str
     description: str = ""
@@ -155,17 +155,17 @@ class RunFolder:
 
 
 def read_run_folder(path: str | Path) -> RunFolder:
-    """The run in the folder `path`. Raises InputError, in one line, when it is not a whole one."""
+    """The run in the folder `path`. Raises InputError, in one line, when it is incomplete."""
     folder = Path(path)
-    texts = _texts(folder)
-    summary = _parsed(folder / "summary.json", texts, Summary)
-    bodies = _parsed(folder / "bodies.json", texts, Bodies)
-    events = _parsed(folder / "events.json", texts, Events)
+    texts = _read_texts(folder)
+    summary = _parse(folder / "summary.json", texts, Summary)
+    bodies = _parse(folder / "bodies.json", texts, Bodies)
+    events = _parse(folder / "events.json", texts, Events)
     rows = summary.steps + 1
-    wanted = [f"{ship}.{state}" for ship in bodies.ships for state in STATE]
-    states = _numbers(folder / "states.csv", texts, ("time", *wanted), rows)
-    signals = _numbers(folder / "signals.csv", texts, ("time", *SIGNALS), rows)
-    contacts = _numbers(folder / "contacts.csv", texts, CONTACT_NUMBERS, None)
+    state_columns = [f"{ship}.{state}" for ship in bodies.ships for state in STATE]
+    states = _read_columns(folder / "states.csv", texts, ("time", *state_columns), rows)
+    signals = _read_columns(folder / "signals.csv", texts, ("time", *SIGNALS), rows)
+    contacts = _read_columns(folder / "contacts.csv", texts, CONTACT_NUMBERS, None)
     times = states[:, 0]
     _check_times(folder, times, signals[:, 0])
     _check_triangles(folder, bodies)
@@ -177,17 +177,17 @@ def read_run_folder(path: str | Path) -> RunFolder:
     )  # fmt: skip
 
 
-def _texts(folder: Path) -> dict[str, str]:
+def _read_texts(folder: Path) -> dict[str, str]:
     if not folder.is_dir():
-        said = "is not a folder" if folder.exists() else "does not exist"
-        raise InputError(f"{folder}: {said}: {REMEDY}")
+        fault = "is not a folder" if folder.exists() else "does not exist"
+        raise InputError(f"{folder}: {fault}: {REMEDY}")
     missing = [name for name in FILES if not (folder / name).is_file()]
     if missing:
         if len(missing) == len(FILES):
-            said = "is empty" if not any(folder.iterdir()) else "is not the folder of a run"
+            fault = "is empty" if not any(folder.iterdir()) else "is not the folder of a run"
         else:
-            said = f"has no {' and no '.join(missing)}, so it is not the whole folder of a run"
-        raise InputError(f"{folder}: {said}: {REMEDY}")
+            fault = f"has no {' and no '.join(missing)}, so it is not the whole folder of a run"
+        raise InputError(f"{folder}: {fault}: {REMEDY}")
     texts = {}
     for name in FILES:
         try:
@@ -195,12 +195,12 @@ def _texts(folder: Path) -> dict[str, str]:
         except (OSError, UnicodeDecodeError) as error:
             raise InputError(f"{folder / name}: cannot be read ({error}): {REMEDY}") from None
         if not texts[name].endswith("\n"):
-            said = "ends in the middle of a line" if texts[name].strip() else "is empty"
-            raise InputError(f"{folder / name}: {said}: {REMEDY}")
+            fault = "ends in the middle of a line" if texts[name].strip() else "is empty"
+            raise InputError(f"{folder / name}: {fault}: {REMEDY}")
     return texts
 
 
-def _parsed(path: Path, texts: dict[str, str], model: type[Content]) -> Content:
+def _parse(path: Path, texts: dict[str, str], model: type[Content]) -> Content:
     try:
         return model.model_validate(json.loads(texts[path.name]))
     except json.JSONDecodeError as error:
@@ -211,8 +211,8 @@ def _parsed(path: Path, texts: dict[str, str], model: type[Content]) -> Content:
         raise InputError(f"{path}: {where}: {first['msg']}: {REMEDY}") from None
 
 
-def _numbers(path: Path, texts: dict[str, str], columns: Sequence[str], rows: int | None) -> Array:
-    """The wanted columns of a table as (rows, columns); other columns may hold text."""
+def _read_columns(path: Path, texts: dict[str, str], columns: Sequence[str], rows: int | None) -> Array:
+    """The named columns of a table as (rows, columns); other columns may hold text."""
     text = texts[path.name]
     header_line, _, body = text.partition("\n")
     header = next(csv.reader([header_line]), [])
@@ -228,7 +228,7 @@ def _numbers(path: Path, texts: dict[str, str], columns: Sequence[str], rows: in
                 usecols=[header.index(column) for column in columns],
             )  # fmt: skip
         except ValueError as error:
-            raise InputError(f"{path}: {_one_line(error)}: {REMEDY}") from None
+            raise InputError(f"{path}: {_join_lines(error)}: {REMEDY}") from None
         _check_width(path, body, len(header))
     if rows is not None and len(table) != rows:
         raise InputError(f"{path}: has {len(table)} rows, summary.json says {rows}: it is not whole; {REMEDY}")
@@ -239,13 +239,13 @@ def _numbers(path: Path, texts: dict[str, str], columns: Sequence[str], rows: in
 
 
 def _check_width(path: Path, body: str, width: int) -> None:
-    """loadtxt looks at the wanted columns only: the last row, where a file is cut, must have all."""
+    """Refuse a last row without all columns, where a file is cut; loadtxt reads the named columns only."""
     last = next(csv.reader([body.rstrip("\n").rpartition("\n")[2]]), [])
     if len(last) != width:
         raise InputError(f"{path}: its last row has {len(last)} of {width} columns: it is not whole; {REMEDY}")
 
 
-def _one_line(error: ValueError) -> str:
+def _join_lines(error: ValueError) -> str:
     return " ".join(str(error).split()).rstrip(".")
 
 

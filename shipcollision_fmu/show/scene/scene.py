@@ -1,18 +1,18 @@
-"""The one scene: what there is to see of a run, from which page, glTF, OpenSceneGraph and plots are all written.
+"""Scene: everything visible of a run, from which page, glTF, OpenSceneGraph, films and figures are made.
 
     Scene
     ├── ships       hull and fittings in b about CO, z down; a track: poses of b in n over time
-    ├── obstacles   surface in their b, and where that lies in n
-    ├── scratches   lines on a hull, in the b of the ship that bears them, a time per point; both ships bear theirs
+    ├── obstacles   surface in their b, position and heading of b in n
+    ├── scratches   lines on a hull in the b of its ship, a time per point; one on each ship
     ├── effects     explosion, debris, fire, smoke, at a point of a ship, in its b
-    ├── events      the collisions, for people to jump to
+    ├── events      the collisions, to which a viewer can jump
     └── signals     curves over time
 
 Everything is in SI units and in the project's frames: n is north, east, down; b forward, starboard, down. Quaternions
-are (x, y, z, w) of R_nb, with a continuous sign. Nothing here is drawn and no colour is chosen.
+are (x, y, z, w) of R_nb, with a continuous sign. Colours and drawing are elsewhere.
 
-Tracks and signals are thinned, see resample.py: between two poses of a track position is linear and attitude slerp, and
-then no point of a hull is farther than POSE_ERROR from where states.csv puts it at that row's time.
+Tracks and signals are thinned by resample.py. Between two poses of a track position is linear and attitude slerp; at
+the time of any row of states.csv, no point of a hull is then farther than POSE_ERROR from its position by that row.
 """
 
 from __future__ import annotations
@@ -25,18 +25,20 @@ import numpy as np
 
 from ...fmi.names import ATTITUDE, POSITION, STATE
 from ...ship.frames import Array
-from .effects import Effect, effects_of
-from .fittings import Fitting, fittings_of
-from .resample import kept
+from .effects import Effect, make_effects
+from .fittings import Fitting, make_fittings
+from .resample import choose_samples
 from .run_folder import CollisionEvent, RunFolder, ShipBody, read_run_folder
-from .scratches import Scratch, scratches_of
+from .scratches import Scratch, lay_scratches
 from .signals import Signals, signals_of
-from .surface import Surface, solid_triangles
+from .surface import Surface, drop_flat_triangles
 
-__all__ = ["POSE_ERROR", "Effect", "Event", "Obstacle", "Scene", "Scratch", "Ship", "Track", "load_scene", "scene_of"]
+__all__ = [
+    "POSE_ERROR", "Effect", "Event", "Obstacle", "Scene", "Scratch", "Ship", "Track", "build_scene", "load_scene",
+]  # fmt: skip
 
 POSE_ERROR = 0.005
-"""What thinning may move any point of a hull by [m]."""
+"""[m] Largest error of any point of a hull by thinning. Smaller makes files larger, larger becomes visible."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +63,7 @@ class Track:
 class Ship:
     """A ship: its name in the scenario, the model's name and kind, dimensions [m], hull and fittings in b, track.
 
-    Fittings (a deckhouse, hatches, a mast) are there for the eye, to tell bow from stern: contact does not know them.
+    Fittings (a deckhouse, hatches, a mast) distinguish bow from stern in pictures; contact ignores them.
     """
 
     name: str
@@ -78,7 +80,7 @@ class Ship:
 
 @dataclass(frozen=True, eq=False)
 class Obstacle:
-    """What does not move: surface in its b, position of b in n (3,) [m], heading [rad]."""
+    """An obstacle: surface in its b, position of b in n (3,) [m], heading [rad]."""
 
     name: str
     kind: str
@@ -89,9 +91,9 @@ class Obstacle:
 
 @dataclass(frozen=True, eq=False)
 class Event:
-    """Something to jump to: time and end [s], its point in n (3,) [m], and the figures of a collision.
+    """A collision: time and end [s], first point in n (3,) [m], impulse [N s], energy [J].
 
-    closing_speed [m/s] and angle [rad] are None where the run does not know them; impulse [N s], energy [J].
+    closing_speed [m/s] and angle [rad] are None where the run has none.
     """
 
     kind: Literal["collision"]
@@ -109,7 +111,7 @@ class Event:
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """All there is to see. `origin` (3,) [m] in n is a round place amid it, for formats in single precision."""
+    """A scene. `origin` (3,) in n [m] is a round place near its middle, for formats in single precision."""
 
     name: str
     description: str
@@ -132,34 +134,34 @@ class Scene:
 
 
 def load_scene(folder: str | Path) -> Scene:
-    """The scene of the run in a folder. Raises InputError when it is not the folder of a whole run."""
-    return scene_of(read_run_folder(folder))
+    """The scene of the run in a folder. Raises InputError when it is not the folder of a complete run."""
+    return build_scene(read_run_folder(folder))
 
 
-def scene_of(run: RunFolder) -> Scene:
+def build_scene(run: RunFolder) -> Scene:
     """The scene of a run."""
     ships = tuple(
-        _ship(name, body, run.times, run.states[:, i]) for i, (name, body) in enumerate(run.bodies.ships.items())
+        _build_ship(name, body, run.times, run.states[:, i]) for i, (name, body) in enumerate(run.bodies.ships.items())
     )
     obstacles = tuple(
         Obstacle(
-            name, body.kind, solid_triangles(_surface(body.vertices, body.triangles)), np.array(body.position),
-            body.heading,
+            name, body.kind, drop_flat_triangles(_build_surface(body.vertices, body.triangles)),
+            np.array(body.position), body.heading,
         )
         for name, body in run.bodies.obstacles.items()
     )  # fmt: skip
-    scratches = scratches_of(run.events.scratches, {ship.name: ship.hull for ship in ships})
+    scratches = lay_scratches(run.events.scratches, {ship.name: ship.hull for ship in ships})
     return Scene(
         name=run.summary.scenario,
         description=run.summary.description,
         start=float(run.times[0]),
         end=float(run.times[-1]),
-        origin=_origin(run),
+        origin=_choose_origin(run),
         ships=ships,
         obstacles=obstacles,
         scratches=scratches,
-        effects=effects_of(run, scratches),
-        events=tuple(map(_event, run.events.collisions)),
+        effects=make_effects(run, scratches),
+        events=tuple(map(_build_event, run.events.collisions)),
         signals=signals_of(run),
     )
 
@@ -178,28 +180,28 @@ def slerp(q: Array, r: Array, share: float) -> Array:
     return result
 
 
-def _ship(name: str, body: ShipBody, times: Array, states: Array) -> Ship:
-    hull = solid_triangles(_surface(body.vertices, body.triangles))
+def _build_ship(name: str, body: ShipBody, times: Array, states: Array) -> Ship:
+    hull = drop_flat_triangles(_build_surface(body.vertices, body.triangles))
     reach = float(np.linalg.norm(hull.vertices, axis=1).max())
     return Ship(
         name=name, model=body.ship, kind=body.kind, L_pp=body.L_pp, L_oa=body.L_oa, B=body.B, T=body.T,
-        hull=hull, fittings=fittings_of(body, hull), track=_track(times, states, reach),
+        hull=hull, fittings=make_fittings(body, hull), track=_build_track(times, states, reach),
     )  # fmt: skip
 
 
-def _surface(vertices: list[tuple[float, float, float]], triangles: list[tuple[int, int, int]]) -> Surface:
+def _build_surface(vertices: list[tuple[float, float, float]], triangles: list[tuple[int, int, int]]) -> Surface:
     return Surface(np.array(vertices, dtype=float), np.array(triangles, dtype=np.int64))
 
 
-def _track(times: Array, states: Array, reach: float) -> Track:
+def _build_track(times: Array, states: Array, reach: float) -> Track:
     """The thinned track. A quaternion that is off by dq turns the hull by 2 |dq|, and moves it by 2 |dq| reach."""
     position = states[:, [STATE.index(variable) for variable in POSITION]]
-    quaternion = quaternions(states[:, [STATE.index(variable) for variable in ATTITUDE]])
-    rows = kept(times, np.hstack([position, 2.0 * reach * quaternion]), POSE_ERROR / np.sqrt(2.0))
+    quaternion = convert_attitudes(states[:, [STATE.index(variable) for variable in ATTITUDE]])
+    rows = choose_samples(times, np.hstack([position, 2.0 * reach * quaternion]), POSE_ERROR / np.sqrt(2.0))
     return Track(times[rows], position[rows], quaternion[rows])
 
 
-def quaternions(attitude: Array) -> Array:
+def convert_attitudes(attitude: Array) -> Array:
     """Quaternions (k, 4) of attitudes (k, 3) = (roll, pitch, yaw) [rad], with a continuous sign."""
     (cx, cy, cz), (sx, sy, sz) = np.cos(0.5 * attitude.T), np.sin(0.5 * attitude.T)
     q = np.column_stack([
@@ -211,7 +213,7 @@ def quaternions(attitude: Array) -> Array:
     return q
 
 
-def _origin(run: RunFolder) -> Array:
+def _choose_origin(run: RunFolder) -> Array:
     """The first point of contact, else the middle of all tracks; on the water, in whole tens of metres."""
     if run.events.collisions:
         place = np.array(run.events.collisions[0].first_point.n)
@@ -221,7 +223,7 @@ def _origin(run: RunFolder) -> Array:
     return np.array([*np.round(place[:2], -1), 0.0]) + 0.0  # no negative zero
 
 
-def _event(collision: CollisionEvent) -> Event:
+def _build_event(collision: CollisionEvent) -> Event:
     return Event(
         kind="collision", id=collision.id, time=collision.start, end=collision.end,
         ship_a=collision.ship_a, ship_b=collision.ship_b, point=np.array(collision.first_point.n),

@@ -19,7 +19,7 @@ import numpy as np
 from ...fmi.names import STATE
 from ...ship.frames import Array
 from ...ship.kinetic_energy import kinetic_energy
-from .resample import kept
+from .resample import choose_samples
 from .run_folder import RunFolder
 
 __all__ = ["CURVE_ERROR", "Signal", "Signals", "signals_of"]
@@ -60,7 +60,7 @@ def signals_of(run: RunFolder) -> Signals:
     values = np.column_stack([curve.values for curve in curves])
     scale = np.maximum(np.ptp(values, axis=0), 1e-9 * np.abs(values).max(axis=0))
     scale[scale == 0.0] = 1.0
-    rows = kept(run.times, values / scale, CURVE_ERROR)
+    rows = choose_samples(run.times, values / scale, CURVE_ERROR)
     return Signals(run.times[rows], tuple(Signal(c.quantity, c.ship, c.unit, c.values[rows]) for c in curves))
 
 

