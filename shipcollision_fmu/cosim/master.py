@@ -2,8 +2,8 @@
 
     gauss-seidel    collision first, on the ships' states at t; its impulses reach the ships before they step, so that
                     the impact predicted for [t, t + h] is applied at t and hulls do not overlap
-    jacobi          everything is exchanged first, then all step: impulses reach the ships one step late, and hulls
-                    overlap by about closing speed x h
+    jacobi          everything is exchanged first, then all step: impulses reach the ships with a one-step delay, and
+                    hulls overlap by about closing speed x h
 
 Neither algorithm loses or repeats an impulse, because the collision FMU keeps a ledger of issued and applied impulses.
 Both keep momentum to rounding. Under the parallel one a ship has turned by its rate times h before the impulse reaches

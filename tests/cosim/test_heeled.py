@@ -1,8 +1,7 @@
 """Ships that heel when they meet: contact and ship models mean the same by 3 and 4 degrees of freedom.
 
-A ship that is held in heave and pitch keeps, of M nu, what is level: her momentum along and across the heading and that
-about the vertical, with her velocities taken from the track (north, east, heading, heel), not from the conventions of
-the models.
+A ship without heave and pitch keeps the level part of M nu: the momentum along and across the heading and the one about
+the vertical. Velocities are taken from the track (north, east, heading, heel), not from the conventions of the models.
 """
 
 from __future__ import annotations
@@ -67,9 +66,9 @@ def test_level_momentum_is_kept(
     free, sails = mode
     rolling *= free == 4
     bow = np.array([cos(heading), sin(heading)]) * 0.5 * L
-    aim = np.array([30.0, -0.5 * B])
+    target_point = np.array([30.0, -0.5 * B])
     ships = [
-        started(free, sails, [*(aim - bow).tolist(), 0.0], [phi, 0.0, heading], [6.0, sway, rolling, 0.002]),
+        started(free, sails, [*(target_point - bow).tolist(), 0.0], [phi, 0.0, heading], [6.0, sway, rolling, 0.002]),
         started(free, sails, [0.0, 0.0, 0.0], [phi_struck, 0.0, 0.0], [4.0, 0.3, -rolling, -0.001]),
     ]  # fmt: skip
     collision = ShipCollision(["a", "b"])
@@ -80,13 +79,13 @@ def test_level_momentum_is_kept(
         _shown(inputs, ship)
     try:
         collision.initialise()
-        assert _struck(collision, ships, free)
+        assert _advance_to_contact(collision, ships, free)
     finally:
         collision.close()
 
 
-def _struck(collision: ShipCollision, ships: list[ShipManoeuvring], free: int) -> bool:
-    struck, t = False, 0.0
+def _advance_to_contact(collision: ShipCollision, ships: list[ShipManoeuvring], free: int) -> bool:
+    in_contact, t = False, 0.0
     for k in range(8):
         before = [level_momentum(ship, free) for ship in ships]
         for inputs, ship in zip(collision.inputs.ships, ships, strict=True):
@@ -98,14 +97,14 @@ def _struck(collision: ShipCollision, ships: list[ShipManoeuvring], free: int) -
         after = [level_momentum(ship, free) for ship in ships]
         exchanged = np.abs(after[0] - before[0])
         if exchanged[:2].max() > 1e6:
-            struck = True
+            in_contact = True
             change = np.abs(after[0] + after[1] - before[0] - before[1])
             assert change[:2].max() <= 1e-10 * exchanged[:2].max()
             assert change[2] <= 1e-10 * max(exchanged[2], L * exchanged[:2].max())
         for ship in ships:
             ship.step(t, 0.5)
         t += 0.5
-    return struck
+    return in_contact
 
 
 def _shown(inputs: object, ship: ShipManoeuvring) -> None:

@@ -1,4 +1,4 @@
-"""A ship that a steady wind holds against a quay, with her own hydrodynamics: ten minutes in steps of half a second."""
+"""A ship that a steady wind holds against a quay, with its own hydrodynamics: ten minutes in steps of half a second."""
 
 from __future__ import annotations
 
@@ -33,14 +33,14 @@ length = 800.0
 breadth = 20.0
 position = [0.0, 40.0]
 """
-FACE = 1.0  # m to the quay, where she starts: half her breadth is 29 m
+FACE = 1.0  # m to the quay, where it starts: half its breadth is 29 m
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
 @pytest.mark.parametrize("free", [4, 6])
 def test_wind_holds_a_ship_at_the_quay_for_ten_minutes(tmp_path: Path, free: int, algorithm: str) -> None:
-    """One collision; she is in the quay by no more than she moves in the steps it takes to see it, and stays there."""
+    """One collision; the overlap is at most the way of the ship until detection, and the ship stays there."""
     path = tmp_path / "held.toml"
     path.write_text(SCENARIO.format(algorithm=algorithm, free=free), encoding="utf-8")
     run = simulate(load_scenario(path), in_process=True)
@@ -51,6 +51,6 @@ def test_wind_holds_a_ship_at_the_quay_for_ten_minutes(tmp_path: Path, free: int
     assert np.ptp(east[len(east) // 2 :]) < 1e-3  # no creep in five minutes
     summary = run.summary
     assert summary["collisions"] == 1
-    # What the wind does to her until she touches is lost, and nothing given back: all but at rest in the end.
+    # The work of the wind up to the contact is lost, and nothing springs back: all but at rest in the end.
     assert 0.0 < summary["energy"]["normal"] <= summary["energy"]["dissipated"]
     assert summary["energy"]["after"]["own"] < 1e-3 * summary["energy"]["dissipated"]

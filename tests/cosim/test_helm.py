@@ -93,7 +93,7 @@ Sail = Callable[..., Run]
 
 @pytest.fixture
 def sail(tmp_path: Path) -> Sail:
-    """A run of a KVLCC2 with some keys in her table, and a barge far away."""
+    """A run of a KVLCC2 with some keys in its table, and a barge far away."""
 
     def run(
         keys: str, duration: float, step: float = 0.5, target: str = "position = [0.0, -50000.0]", **how: object

@@ -87,7 +87,7 @@ def test_a_ships_own_fender_reaches_the_model(scenario_file: Write) -> None:
 
 
 def test_one_ship_and_a_lock_are_a_scenario(tmp_path: Path, scenario_file: Write) -> None:
-    """A chamber is its walls; the ship scrapes along one of them and comes to no harm in the other's books."""
+    """A chamber is its walls; the ship scrapes along one of them and has no collision with the other."""
     scenario_file()  # the barge
     walls = "".join(
         f'[obstacles.{name}]\nkind = "lock wall"\nshape = "box"\nlength = 150.0\nbreadth = 5.0\n'

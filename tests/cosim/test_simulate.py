@@ -1,4 +1,4 @@
-"""Whole runs: same bits through FMI and without, same files twice, books that close, failures that write nothing."""
+"""Whole runs: same bits with and without FMI, same files twice, a closed balance, failures that write nothing."""
 
 from __future__ import annotations
 
@@ -127,9 +127,9 @@ def test_everything_issued_has_been_applied(scenario_file: Write, algorithm: str
     run = ran(scenario_file(("friction = 0.3", "friction = 0.3\nrestitution = 0.5")), algorithm=algorithm)
     assert run.contacts["time"][-1] < run.states["time"][-2]
     for name in ("own", "target"):
-        books = run.summary["ledger"][name]
-        assert hypot(*books["issued"][:3]) > 1e6
-        assert books["pending"] == [0.0] * 6
+        ledger = run.summary["ledger"][name]
+        assert hypot(*ledger["issued"][:3]) > 1e6
+        assert ledger["pending"] == [0.0] * 6
 
 
 def test_a_collision_takes_as_much_momentum_from_one_ship_as_it_gives_the_other(scenario_file: Write) -> None:
@@ -179,11 +179,11 @@ def test_more_than_two_ships_and_other_names(scenario_file: Write, tmp_path: Pat
     """The third lies behind the target and is not touched in this time."""
     third = '\n[ships.moored]\nship = "./barge.toml"\nposition = [0.0, 200.0]\nheading_deg = 0.0\n'
     path = scenario_file(("[ships.own]", "[ships.striking]"), added=third)
-    through_fmus = ran(path, in_process=False)
-    assert list(through_fmus.summary["ledger"]) == ["striking", "target", "moored"]
-    assert through_fmus.events["collisions"][0]["ship_a"] == "striking"
-    assert through_fmus.summary["ledger"]["moored"]["issued"] == [0.0] * 6
-    np.testing.assert_array_equal(through_fmus.states, ran(path).states)
+    with_fmus = ran(path, in_process=False)
+    assert list(with_fmus.summary["ledger"]) == ["striking", "target", "moored"]
+    assert with_fmus.events["collisions"][0]["ship_a"] == "striking"
+    assert with_fmus.summary["ledger"]["moored"]["issued"] == [0.0] * 6
+    np.testing.assert_array_equal(with_fmus.states, ran(path).states)
 
 
 def test_ships_that_take_the_mean_force_answer_too(scenario_file: Write) -> None:
@@ -209,10 +209,10 @@ def test_orders_reach_the_helm(scenario_file: Write) -> None:
     assert yaw[1][-1] > yaw[0][-1]
 
 
-def test_progress_is_told_after_every_step(scenario_file: Write) -> None:
-    told: list[tuple[int, int]] = []
-    ran(scenario_file(), progress=lambda done, total: told.append((done, total)))
-    assert told == [(k, 60) for k in range(1, 61)]
+def test_progress_is_called_after_every_step(scenario_file: Write) -> None:
+    calls: list[tuple[int, int]] = []
+    ran(scenario_file(), progress=lambda done, total: calls.append((done, total)))
+    assert calls == [(k, 60) for k in range(1, 61)]
 
 
 def test_the_step_can_be_changed(scenario_file: Write) -> None:
@@ -224,11 +224,11 @@ def test_the_step_can_be_changed(scenario_file: Write) -> None:
 
 
 def test_an_unwritable_folder_is_refused_before_anything_runs(scenario_file: Write, tmp_path: Path) -> None:
-    told: list[int] = []
+    calls: list[int] = []
     (tmp_path / "file").write_text("mine")
     with pytest.raises(HostError, match=r"cannot write to .*/file/run: .*; give another folder with --out"):
-        ran(scenario_file(), out=tmp_path / "file" / "run", progress=lambda done, total: told.append(done))
-    assert told == []
+        ran(scenario_file(), out=tmp_path / "file" / "run", progress=lambda done, total: calls.append(done))
+    assert calls == []
 
 
 @pytest.mark.parametrize("in_process", [True, False])

@@ -101,7 +101,7 @@ def test_a_ship_hit_from_both_sides_at_once_takes_its_share_from_each() -> None:
 
 
 def test_the_relative_velocity_is_that_of_the_first_point_on_either_ship() -> None:
-    """Left goes sideways; middle, on the same spot, turns: her side 5 m to starboard goes astern."""
+    """Left goes sideways; middle, on the same spot, turns: its side 5 m to starboard goes astern."""
     made = record([contact(1, ("left", "middle"), (1, 1), 5.0, 4e6)], {1: [sway(0.0)] * 3},
                   {1: CollisionStart(0.0, 1.5, 0.0, (0.0, 5.0, 0.0))})  # fmt: skip
     made.states["left.velocity.sway"][0], made.states["middle.rate.yaw"][0] = 1.5, 0.02

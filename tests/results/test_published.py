@@ -14,12 +14,12 @@ from shipcollision_fmu.ship.frames import rotation
 from shipcollision_fmu.ship.loading.library import load_ship
 from shipcollision_fmu.ship.ship_state import ShipState
 
-NOUGHT = np.zeros(3)
+ORIGIN = np.zeros(3)
 
 
 def test_their_world_is_east_north_up() -> None:
     """A ship at (1, 2, 3) in n, heading 0: x = east, y = north, z = up; forward is +y, starboard +x."""
-    got = paper_quantities(ShipState(1.0, 2, 3, 0, 0, 0, 4, 5, 6, 0.1, 0.2, 0.3), NOUGHT)
+    got = paper_quantities(ShipState(1.0, 2, 3, 0, 0, 0, 4, 5, 6, 0.1, 0.2, 0.3), ORIGIN)
     assert [got[q] for q in ("x", "y", "z")] == [2.0, 1.0, -3.0]
     assert [got[q] for q in ("v_x", "v_y", "v_z")] == [5.0, 4.0, -6.0]
     assert [got[q] for q in ("w_x", "w_y", "w_z")] == [0.2, 0.1, -0.3]
@@ -32,7 +32,7 @@ def test_heading_of_the_published_own_ship() -> None:
     2 asin(h) = 33.81 deg counter-clockwise from +y is heading -33.81 deg, and that is where the velocity points.
     """
     heading = -2 * asin(0.2908)
-    got = paper_quantities(ShipState.upright(0.0, 0.0, heading, 5.0813), NOUGHT)
+    got = paper_quantities(ShipState.upright(0.0, 0.0, heading, 5.0813), ORIGIN)
     assert got["h"] == pytest.approx(0.2908, abs=1e-12)
     assert degrees(-heading) == pytest.approx(33.812, abs=1e-3)
     assert got["v_x"] == pytest.approx(-2.8282, abs=1e-3)
@@ -53,7 +53,7 @@ def test_the_published_row_before_can_be_written_as_a_scenario(
         angular_velocity_ned=[-0.0013, -0.0009, 0.0],
     )  # fmt: skip
     start = ship.start
-    got = paper_quantities(ShipState(*start.position, *start.attitude, *start.velocity, *start.rate), NOUGHT)
+    got = paper_quantities(ShipState(*start.position, *start.attitude, *start.velocity, *start.rate), ORIGIN)
     expected = {"x": -343.212, "y": 81.6614, "z": 0, "h": h, "p": p, "r": r, "w_x": -0.0009, "w_y": -0.0013, "w_z": 0}
     expected |= dict(zip(("v_x", "v_y", "v_z"), v, strict=True))
     assert got == pytest.approx(expected, abs=1e-12)
@@ -61,7 +61,7 @@ def test_the_published_row_before_can_be_written_as_a_scenario(
 
 def test_small_roll_and_pitch_are_half_angles() -> None:
     """r is about the forward axis, starboard down positive like phi; p about the starboard axis, bow up like theta."""
-    got = paper_quantities(ShipState.upright(0.0, 0.0, 0.0)._replace(roll=0.02, pitch=0.01), NOUGHT)
+    got = paper_quantities(ShipState.upright(0.0, 0.0, 0.0)._replace(roll=0.02, pitch=0.01), ORIGIN)
     assert got["r"] == pytest.approx(0.01, abs=1e-4)
     assert got["p"] == pytest.approx(0.005, abs=1e-4)
 
@@ -69,7 +69,7 @@ def test_small_roll_and_pitch_are_half_angles() -> None:
 def test_numbers_are_of_the_centre_of_gravity() -> None:
     """Velocity of a point that turns with the ship: the derivative of its position."""
     r_bg, attitude, nu = np.array([10.0, 1.0, -2.0]), np.array([0.1, -0.05, 0.7]), np.array([3.0, 0.5, 0.1, 0, 0, 0.02])
-    got = paper_quantities(ShipState(*NOUGHT, *attitude, *nu), r_bg)
+    got = paper_quantities(ShipState(*ORIGIN, *attitude, *nu), r_bg)
     R_nb = rotation(attitude)
     np.testing.assert_allclose([got["y"], got["x"], -got["z"]], R_nb @ r_bg, rtol=1e-14)
     v_n = R_nb @ (nu[:3] + np.cross(nu[3:], r_bg))
