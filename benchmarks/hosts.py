@@ -4,7 +4,7 @@
 
 Needs the extra `hosts`. Two VLCCs under way meet in the middle of the run: own, target, collision at 0.05 s, nothing
 recorded, all in turns, each figure the best of ROUNDS. "slaves" is what the same calls cost without FMI:
-the models behind their ports, driven by our loop in process; its share of a host's time is the part that is ours.
+the models behind their access, driven by our loop in process; its share of a host's time is the part that is ours.
 
 A set and a get go through fmi2SetReal and fmi2GetReal with arrays that are there already, all connected variables of an
 FMU at once, in turns, for three FMUs with the same variables:

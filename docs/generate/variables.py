@@ -37,10 +37,10 @@ def ship_manoeuvring() -> str:
 
 
 def _page(interface: Interface) -> str:
-    ports = interface.ports(SHIPS)
-    lines, gathered = ports.table, arrays(ports.table)
+    access = interface.make_access(SHIPS)
+    lines, gathered = access.table, arrays(access.table)
     starts = [
-        start(variable, reference, ports) if variable.causality != "output" else ""
+        start(variable, reference, access) if variable.causality != "output" else ""
         for reference, variable in enumerate(lines)
     ]
     shown = [array for array in gathered if not array.name.startswith(tuple(f"{ship}." for ship in SHIPS[1:]))]

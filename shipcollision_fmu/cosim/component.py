@@ -21,7 +21,7 @@ from ctypes import Array, c_double, c_int
 from typing import Any, Protocol, TypeAlias
 
 from ..errors import HostError, InputError, ShipCollisionError, StepError
-from ..fmi.variable_access import Ports
+from ..fmi.variable_access import VariableAccess
 
 __all__ = ["Buffer", "Component", "Group", "InProcessComponent", "Value", "item_number"]
 
@@ -67,21 +67,21 @@ class Component(Protocol):
 
 
 class InProcessComponent:
-    """A model that is driven through its ports without FMI, with the same variables and the same order of calls."""
+    """A model that is driven without FMI, with the same variables and the same order of calls."""
 
-    def __init__(self, name: str, ports: Ports) -> None:
+    def __init__(self, name: str, access: VariableAccess) -> None:
         self.name = name
-        self._ports = ports
+        self._access = access
 
     def reals(self, names: Sequence[str], values: Buffer | None = None) -> Group:
         """See Component."""
         buffer = (c_double * len(names))() if values is None else values
-        return _PortGroup(self._ports.get_real, self._ports.set_real, self._references(names), buffer)
+        return _InProcessGroup(self._access.get_real, self._access.set_real, self._references(names), buffer)
 
     def integers(self, names: Sequence[str]) -> Group:
         """See Component."""
         buffer = (c_int * len(names))()
-        return _PortGroup(self._ports.get_integer, self._ports.set_integer, self._references(names), buffer)
+        return _InProcessGroup(self._access.get_integer, self._access.set_integer, self._references(names), buffer)
 
     def initialise(self, parameters: Mapping[str, Value], stop_time: float, inputs: Sequence[Group] = ()) -> None:
         """See Component."""
@@ -91,41 +91,41 @@ class InProcessComponent:
                 self._set(name, value)
             for group in inputs:
                 group.write()
-            self._ports.initialise()
+            self._access.initialise()
         except ShipCollisionError as error:
             raise HostError(f"{self.name}: initialisation failed: {error}") from None
 
     def step(self, t: float, h: float) -> None:
         """See Component."""
         try:
-            self._ports.do_step(t, h)
+            self._access.do_step(t, h)
         except ShipCollisionError as error:
             raise StepError(f"{self.name}: {error}") from None  # the model's message has the time
 
     def close(self) -> None:
         """See Component."""
-        close_model = getattr(self._ports.model, "close", None)  # the collision model holds a world of Bullet's
+        close_model = getattr(self._access.model, "close", None)  # the collision model holds a world of Bullet's
         if close_model is not None:
             close_model()
 
     def _references(self, names: Sequence[str]) -> list[int]:
         try:
-            return self._ports.references(names)
+            return self._access.references(names)
         except InputError as error:
             raise HostError(f"{self.name}: {error}") from None
 
     def _set(self, name: str, value: Value) -> None:
         references = self._references([name])
-        variable = self._ports.table[references[0]]
+        variable = self._access.table[references[0]]
         if variable.kind == "Real":
-            self._ports.set_real(references, [float(value)])
+            self._access.set_real(references, [float(value)])
         elif variable.kind == "Boolean":
-            self._ports.set_boolean(references, [bool(value)])
+            self._access.set_boolean(references, [bool(value)])
         elif variable.kind == "String":
-            self._ports.set_string(references, [str(value)])
+            self._access.set_string(references, [str(value)])
         else:
             number = item_number(self.name, name, value, variable.items) if isinstance(value, str) else int(value)
-            self._ports.set_integer(references, [number])
+            self._access.set_integer(references, [number])
 
 
 def item_number(component: str, name: str, item: str, items: Sequence[str]) -> int:
@@ -135,7 +135,7 @@ def item_number(component: str, name: str, item: str, items: Sequence[str]) -> i
     return list(items).index(item) + 1
 
 
-class _PortGroup:
+class _InProcessGroup:
     def __init__(self, getter: Any, setter: Any, references: list[int], values: Buffer) -> None:
         self.values = values
         self._get, self._set, self._references = getter, setter, references

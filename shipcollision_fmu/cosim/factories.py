@@ -26,10 +26,10 @@ def model_factories(ships: tuple[str, ...], stack: ExitStack) -> Factories:
     """Factories of components that are the models themselves, for ships of these names."""
 
     def make_ship(name: str) -> Component:
-        return stack.enter_context(closing(InProcessComponent(name, MANOEUVRING.ports())))
+        return stack.enter_context(closing(InProcessComponent(name, MANOEUVRING.make_access())))
 
     def make_collision() -> Component:
-        return stack.enter_context(closing(InProcessComponent("collision", COLLISION.ports(ships))))
+        return stack.enter_context(closing(InProcessComponent("collision", COLLISION.make_access(ships))))
 
     return make_ship, make_collision
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from .variable_access import Model, Ports
+from .variable_access import Model, VariableAccess
 from .variables import Table
 
 __all__ = ["SHIPS", "Interface"]
@@ -26,10 +26,10 @@ class Interface:
     model: Callable[[tuple[str, ...]], Model]
     step_size: float = 0.05
 
-    def ports(
+    def make_access(
         self, ships: tuple[str, ...] = SHIPS, start: Mapping[str, Any] | None = None, files: Path | None = None
-    ) -> Ports:
-        """A fresh model with its ports: the inside of the FMU, to be driven in process.
+    ) -> VariableAccess:
+        """Access to a fresh model: the inside of the FMU, to be driven in process.
 
         `start` replaces some of the model's start values. In `files`, the FMU's resources, a model that reads files
         looks first.
@@ -37,7 +37,7 @@ class Interface:
         model = self.model(ships)
         if files is not None and hasattr(model, "directory"):
             model.directory = files
-        ports = Ports(self.name, self.table(ships), model)
+        access = VariableAccess(self.name, self.table(ships), model)
         if start:
-            ports.preset(start)
-        return ports
+            access.preset(start)
+        return access

@@ -2,7 +2,7 @@
 
 A slave in fmu_src/ is a name and an Interface, nothing else. What a host sees of it:
 
-    get_*, set_*                    straight to the ports, a few microseconds for a hundred Reals
+    get_*, set_*                    straight to the model, a few microseconds for a hundred Reals
     do_step                         fmi2OK, or fmi2Discard and one logged line; the state before the step stays
 
 pythonfmu's wrapper has only these two and fmi2Fatal to answer with; see slave_base for what follows from that.
@@ -41,39 +41,39 @@ class ModelSlave(SlaveBase, Fmi2Slave):  # type: ignore[misc]  # pythonfmu has n
 
     def get_real(self, vrs: list[int]) -> list[float]:
         """Values of Reals; NaN when refused."""
-        values = self.answered(self.ports.get_real, vrs)
+        values = self.answered(self.access.get_real, vrs)
         return [math.nan] * len(vrs) if values is None else values
 
     def get_integer(self, vrs: list[int]) -> list[int]:
         """Values of Integers and Enumerations; 0 when refused."""
-        values = self.answered(self.ports.get_integer, vrs)
+        values = self.answered(self.access.get_integer, vrs)
         return [0] * len(vrs) if values is None else values
 
     def get_boolean(self, vrs: list[int]) -> list[bool]:
         """Values of Booleans; false when refused."""
-        values = self.answered(self.ports.get_boolean, vrs)
+        values = self.answered(self.access.get_boolean, vrs)
         return [False] * len(vrs) if values is None else values
 
     def get_string(self, vrs: list[int]) -> list[str]:
         """Values of Strings; empty when refused."""
-        values = self.answered(self.ports.get_string, vrs)
+        values = self.answered(self.access.get_string, vrs)
         return [""] * len(vrs) if values is None else values
 
     def set_real(self, vrs: list[int], values: list[float]) -> None:
         """Set Reals."""
-        self.given(self.ports.set_real, vrs, values)
+        self.given(self.access.set_real, vrs, values)
 
     def set_integer(self, vrs: list[int], values: list[int]) -> None:
         """Set Integers and Enumerations."""
-        self.given(self.ports.set_integer, vrs, values)
+        self.given(self.access.set_integer, vrs, values)
 
     def set_boolean(self, vrs: list[int], values: list[bool]) -> None:
         """Set Booleans."""
-        self.given(self.ports.set_boolean, vrs, values)
+        self.given(self.access.set_boolean, vrs, values)
 
     def set_string(self, vrs: list[int], values: list[str]) -> None:
         """Set Strings."""
-        self.given(self.ports.set_string, vrs, values)
+        self.given(self.access.set_string, vrs, values)
 
     def report(self, line: str) -> None:
         """Log a line as an error."""

@@ -1,4 +1,4 @@
-"""What a slave does whatever the version of FMI: a model behind its ports, and no exception that crosses into the host.
+"""What a slave does in every version of FMI: it drives a model, and lets no exception cross into the host.
 
     exit_initialization_mode        the model reads its parameters
     do_step                         one step, or a refusal and one logged line; the state before the step stays. A step
@@ -31,7 +31,7 @@ from typing import Any, ClassVar, TypeVar
 from ..errors import InputError, ShipCollisionError, StepError
 from .build_record import confirmed, start_values
 from .interface import SHIPS, Interface
-from .variable_access import Ports
+from .variable_access import VariableAccess
 from .wrapper_library import let_go
 
 __all__ = ["LOG_CATEGORIES", "STDERR", "SlaveBase", "keep", "state_from_bytes", "state_to_bytes"]
@@ -69,7 +69,7 @@ class SlaveBase:
     log_categories = LOG_CATEGORIES
     interface: ClassVar[Interface | str]
     wrapper: ClassVar[str]
-    ports: Ports
+    access: VariableAccess
     resources: str | None
     instance_name: str
     log_queue: list[Any]
@@ -87,7 +87,7 @@ class SlaveBase:
         made_from = self.interface
         self._made_from: Interface = import_module(made_from).INTERFACE if isinstance(made_from, str) else made_from
         files = None if self.resources is None else Path(str(self.resources))
-        self.ports = self._made_from.ports(self._ships, self._start, files)
+        self.access = self._made_from.make_access(self._ships, self._start, files)
         self._phase = INSTANTIATED
         self._refused = ""  # a call that was refused and that no status has told yet
         self._unanswered = ""  # why the last get was refused
@@ -115,7 +115,7 @@ class SlaveBase:
             if not self._refused and self._phase != INITIALISING:
                 raise InputError(f"initialisation is not entered: the instance is {self._phase}")
             if not self._refused:
-                self.ports.initialise()
+                self.access.initialise()
                 self._phase = RUNNING
                 self._pass_warning_on()
         except BaseException as error:
@@ -129,7 +129,7 @@ class SlaveBase:
             raise failed
 
     def _pass_warning_on(self) -> None:
-        if warning := self.ports.warning:
+        if warning := self.access.warning:
             self.warn(warning)
             self._print(f"warning: {warning}")
 
@@ -143,7 +143,7 @@ class SlaveBase:
             if not self._refused:
                 if self._phase == TERMINATED:
                     raise StepError(f"{self._made_from.name} is terminated at t = {t:g} s: reset it or restore a state")
-                self.ports.do_step(t, h)
+                self.access.do_step(t, h)
                 self._pass_warning_on()
                 return True
             line = f"no step at t = {t} s after a refused call: {self._refused}"
@@ -165,9 +165,9 @@ class SlaveBase:
             return get(references)
         except BaseException as error:
             line = _line(error)
-            if self.ports.running:
+            if self.access.running:
                 self._refused = line
-            if self.ports.running or line != self._unanswered:
+            if self.access.running or line != self._unanswered:
                 self._tell(line)
             self._unanswered = line
             return None
@@ -183,15 +183,15 @@ class SlaveBase:
 
     def _get_fmu_state(self) -> dict[str, Any]:
         try:
-            return {**self.ports.save(), "phase": self._phase}
+            return {**self.access.save(), "phase": self._phase}
         except BaseException as error:
             self._refuse(error)
             return {"of": f"nothing: {_line(error)}"}
 
     def _set_fmu_state(self, state: dict[str, Any]) -> None:
         try:
-            self.ports.restore(state)
-            phase = state.get("phase", RUNNING if self.ports.running else INSTANTIATED)
+            self.access.restore(state)
+            phase = state.get("phase", RUNNING if self.access.running else INSTANTIATED)
             self._phase, self._refused = str(phase), ""
         except BaseException as error:
             self._refuse(error)
@@ -210,7 +210,7 @@ class SlaveBase:
     def __del__(self) -> None:
         """The host has freed the instance."""
         with suppress(Exception):  # after an instantiation that failed, and when the process ends, little is left
-            self.ports.close()
+            self.access.close()
 
     # Inside. ------------------------------------------------------------------------------
 

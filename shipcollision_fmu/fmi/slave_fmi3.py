@@ -2,7 +2,7 @@
 
 The variables are those of FMI 2.0, gathered into arrays (arrays.py); values and bits are the same. What a host sees:
 
-    get_*, set_*                    arrays, straight to the ports
+    get_*, set_*                    arrays, straight to the model
     do_step                         fmi3OK, or fmi3Discard and one logged line; the state before the step stays
 
 pythonfmu3 finds the class of a slave by the word Fmi3Slave among its bases, so a slave in fmu_src/fmi3/ names it. It
@@ -41,7 +41,7 @@ class ModelSlave3(SlaveBase, Fmi3Slave):  # type: ignore[misc]  # pythonfmu3 has
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        self._arrays = arrays(self.ports.table)
+        self._arrays = arrays(self.access.table)
         self._plans: dict[tuple[str | int, ...], list[int]] = {}
         self._time = 0.0
 
@@ -70,12 +70,12 @@ class ModelSlave3(SlaveBase, Fmi3Slave):  # type: ignore[misc]  # pythonfmu3 has
 
     def get_boolean(self, vrs: list[int]) -> list[bool]:
         """Values of Booleans; false when refused."""
-        values = self.answered(lambda vrs: self.ports.get_boolean(self._scalars(vrs, "Boolean")), vrs)
+        values = self.answered(lambda vrs: self.access.get_boolean(self._scalars(vrs, "Boolean")), vrs)
         return (values or []) + [False] * self._spare(values)
 
     def get_string(self, vrs: list[int]) -> list[str]:
         """Values of Strings; empty when refused."""
-        values = self.answered(lambda vrs: self.ports.get_string(self._scalars(vrs, "String")), vrs)
+        values = self.answered(lambda vrs: self.access.get_string(self._scalars(vrs, "String")), vrs)
         return (values or []) + [""] * self._spare(values)
 
     def get_uint64(self, vrs: list[int]) -> list[c_uint64]:
@@ -85,23 +85,23 @@ class ModelSlave3(SlaveBase, Fmi3Slave):  # type: ignore[misc]  # pythonfmu3 has
 
     def set_float64(self, vrs: list[int], values: list[float]) -> None:
         """Set Float64."""
-        self.given(lambda vrs, values: self.ports.set_real(self._scalars(vrs, "Real"), values), vrs, values)
+        self.given(lambda vrs, values: self.access.set_real(self._scalars(vrs, "Real"), values), vrs, values)
 
     def set_int32(self, vrs: list[int], values: list[int]) -> None:
         """Set Int32."""
-        self.given(lambda vrs, values: self.ports.set_integer(self._scalars(vrs, "Integer"), values), vrs, values)
+        self.given(lambda vrs, values: self.access.set_integer(self._scalars(vrs, "Integer"), values), vrs, values)
 
     def set_int64(self, vrs: list[int], values: list[int]) -> None:
         """Set Enumerations."""
-        self.given(lambda vrs, values: self.ports.set_integer(self._scalars(vrs, "Enumeration"), values), vrs, values)
+        self.given(lambda vrs, values: self.access.set_integer(self._scalars(vrs, "Enumeration"), values), vrs, values)
 
     def set_boolean(self, vrs: list[int], values: list[bool]) -> None:
         """Set Booleans."""
-        self.given(lambda vrs, values: self.ports.set_boolean(self._scalars(vrs, "Boolean"), values), vrs, values)
+        self.given(lambda vrs, values: self.access.set_boolean(self._scalars(vrs, "Boolean"), values), vrs, values)
 
     def set_string(self, vrs: list[int], values: list[str]) -> None:
         """Set Strings."""
-        self.given(lambda vrs, values: self.ports.set_string(self._scalars(vrs, "String"), values), vrs, values)
+        self.given(lambda vrs, values: self.access.set_string(self._scalars(vrs, "String"), values), vrs, values)
 
     def set_uint64(self, vrs: list[int], values: list[int]) -> None:
         """There are none."""
@@ -158,16 +158,16 @@ class ModelSlave3(SlaveBase, Fmi3Slave):  # type: ignore[misc]  # pythonfmu3 has
         self.log(line, Fmi3Status.warning)
 
     def _float64(self, vrs: Sequence[int]) -> list[float]:
-        values = self.answered(lambda vrs: self.ports.get_real(self._scalars(vrs, "Real")), vrs)
+        values = self.answered(lambda vrs: self.access.get_real(self._scalars(vrs, "Real")), vrs)
         return [math.nan] * self._spare(None) if values is None else values
 
     def _numbers(self, vrs: list[int], kind: Kind) -> list[int]:
-        values = self.answered(lambda vrs: self.ports.get_integer(self._scalars(vrs, kind)), vrs)
+        values = self.answered(lambda vrs: self.access.get_integer(self._scalars(vrs, kind)), vrs)
         return [0] * self._spare(None) if values is None else values
 
     def _spare(self, values: Sequence[Any] | None) -> int:
         """Values to add to an answer; nobody knows how many the host waits for when it is refused."""
-        return _SPARE if values is not None else _SPARE + len(self.ports.table)
+        return _SPARE if values is not None else _SPARE + len(self.access.table)
 
     def _scalars(self, vrs: Sequence[int], kind: Kind) -> list[int]:
         """References in the table of all elements, one after the other. Raises InputError for one of another kind."""

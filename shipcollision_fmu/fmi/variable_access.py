@@ -1,7 +1,7 @@
 """Access to a model through value references: what an FMU does, without FMI.
 
-The slave in an FMU and a run in process both drive a model through `Ports`, so that both give the same bits. The
-order of calls is FMI's:
+The slave in an FMU and a run in process both drive a model through `VariableAccess`, so that both give the same bits.
+The order of calls is FMI's:
 
     1  set_* parameters and inputs, in any order; get_* of an output initialises the model first, so that it is right
     2  initialise()
@@ -22,7 +22,7 @@ from ..errors import InputError, ShipCollisionError, StepError
 from .build_record import running_build
 from .variables import Kind, Table, Variable
 
-__all__ = ["Model", "Ports"]
+__all__ = ["Model", "VariableAccess"]
 
 _TYPES: dict[Kind, type] = {"Real": float, "Integer": int, "Boolean": bool, "String": str, "Enumeration": str}
 
@@ -53,7 +53,7 @@ class Model(Protocol):
         """Put such a state back, exact to the bit."""
 
 
-class Ports:
+class VariableAccess:
     """A model behind its table of variables. Raises ValueError for a table that does not fit the model."""
 
     def __init__(self, name: str, table: Table, model: Model) -> None:

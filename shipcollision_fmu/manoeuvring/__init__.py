@@ -1,10 +1,16 @@
-"""One ship sails.
+"""Motion of one ship: steering, propulsion, hydrodynamics, and the impulses of collisions.
 
-hull_forces, propeller, rudder      MMG: forces by origin
-b_series                            a propeller measured in all four quadrants
-restoring, damping, wind            and what heave, roll, pitch and the air add
-mmg                             what all degrees of freedom share: machines, integration
-mmg, spatial                        equations of motion in 3, and in 4 or 6 degrees of freedom
-actuators                           rudder and engine follow their orders
-ports, model                        a step of the ship model, readable as its stages
+    interface                       parameters, inputs and outputs by name
+    model                           a step of the ship, readable as its stages
+    mmg                             what the equations of motion share: force groups, machines, integration
+    mmg_3dof, mmg_6dof              equations of motion in 3, and in 4 or 6 degrees of freedom
+    hull_forces, propeller, rudder  forces of the MMG standard model
+    b_series                        a propeller measured in all four quadrants
+    restoring, damping, wind        forces of buoyancy, of roll, heave and pitch damping, and of the air
+    actuators                       rudder and engine follow their orders
+    trials/                         turning circle, zigzag and crash stop of a ship; no FMU carries them
+
+Imports: ship and errors. The room collision is not imported; impulses come in as numbers.
+
+Data flow: ShipInputs -> ShipManoeuvring.step -> State (a value, never changed) -> ShipOutputs
 """

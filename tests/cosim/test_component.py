@@ -53,7 +53,7 @@ def make(
         def made(model: str) -> Component:
             made_from = {"ShipManoeuvring": MANOEUVRING, "ShipCollision": COLLISION}[model]
             if request.param == "in process":
-                return stack.enter_context(closing(InProcessComponent("one", made_from.ports())))
+                return stack.enter_context(closing(InProcessComponent("one", made_from.make_access())))
             if request.param == "FMU of FMI 3.0":
                 unpacked = stack.enter_context(closing(UnpackedFmu(built_for_fmi3[model])))
                 table = made_from.table(("own", "target"))
@@ -78,7 +78,7 @@ def sailed(component: Component, steps: int) -> list[list[float]]:
 
 def test_all_kinds_give_the_same_bits(make: Make) -> None:
     rows = sailed(make("ShipManoeuvring"), 100)
-    assert rows == sailed(InProcessComponent("one", MANOEUVRING.ports()), 100)
+    assert rows == sailed(InProcessComponent("one", MANOEUVRING.make_access()), 100)
     assert rows[-1][2] != 0.0
 
 

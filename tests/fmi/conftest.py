@@ -16,7 +16,7 @@ from fmpy import extract, read_model_description
 from fmpy.fmi2 import FMU2Slave, byref, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 
 from shipcollision_fmu.fmi.builder.package import build_fmus, fmu_bytes
-from shipcollision_fmu.fmi.variable_access import Ports
+from shipcollision_fmu.fmi.variable_access import VariableAccess
 
 DUMMY = Path(__file__).with_name("Dummy.py")
 
@@ -34,9 +34,9 @@ def dummy() -> ModuleType:
 
 
 @pytest.fixture
-def ports(dummy: ModuleType) -> Ports:
+def access(dummy: ModuleType) -> VariableAccess:
     """A fresh dummy model, in process."""
-    made: Ports = dummy.INTERFACE.ports()
+    made: VariableAccess = dummy.INTERFACE.make_access()
     return made
 
 

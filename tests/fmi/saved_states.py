@@ -9,7 +9,7 @@ from shipcollision_fmu.cosim.simulate import run_steps
 from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
 from shipcollision_fmu.fmi.slave_base import state_to_bytes
-from shipcollision_fmu.fmi.variable_access import Ports
+from shipcollision_fmu.fmi.variable_access import VariableAccess
 from shipcollision_fmu.scenario.scenario import load_scenario
 
 __all__ = ["saved_states"]
@@ -17,11 +17,11 @@ __all__ = ["saved_states"]
 
 def saved_states(scenario: str = "guan2014_added_mass", every: int = 12) -> dict[str, list[bytes]]:
     """By name of the FMU. Of the scenario's steps every so many, and all in which the contact begins or ends."""
-    made: dict[str, Ports] = {}
+    made: dict[str, VariableAccess] = {}
 
-    def component(name: str, ports: Ports) -> InProcessComponent:
-        made[name] = ports
-        return InProcessComponent(name, ports)
+    def component(name: str, access: VariableAccess) -> InProcessComponent:
+        made[name] = access
+        return InProcessComponent(name, access)
 
     found: dict[str, list[bytes]] = {"ShipCollision": [], "ShipManoeuvring": []}
     touching: list[Any] = [False]
@@ -37,7 +37,10 @@ def saved_states(scenario: str = "guan2014_added_mass", every: int = 12) -> dict
     run_steps(
         loaded,
         loaded.load_ships(),
-        (lambda name: component(name, MANOEUVRING.ports()), lambda: component("collision", COLLISION.ports())),
+        (
+            lambda name: component(name, MANOEUVRING.make_access()),
+            lambda: component("collision", COLLISION.make_access()),
+        ),
         keep,
     )
     assert True in touching, "no contact in this scenario"

@@ -29,12 +29,12 @@ Fuzz = Callable[[tuple[str, int], int, int], None]
 @pytest.fixture(scope="session")
 def states(dummy: ModuleType, tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     """Files with saved states by name of the FMU."""
-    ports = dummy.INTERFACE.ports()
-    found = {"Dummy": [state_to_bytes(ports.save())], **saved_states()}
-    ports.initialise()
+    access = dummy.INTERFACE.make_access()
+    found = {"Dummy": [state_to_bytes(access.save())], **saved_states()}
+    access.initialise()
     for k in range(3):
-        found["Dummy"].append(state_to_bytes(ports.save()))
-        ports.do_step(k * 0.1, 0.1)
+        found["Dummy"].append(state_to_bytes(access.save()))
+        access.do_step(k * 0.1, 0.1)
     del found["Dummy"][0]  # of before initialisation: no step follows
     folder = tmp_path_factory.mktemp("states")
     for name, made in found.items():

@@ -12,7 +12,7 @@ from shipcollision_fmu.errors import InputError
 from shipcollision_fmu.fmi.interface import Interface
 from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
-from shipcollision_fmu.fmi.variable_access import Ports
+from shipcollision_fmu.fmi.variable_access import VariableAccess
 from shipcollision_fmu.fmi.variables import Variable
 from shipcollision_fmu.scenario.scenario import load_scenario
 
@@ -30,14 +30,14 @@ LIMITED = [
     ("made_from", "line", "limit", "outward"), LIMITED, ids=[f"{line.name} {limit}" for _, line, limit, _ in LIMITED]
 )
 def test_beyond_a_limit_is_refused(made_from: Interface, line: Variable, limit: float, outward: float) -> None:
-    ports = made_from.ports(("own", "target"))
-    reference = ports.references([line.name])
+    access = made_from.make_access(("own", "target"))
+    reference = access.references([line.name])
     if line.kind == "Integer":
-        ports.set_integer(reference, [int(limit) + (1 if outward > 0 else -1)])
+        access.set_integer(reference, [int(limit) + (1 if outward > 0 else -1)])
     else:
-        ports.set_real(reference, [math.nextafter(limit, outward)])
+        access.set_real(reference, [math.nextafter(limit, outward)])
     with pytest.raises(InputError):
-        ports.initialise()
+        access.initialise()
 
 
 def test_there_are_limits() -> None:
@@ -49,11 +49,11 @@ def test_there_are_limits() -> None:
 @pytest.mark.parametrize("scenario", ["guan2014", "guan2014_added_mass"])
 def test_outputs_stay_within_theirs(scenario: str, algorithm: str) -> None:
     """In every step of a run with contact."""
-    made: list[Ports] = []
+    made: list[VariableAccess] = []
 
-    def component(name: str, ports: Ports) -> InProcessComponent:
-        made.append(ports)
-        return InProcessComponent(name, ports)
+    def component(name: str, access: VariableAccess) -> InProcessComponent:
+        made.append(access)
+        return InProcessComponent(name, access)
 
     def check(done: int, total: int) -> None:
         collision = made[-1]
@@ -74,7 +74,10 @@ def test_outputs_stay_within_theirs(scenario: str, algorithm: str) -> None:
     run_steps(
         loaded,
         loaded.load_ships(),
-        (lambda name: component(name, MANOEUVRING.ports()), lambda: component("collision", COLLISION.ports())),
+        (
+            lambda name: component(name, MANOEUVRING.make_access()),
+            lambda: component("collision", COLLISION.make_access()),
+        ),
         check,
     )
     assert made[-1].get_integer(made[-1].references(["impact.count"])) != [0]

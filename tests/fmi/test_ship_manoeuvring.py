@@ -16,7 +16,7 @@ from fmpy import extract, read_model_description
 from shipcollision_fmu.errors import ShipCollisionError
 from shipcollision_fmu.fmi.builder.package import fmu_bytes, slave_directory
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE
-from shipcollision_fmu.fmi.variable_access import Ports
+from shipcollision_fmu.fmi.variable_access import VariableAccess
 
 OK, DISCARD, FATAL = 0, 2, 4
 Make = Callable[..., Any]
@@ -91,19 +91,19 @@ def test_names_are_the_contracts(folder: Path) -> None:
 
 def test_every_variable_is_a_cell_of_its_own() -> None:
     """Writing one value changes that value and no other, and the table forgets no number that the model gives."""
-    ports = INTERFACE.ports()
-    reals = [k for k, line in enumerate(ports.table) if line.kind == "Real"]
-    places = {(line.path, line.index) for line in ports.table}
-    assert len(places) == len(ports.table)
-    model: Any = ports.model
+    access = INTERFACE.make_access()
+    reals = [k for k, line in enumerate(access.table) if line.kind == "Real"]
+    places = {(line.path, line.index) for line in access.table}
+    assert len(places) == len(access.table)
+    model: Any = access.model
     for part in ("parameters", "inputs", "outputs"):
         for name, values in vars(getattr(model, part)).items():
             for index in range(len(values)) if isinstance(values, list) else (None,):
                 assert (f"{part}.{name}", index) in places
-    settable = [k for k in reals if ports.table[k].causality != "output"]
+    settable = [k for k in reals if access.table[k].causality != "output"]
     numbers = [random.Random(3).random() for _ in settable]
-    ports.set_real(settable, numbers)
-    assert ports.get_real(settable) == numbers
+    access.set_real(settable, numbers)
+    assert access.get_real(settable) == numbers
 
 
 def test_the_start_is_what_was_asked_for(ship: Make) -> None:
@@ -128,12 +128,12 @@ def test_what_the_outputs_depend_on_at_the_start(folder: Path) -> None:
     base |= {"initial.velocity.surge": 4.0}
 
     def start(values: dict[str, Any]) -> list[float]:
-        ports = INTERFACE.ports()
+        access = INTERFACE.make_access()
         for name, value in values.items():
-            (reference,) = ports.references([name])
-            setters: dict[type, Any] = {bool: ports.set_boolean, int: ports.set_integer, str: ports.set_string}
-            setters.get(type(value), ports.set_real)([reference], [value])
-        return ports.get_real(ports.references(list(declared)))
+            (reference,) = access.references([name])
+            setters: dict[type, Any] = {bool: access.set_boolean, int: access.set_integer, str: access.set_string}
+            setters.get(type(value), access.set_real)([reference], [value])
+        return access.get_real(access.references(list(declared)))
 
     expected, changes = start(base), 0
     for line in INTERFACE.table(()):
@@ -152,23 +152,23 @@ def test_what_the_outputs_depend_on_at_the_start(folder: Path) -> None:
 
 
 def test_the_fmu_and_the_ports_give_the_same_bits(ship: Make) -> None:
-    a, ports = sailing(ship()), INTERFACE.ports()
-    ports.set_boolean(ports.references(["hydrodynamics"]), [True])
-    ports.set_integer(ports.references(["degrees_of_freedom"]), [3])
-    ports.set_real(
-        ports.references(["initial.velocity.surge", "initial.attitude.yaw", "initial.position.north"]), [7.0, 0.1, 5.0]
+    a, access = sailing(ship()), INTERFACE.make_access()
+    access.set_boolean(access.references(["hydrodynamics"]), [True])
+    access.set_integer(access.references(["degrees_of_freedom"]), [3])
+    access.set_real(
+        access.references(["initial.velocity.surge", "initial.attitude.yaw", "initial.position.north"]), [7.0, 0.1, 5.0]
     )
-    ports.set_real(ports.references(["rudder_order", "propeller_order"]), [0.5, 1.7])
-    ports.initialise()
+    access.set_real(access.references(["rudder_order", "propeller_order"]), [0.5, 1.7])
+    access.initialise()
     reals = a.kinds["Real"]
-    impulse = ports.references(["impulse.sway", "impulse.yaw"])
+    impulse = access.references(["impulse.sway", "impulse.yaw"])
     for k in range(40):
         if k == 20:
             a.fmu.setReal(impulse, [1e8, -1e9])
-            ports.set_real(impulse, [1e8, -1e9])
+            access.set_real(impulse, [1e8, -1e9])
         assert a.step(k, 0.05) == OK
-        ports.do_step(k * 0.05, 0.05)
-        assert a.fmu.getReal(reals) == ports.get_real(reals)
+        access.do_step(k * 0.05, 0.05)
+        assert a.fmu.getReal(reals) == access.get_real(reals)
     assert a.reals("impulse_applied.sway", "impulse_applied.yaw") == [1e8, -1e9]
 
 
@@ -240,7 +240,7 @@ def test_instances_may_come_and_go(ship: Make) -> None:
 
 
 def test_ports_are_those_of_the_interface() -> None:
-    ports = INTERFACE.ports()
-    assert isinstance(ports, Ports)
-    assert ports.name == "ShipManoeuvring"
-    assert ports.table == INTERFACE.table(("own", "target"))
+    access = INTERFACE.make_access()
+    assert isinstance(access, VariableAccess)
+    assert access.name == "ShipManoeuvring"
+    assert access.table == INTERFACE.table(("own", "target"))

@@ -215,7 +215,7 @@ def test_places_that_cannot_be_written(scenario_file: Write, tmp_path: Path) -> 
 )
 def test_start_values_that_cannot_be(start: dict[str, object], message: str) -> None:
     with pytest.raises(InputError, match=message):
-        COLLISION.ports(start=start)
+        COLLISION.make_access(start=start)
 
 
 # OSP-IS. ------------------------------------------------------------------------------
@@ -291,10 +291,10 @@ def test_the_fmu_runs_where_no_ship_file_is(scenario_file: Write, tmp_path: Path
     (path.parent / "barge.toml").unlink()
     unpacked = Path(extract(str(tmp_path / "osp" / "own.fmu"), str(tmp_path / "unpacked")))
     start = json.loads((unpacked / "resources" / "start.json").read_text())
-    ports = MANOEUVRING.ports(start=start, files=unpacked / "resources")
-    ports.initialise()
-    ports.do_step(0.0, 0.05)
-    state = json.loads(json.dumps(ports.save()))
-    again = MANOEUVRING.ports(files=unpacked / "resources")
+    access = MANOEUVRING.make_access(start=start, files=unpacked / "resources")
+    access.initialise()
+    access.do_step(0.0, 0.05)
+    state = json.loads(json.dumps(access.save()))
+    again = MANOEUVRING.make_access(files=unpacked / "resources")
     again.restore(state)
     assert again.save() == state

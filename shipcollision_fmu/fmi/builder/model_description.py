@@ -16,7 +16,7 @@ from ... import __version__
 from ..interface import Interface
 from ..slave_base import LOG_CATEGORIES
 from ..units import UNITS
-from ..variable_access import Ports
+from ..variable_access import VariableAccess
 from ..variables import Table, Variable
 
 __all__ = ["Version", "dependencies", "describe_variable", "limits", "number", "open_document", "start", "to_bytes"]
@@ -34,7 +34,9 @@ class Version:
     units: tuple[str, ...] = ()
 
 
-def open_document(version: Version, interface: Interface, identity: str, ports: Ports) -> tuple[Element, Element]:
+def open_document(
+    version: Version, interface: Interface, identity: str, access: VariableAccess
+) -> tuple[Element, Element]:
     """The document up to its variables, and the empty element ModelVariables."""
     root = Element("fmiModelDescription", {
         "fmiVersion": version.number,
@@ -48,8 +50,8 @@ def open_document(version: Version, interface: Interface, identity: str, ports: 
     })  # fmt: skip
     capabilities = {name: str(able).lower() for name, able in version.capabilities.items()}
     SubElement(root, "CoSimulation", {"modelIdentifier": interface.name, **capabilities})
-    _add_units(root, ports.table, *version.units)
-    _add_types(root, ports.table, version.enumeration)
+    _add_units(root, access.table, *version.units)
+    _add_types(root, access.table, version.enumeration)
     _add_categories(root)
     SubElement(root, "DefaultExperiment", {"startTime": "0", "stepSize": number(interface.step_size)})
     return root, SubElement(root, "ModelVariables")
@@ -130,15 +132,15 @@ def limits(variable: Variable) -> dict[str, str]:
     return value
 
 
-def start(variable: Variable, reference: int, ports: Ports) -> str:
+def start(variable: Variable, reference: int, access: VariableAccess) -> str:
     """What a fresh model holds there."""
     if variable.kind == "Real":
-        return number(ports.get_real([reference])[0])
+        return number(access.get_real([reference])[0])
     if variable.kind == "Boolean":
-        return str(ports.get_boolean([reference])[0]).lower()
+        return str(access.get_boolean([reference])[0]).lower()
     if variable.kind == "String":
-        return ports.get_string([reference])[0]
-    return str(ports.get_integer([reference])[0])
+        return access.get_string([reference])[0]
+    return str(access.get_integer([reference])[0])
 
 
 def dependencies(variable: Variable, table: Table) -> list[int]:

@@ -12,7 +12,7 @@ from typing import Any
 from xml.etree.ElementTree import Element, SubElement
 
 from ..interface import Interface
-from ..variable_access import Ports
+from ..variable_access import VariableAccess
 from ..variables import Table, Variable
 from .model_description import Version, dependencies, describe_variable, limits, open_document, start
 
@@ -34,11 +34,11 @@ def model_description(
     interface: Interface, ships: tuple[str, ...], guid: str, starts: Mapping[str, Any] | None = None
 ) -> Element:
     """The whole document. `starts` are start values in place of the model's own."""
-    ports = interface.ports(ships, starts)
-    root, variables = open_document(_VERSION, interface, guid, ports)
-    for reference, variable in enumerate(ports.table):
-        _variable(variables, reference, variable, ports)
-    _structure(root, ports.table)
+    access = interface.make_access(ships, starts)
+    root, variables = open_document(_VERSION, interface, guid, access)
+    for reference, variable in enumerate(access.table):
+        _variable(variables, reference, variable, access)
+    _structure(root, access.table)
     return root
 
 
@@ -50,12 +50,12 @@ def _enumeration(definitions: Element, name: str, variable: Variable) -> Element
 _VERSION = Version("2.0", "guid", _CAPABILITIES, _enumeration)
 
 
-def _variable(variables: Element, reference: int, variable: Variable, ports: Ports) -> None:
+def _variable(variables: Element, reference: int, variable: Variable, access: VariableAccess) -> None:
     attributes = describe_variable(variable.name, reference, variable.description, variable)
     node = SubElement(variables, "ScalarVariable", attributes)
     value = limits(variable)
     if variable.causality != "output":
-        value["start"] = start(variable, reference, ports)
+        value["start"] = start(variable, reference, access)
     SubElement(node, variable.kind, value)
 
 

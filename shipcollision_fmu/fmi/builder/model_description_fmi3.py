@@ -16,7 +16,7 @@ from xml.etree.ElementTree import Element, SubElement
 
 from ..arrays import TIME, TYPES, ArrayVariable, arrays
 from ..interface import Interface
-from ..variable_access import Ports
+from ..variable_access import VariableAccess
 from ..variables import Table, Variable
 from .model_description import Version, dependencies, describe_variable, limits, open_document, start
 
@@ -44,9 +44,9 @@ def model_description(
     interface: Interface, ships: tuple[str, ...], token: str, starts: Mapping[str, Any] | None = None
 ) -> Element:
     """The whole document. `starts` are start values in place of the model's own."""
-    ports = interface.ports(ships, starts)
-    table, gathered = ports.table, arrays(ports.table)
-    root, variables = open_document(_VERSION, interface, token, ports)
+    access = interface.make_access(ships, starts)
+    table, gathered = access.table, arrays(access.table)
+    root, variables = open_document(_VERSION, interface, token, access)
     SubElement(variables, "Float64", {
         "name": "time",
         "valueReference": str(TIME),
@@ -56,7 +56,7 @@ def model_description(
         "unit": _SECOND,
     })  # fmt: skip
     for reference, array in enumerate(gathered, TIME + 1):
-        _variable(variables, reference, array, ports)
+        _variable(variables, reference, array, access)
     _structure(root, gathered, table)
     return root
 
@@ -68,10 +68,10 @@ def _enumeration(definitions: Element, name: str, variable: Variable) -> Element
 _VERSION = Version("3.0", "instantiationToken", _CAPABILITIES, _enumeration, (_SECOND,))
 
 
-def _variable(variables: Element, reference: int, array: ArrayVariable, ports: Ports) -> None:
+def _variable(variables: Element, reference: int, array: ArrayVariable, access: VariableAccess) -> None:
     line = array.line
     attributes = describe_variable(array.name, reference, array.description, line)
-    starts = [start(ports.table[scalar], scalar, ports) for scalar in array.references]
+    starts = [start(access.table[scalar], scalar, access) for scalar in array.references]
     settable, string = line.causality != "output", line.kind == "String"
     if settable and not string:
         attributes["start"] = " ".join(starts)
