@@ -1,9 +1,9 @@
-"""What the collision model knows of each body: the ships in the order of the build, then the obstacles."""
+"""The bodies of the collision model: the ships in the order of the build, then the obstacles."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import hypot
 from pathlib import Path
 
@@ -22,15 +22,16 @@ from .geometry.bullet import BulletBody
 from .interface import CollisionParameters, ShipParameters
 from .obstacles import Obstacle, read_obstacles
 
-__all__ = ["Body", "apart", "prepare_bodies"]
+__all__ = ["Body", "prepare_bodies"]
 
 
 @dataclass(frozen=True, eq=False)
 class Body:
     """A ship or an obstacle.
 
-    reach: no point of the hull is farther from CO [m]; free: degrees of freedom, 0 of an obstacle; wall: the state of
-    an obstacle; rectangle: where an obstacle stands.
+    reach: no point of the hull is farther from CO [m]; free: degrees of freedom, 0 for an obstacle; fender_thickness:
+    how far before the hull the fender acts [m], 0 without one; wall: the state of an obstacle, None for a ship;
+    rectangle: where an obstacle stands.
     """
 
     name: str
@@ -42,15 +43,21 @@ class Body:
     fender: Fender | None
     wall: BodyState | None = None
     rectangle: Rectangle = (0.0, 0.0, 0.0, 0.0)
+    fender_thickness: float = field(init=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "fender_thickness", self.fender.thickness if self.fender else 0.0)
 
     def inverse_at(self, attitude: Sequence[float]) -> Array:
         """M^-1 (6, 6) in the free degrees of freedom at an attitude [rad]: d(nu) = M^-1 impulse, in b about CO."""
         return tilted_inverse(self.upright_inverse, self.free, attitude)
 
-    @property
-    def around(self) -> float:
-        """How far before the hull its fender acts [m]."""
-        return self.fender.thickness if self.fender else 0.0
+    def largest_speed(self, state: BodyState) -> float:
+        """Bound [m/s] of the speed of any point of the hull, in the mean over the step: |v| + |omega| reach."""
+        if state.fixed:
+            return 0.0
+        u, v, w, p, q, r = state.nu_mean.tolist()
+        return hypot(u, v, w) + hypot(p, q, r) * self.reach
 
 
 def prepare_bodies(names: Sequence[str], parameters: CollisionParameters, directory: Path | None = None) -> list[Body]:
@@ -86,12 +93,6 @@ def _wall(obstacle: Obstacle) -> Body:
         obstacle.name, obstacle.solid, float(np.linalg.norm(obstacle.solid.vertices, axis=1).max()),
         0, wall.M_inverse, BulletBody(0.0, np.zeros(3), np.zeros(3)), obstacle.fender, wall, (n_0, n_1, e_0, e_1),
     )  # fmt: skip
-
-
-def apart(center: tuple[float, float], reach: float, rectangle: Rectangle) -> float:
-    """Distance [m] of a circle from a rectangle in the plane, negative in overlap of their bounds."""
-    (n, e), (n_0, n_1, e_0, e_1) = center, rectangle
-    return hypot(max(n_0 - n, 0.0, n - n_1), max(e_0 - e, 0.0, e - e_1)) - reach
 
 
 def _refuse_what_bullet_lacks(names: Sequence[str], ships: Sequence[Ship], given: Sequence[ShipParameters]) -> None:

@@ -1,14 +1,17 @@
-"""Collisions and scratches in time.
+"""Collisions and scratches in time, decided here and nowhere else.
 
-A collision (episode) of a pair opens at its first contact and closes when the pair has been apart for
-`minimum_separation_time`. A scratch is contact without a pause longer than SCRATCH_PAUSE. Both are numbered from 1.
-Trackers read contacts and never write back.
+    collision    of a pair: opens at the first contact (the *impact*), closes when the pair has been without contact for
+                 minimum_separation_time
+    scratch      contact of a pair without a pause longer than SCRATCH_PAUSE
+
+Both are numbered from 1. Contacts are read and never changed. With `answer_once` (feedback "none", for ship models that
+ignore contact) only the impact is answered with impulses; the rest of the collision is merely recorded.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from math import acos
 from typing import Any
 
@@ -16,41 +19,34 @@ import numpy as np
 
 from ..ship.frames import Array
 from .dynamics.body_state import BodyState
-from .dynamics.contact import Contact, contact_velocity
+from .dynamics.contact import Contact, mean_velocity
+from .geometry.broad_phase import Pair
+from .interface import Impact
 
-__all__ = ["SCRATCH_PAUSE", "Collisions", "Impact", "heading_angle"]
+__all__ = ["SCRATCH_PAUSE", "Collisions", "Numbers", "heading_angle"]
 
 SCRATCH_PAUSE = 0.5
-"""Pause of contact [s] that a scratch survives: ships that slide along each other touch and part at every substep."""
+"""Pause of contact [s] that does not end a scratch: sliding ships touch and part at every substep. With zero, a scratch
+would fall into one piece per substep."""
 
-
-@dataclass
-class Impact:
-    """The start of a collision: time [s], first contact point in n [m], closing speed along the normal [m/s], and the
-    angle between the headings [rad], 0 to pi (0: same heading, pi: head-on). ship_a, ship_b are 1-based."""
-
-    time: float = 0.0
-    point: list[float] = field(default_factory=lambda: [0.0, 0.0, 0.0])
-    closing_speed: float = 0.0
-    angle: float = 0.0
-    ship_a: int = 0
-    ship_b: int = 0
+Numbers = dict[Pair, tuple[int, int]]
+"""(number of the collision, number of the scratch) of pairs in contact."""
 
 
 @dataclass
 class _Pair:
-    impact: int = 0  # number of the open collision, 0: none
+    collision: int = 0  # number of the open collision, 0: none
     scratch: int = 0
     last_contact: float = 0.0
 
 
 class Collisions:
-    """Opens, numbers and closes the collisions and scratches of every pair."""
+    """Opens, numbers and closes the collisions and scratches of every pair. count: collisions so far."""
 
-    def __init__(self, minimum_separation_time: float) -> None:
-        self._separation = minimum_separation_time
-        self._pairs: dict[tuple[int, int], _Pair] = {}
-        self.impacts = 0
+    def __init__(self, minimum_separation_time: float, answer_once: bool = False) -> None:
+        self._separation, self._answer_once = minimum_separation_time, answer_once
+        self._pairs: dict[Pair, _Pair] = {}
+        self.count = 0
         self.scratches = 0
         self.latest = Impact()
 
@@ -59,52 +55,62 @@ class Collisions:
         for pair in self._pairs.values():
             if pair.scratch and t - pair.last_contact > SCRATCH_PAUSE:
                 pair.scratch = 0
-            if pair.impact and t - pair.last_contact >= self._separation:
-                pair.impact = 0
+            if pair.collision and t - pair.last_contact >= self._separation:
+                pair.collision = 0
 
-    def touch(self, t: float, contacts: Sequence[Contact], states: Sequence[BodyState]) -> None:
-        """Take the contacts of one pair at time t [s], before their impulses change the states' velocities."""
-        a, b = contacts[0].a, contacts[0].b
-        pair = self._pairs.setdefault((a, b), _Pair())
-        if not pair.impact:
-            self.impacts += 1
-            pair.impact = self.impacts
-            point = sum((c.point for c in contacts), np.zeros(3)) / len(contacts)
-            closing = max(-float(contact_velocity(c, states) @ c.normal) for c in contacts)
-            self.latest = Impact(
-                t, point.tolist(), max(closing, 0.0), heading_angle(states[a].R, states[b].R), a + 1, b + 1
-            )
-        if not pair.scratch:
-            self.scratches += 1
-            pair.scratch = self.scratches
-        pair.last_contact = t
+    def split_by_answer(self, pairs: Sequence[Pair]) -> tuple[Sequence[Pair], Sequence[Pair]]:
+        """(pairs whose contacts are answered with impulses, pairs whose contacts are merely recorded)."""
+        if not self._answer_once:
+            return pairs, ()
+        is_open = {pair for pair in pairs if pair in self._pairs and self._pairs[pair].collision}
+        return [pair for pair in pairs if pair not in is_open], [pair for pair in pairs if pair in is_open]
 
-    def is_open(self, a: int, b: int) -> bool:
-        """Whether the pair is in a collision."""
-        return (a, b) in self._pairs and self._pairs[a, b].impact > 0
+    def register(self, t: float, contacts: Sequence[Contact], states: Sequence[BodyState]) -> Numbers:
+        """Open what begins with these contacts at time t [s]; the numbers of every pair in contact.
 
-    def open_ships(self) -> set[int]:
-        """Bodies that are in a collision with any other."""
-        return {ship for pair, state in self._pairs.items() if state.impact for ship in pair}
+        Call it before the impulses of the instant are booked: the closing speed is that of the approach.
+        """
+        by_pair: dict[Pair, list[Contact]] = {}
+        for contact in contacts:
+            by_pair.setdefault((contact.a, contact.b), []).append(contact)
+        numbers = {}
+        for key, of_pair in by_pair.items():
+            pair = self._pairs.setdefault(key, _Pair())
+            if not pair.collision:
+                self.count += 1
+                pair.collision = self.count
+                self.latest = _describe_impact(t, of_pair, states)
+            if not pair.scratch:
+                self.scratches += 1
+                pair.scratch = self.scratches
+            pair.last_contact = t
+            numbers[key] = pair.collision, pair.scratch
+        return numbers
 
-    def numbers(self, a: int, b: int) -> tuple[int, int]:
-        """(collision, scratch) of a pair, 0 where none is open."""
-        pair = self._pairs.get((a, b), _Pair())
-        return pair.impact, pair.scratch
+    def bodies_in_collision(self) -> set[int]:
+        """Bodies in an open collision with any other."""
+        return {body for pair, state in self._pairs.items() if state.collision for body in pair}
 
     def get_state(self) -> dict[str, Any]:
         """All of it as plain data."""
-        pairs = [[a, b, p.impact, p.scratch, p.last_contact] for (a, b), p in self._pairs.items()]
+        pairs = [[a, b, p.collision, p.scratch, p.last_contact] for (a, b), p in self._pairs.items()]
         latest = {**vars(self.latest), "point": list(self.latest.point)}
-        return {"pairs": pairs, "impacts": self.impacts, "scratches": self.scratches, "latest": latest}
+        return {"pairs": pairs, "count": self.count, "scratches": self.scratches, "latest": latest}
 
     def set_state(self, state: dict[str, Any]) -> None:
-        """Back to a state that get_state returned."""
-        self._pairs = {(a, b): _Pair(impact, scratch, last) for a, b, impact, scratch, last in state["pairs"]}
-        self.impacts, self.scratches = state["impacts"], state["scratches"]
-        latest = dict(state["latest"])
-        latest["point"] = list(latest["point"])
-        self.latest = Impact(**latest)
+        """Back to a state of get_state, exact to the bit."""
+        self._pairs = {(a, b): _Pair(collision, scratch, last) for a, b, collision, scratch, last in state["pairs"]}
+        self.count, self.scratches = state["count"], state["scratches"]
+        self.latest = Impact(**{**state["latest"], "point": list(state["latest"]["point"])})
+
+
+def _describe_impact(t: float, contacts: Sequence[Contact], states: Sequence[BodyState]) -> Impact:
+    """The impact of one pair: at the middle of its contacts, with the largest approach of any."""
+    a, b = contacts[0].a, contacts[0].b
+    point = sum((c.point for c in contacts), np.zeros(3)) / len(contacts)
+    closing = max(-float(mean_velocity(c, states) @ c.normal) for c in contacts)
+    angle = heading_angle(states[a].R, states[b].R)
+    return Impact(t, point.tolist(), max(closing, 0.0), angle, a + 1, b + 1)
 
 
 def heading_angle(R_a: Array, R_b: Array) -> float:

@@ -1,92 +1,114 @@
-"""The contact points of a communication step: those of its substeps, joined where they are the same place."""
+"""The contact points of a communication step: contacts of its substeps, merged where the place is the same."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ..ship.frames import Array
-from .dynamics.contact import Contact
+from .collisions import Numbers
+from .dynamics.contact import Contact, Impulse
 from .interface import ContactOutput
 
-__all__ = ["SAME_PLACE", "ContactPoint", "fit_contact_points", "merge_contact_point"]
+__all__ = ["SAME_PLACE", "ContactPoint", "fill_contacts", "fit_contact_points", "merge_contact_point", "merge_impulses"]
 
 SAME_PLACE = 2.0
-"""Contact points of a pair closer than this [m] on ship a, from different substeps, are one point that moves."""
+"""Contacts of a pair closer than this [m] on ship a, from different substeps, are one point that moves. With less, one
+sliding contact would fill the outputs; with more, both ends of a short line of contact would be one point."""
 
 
 @dataclass(frozen=True)
 class ContactPoint:
-    """A contact point over a step: its latest geometry, the impulse P (3,) on ship b summed in n and, of that, what was
-    along the normal P_n and across it P_t (3,), as the normal was each time; the energy lost [J]. Numbers of collision
-    and scratch are 0 where a fender acts and the hulls do not touch."""
+    """A contact point over a step.
 
-    contact: Contact | None
+    contact: its latest geometry; P (3,): impulse on body b, summed in n [N s]; P_n, P_t (3,): the parts along and
+    across the normal, as the normal was each time; energy: lost [J]; collision, scratch: their numbers, 0 where a
+    fender acts and the hulls do not touch.
+    """
+
+    contact: Contact
     P: Array
     P_n: float
     P_t: Array
     energy: float
-    impact: int
+    collision: int
     scratch: int
 
     @classmethod
-    def of(cls, contact: Contact, P: Array, energy: float, impact: int, scratch: int) -> ContactPoint:
-        """One impulse at a contact."""
+    def of(cls, contact: Contact, P: Array, energy: float, collision: int, scratch: int) -> ContactPoint:
+        """The point of one impulse at a contact."""
         P_n = float(P @ contact.normal)
-        return cls(contact, P, P_n, P - P_n * contact.normal, energy, impact, scratch)
+        return cls(contact, P, P_n, P - P_n * contact.normal, energy, collision, scratch)
 
-    @classmethod
-    def unused(cls) -> ContactPoint:
-        """A point in which nothing touched."""
-        return cls(None, np.zeros(3), 0.0, np.zeros(3), 0.0, 0, 0)
-
-    def joined(self, other: ContactPoint) -> ContactPoint:
-        """Both as one, with the other's geometry and numbers."""
+    def merge(self, later: ContactPoint) -> ContactPoint:
+        """Both as one, with the geometry and the numbers of the later one."""
         return replace(
-            other, P=self.P + other.P, P_n=self.P_n + other.P_n, P_t=self.P_t + other.P_t,
-            energy=self.energy + other.energy,
+            later, P=self.P + later.P, P_n=self.P_n + later.P_n, P_t=self.P_t + later.P_t,
+            energy=self.energy + later.energy,
         )  # fmt: skip
 
-    def fill(self, place: ContactOutput) -> None:
-        """Write it where the outputs are."""
-        c = self.contact
-        if c is None:
-            for vector in (place.point, place.normal, place.r_a, place.r_b, place.impulse):
-                vector[:] = [0.0, 0.0, 0.0]
-            place.gap = place.impulse_normal = place.impulse_tangential = place.energy = 0.0
-            place.ship_a = place.ship_b = place.collision = place.scratch = 0
-            return
-        place.point[:], place.normal[:] = c.point.tolist(), c.normal.tolist()
-        place.r_a[:], place.r_b[:], place.impulse[:] = c.r_a.tolist(), c.r_b.tolist(), self.P.tolist()
-        place.gap, place.energy = c.gap, self.energy
-        place.impulse_normal, place.impulse_tangential = self.P_n, float(np.linalg.norm(self.P_t))
-        place.ship_a, place.ship_b, place.collision, place.scratch = c.a + 1, c.b + 1, self.impact, self.scratch
+
+def merge_impulses(
+    points: list[ContactPoint],
+    impulses: Sequence[Impulse],
+    energies: Sequence[tuple[float, float]],
+    numbers: Numbers,
+) -> list[ContactPoint]:
+    """The points with the impulses of a substep. energies: lost along and across the normal [J]."""
+    for impulse, (along, across) in zip(impulses, energies, strict=True):
+        c = impulse.contact
+        points = merge_contact_point(points, ContactPoint.of(c, impulse.P, along + across, *numbers[c.a, c.b]))
+    return points
 
 
 def merge_contact_point(points: list[ContactPoint], new: ContactPoint) -> list[ContactPoint]:
-    """The points with one more contact: added to the point at the same place, else as a point of its own."""
+    """The points with one more: merged with the point at the same place, else added."""
     c = new.contact
-    assert c is not None
     for k, old in enumerate(points):
         o = old.contact
-        alike = o is not None and (o.a, o.b) == (c.a, c.b) and (old.impact > 0) == (new.impact > 0)
-        if o is not None and alike and np.linalg.norm(o.r_a - c.r_a) < SAME_PLACE:
-            return [*points[:k], old.joined(new), *points[k + 1 :]]
+        alike = (o.a, o.b) == (c.a, c.b) and (old.collision > 0) == (new.collision > 0)
+        if alike and np.linalg.norm(o.r_a - c.r_a) < SAME_PLACE:
+            return [*points[:k], old.merge(new), *points[k + 1 :]]
     return [*points, new]
 
 
 def fit_contact_points(points: list[ContactPoint], most: int) -> list[ContactPoint]:
-    """At most so many points: if there are more, the points of a pair become one, at the place of the largest impulse,
-    so that impulse and energy of every pair are kept; of more pairs than points those of the largest impulses."""
+    """At most so many points. Where there are more, the points of a pair become one, at the place of the largest
+    impulse, which keeps impulse and energy of the pair. Of more pairs than points the largest impulses remain."""
     if len(points) <= most:
         return points
     pairs: dict[tuple[int, int, bool], ContactPoint] = {}
     for point in sorted(points, key=_size):
-        assert point.contact is not None
-        pair = (point.contact.a, point.contact.b, point.impact > 0)
-        pairs[pair] = pairs[pair].joined(point) if pair in pairs else point
+        pair = (point.contact.a, point.contact.b, point.collision > 0)
+        pairs[pair] = pairs[pair].merge(point) if pair in pairs else point
     return sorted(pairs.values(), key=_size, reverse=True)[:most]
+
+
+def fill_contacts(points: list[ContactPoint], outputs: Sequence[ContactOutput]) -> None:
+    """Write the points to the outputs, and zeros to the outputs that are left."""
+    for k, out in enumerate(outputs):
+        if k < len(points):
+            _fill(out, points[k])
+        elif out.ship_a:
+            _clear(out)
+
+
+def _fill(out: ContactOutput, point: ContactPoint) -> None:
+    c = point.contact
+    out.point[:], out.normal[:] = c.point.tolist(), c.normal.tolist()
+    out.r_a[:], out.r_b[:], out.impulse[:] = c.r_a.tolist(), c.r_b.tolist(), point.P.tolist()
+    out.gap, out.energy = c.gap, point.energy
+    out.impulse_normal, out.impulse_tangential = point.P_n, float(np.linalg.norm(point.P_t))
+    out.ship_a, out.ship_b, out.collision, out.scratch = c.a + 1, c.b + 1, point.collision, point.scratch
+
+
+def _clear(out: ContactOutput) -> None:
+    for vector in (out.point, out.normal, out.r_a, out.r_b, out.impulse):
+        vector[:] = [0.0, 0.0, 0.0]
+    out.gap = out.impulse_normal = out.impulse_tangential = out.energy = 0.0
+    out.ship_a = out.ship_b = out.collision = out.scratch = 0
 
 
 def _size(point: ContactPoint) -> float:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 __all__ = [
     "CollisionInputs", "CollisionOutputs", "CollisionParameters", "ContactOutput", "EnergyOutput", "FenderOutput",
-    "FenderParameters", "ImpactOutput", "ShipParameters", "ShipPost", "ShipState", "SolverOutput",
+    "FenderParameters", "Impact", "ShipParameters", "ShipPost", "ShipState", "SolverOutput",
     "contact_point_count",
 ]  # fmt: skip
 
@@ -123,7 +123,7 @@ class ContactOutput:
 
 
 @dataclass
-class ImpactOutput:
+class Impact:
     """The latest impact, with which a collision began: time [s], first contact point in n [m], closing speed along the
     normal [m/s], angle between the headings [rad], ships from 1."""
 
@@ -174,7 +174,7 @@ class CollisionOutputs:
     contact_active: bool = False
     contact_count: int = 0
     collision_count: int = 0
-    impact: ImpactOutput = field(default_factory=ImpactOutput)
+    impact: Impact = field(default_factory=Impact)
     scratch_id: int = 0
     energy: EnergyOutput = field(default_factory=EnergyOutput)
     fender: FenderOutput = field(default_factory=FenderOutput)

@@ -63,6 +63,4 @@ def _overlap(hulls: tuple[HullMesh, HullMesh], states: tuple[BodyState, BodyStat
         return 0.0
     detector = Detector(hulls)
     with closing(detector.bullet):
-        for i, state in enumerate(states):
-            detector.place(i, state)
-        return max(0.0, -detector.clearance(0, 1, 0.0))
+        return max(0.0, -detector.clearance(0, 1, states, 0.0))

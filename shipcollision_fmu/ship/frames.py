@@ -28,6 +28,7 @@ __all__ = [
     "attitude_from_quaternion",
     "attitude_from_rotation",
     "attitude_unwrapped",
+    "pose_w",
     "quaternion",
     "quaternion_w",
     "rotation",
@@ -35,6 +36,7 @@ __all__ = [
     "rotation_vector",
     "skew",
     "swapped",
+    "swapped_rows",
 ]
 
 Array = npt.NDArray[np.float64]
@@ -131,6 +133,18 @@ def swapped(v: Sequence[float] | Array) -> tuple[float, float, float]:
     """The same vector in the other convention, n <-> w or b <-> Bullet's body axes: (y, x, -z)."""
     x, y, z = v
     return (float(y), float(x), -float(z))
+
+
+def swapped_rows(vectors: Sequence[Sequence[float]]) -> Array:
+    """Several vectors in the other convention, as the rows of an array (k, 3)."""
+    rows: Array = np.array(vectors)[:, (1, 0, 2)]
+    rows[:, 2] = -rows[:, 2]
+    return rows
+
+
+def pose_w(x: Array, R_nb: Array) -> tuple[tuple[float, float, float], tuple[float, float, float, float]]:
+    """Bullet's pose of a body at x (3,) in n with R_nb: (position in w, quaternion of quaternion_w)."""
+    return swapped(x), quaternion_w(R_nb)
 
 
 def quaternion_w(R_nb: Array) -> tuple[float, float, float, float]:

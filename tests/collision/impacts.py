@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 from hypothesis import strategies as st
 
-from shipcollision_fmu.collision.dynamics.body_state import BodyState, point_jacobian
-from shipcollision_fmu.collision.dynamics.contact import make_contact
+from shipcollision_fmu.collision.dynamics.body_state import BodyState
+from shipcollision_fmu.collision.dynamics.contact import make_contact, point_jacobian
 from shipcollision_fmu.collision.dynamics.contact_frame import contact_axes
 from shipcollision_fmu.ship.degrees_of_freedom import FREE, free_inverse, level_axes, tilted_inverse
 from shipcollision_fmu.ship.frames import attitude_from_rotation, rotation
@@ -133,7 +133,7 @@ def check_momentum(impact: Impact, P: Array) -> None:
     contact = make_contact(0, 1, states, impact.point, impact.normal, 0.0)
     P_n = impact.axes.T @ P
     for state, G, sign in zip(states, (contact.G_a, contact.G_b), (-1.0, 1.0), strict=True):
-        state.book(sign * P_n @ G)
+        state.book([sign * P_n @ G])
     size = float(np.linalg.norm(P_n))
     wrenches, wrench_size = np.zeros((2, 3)), np.zeros((2, 3))
     for ship, state, sign in zip((impact.a, impact.b), states, (-1.0, 1.0), strict=True):

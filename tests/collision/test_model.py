@@ -9,7 +9,7 @@ from math import pi
 import numpy as np
 import pytest
 
-from shipcollision_fmu.collision import model as module
+from shipcollision_fmu.collision import totals
 from shipcollision_fmu.collision.model import ShipCollision
 from shipcollision_fmu.errors import InputError, StepError
 from tests.collision.conftest import BOX, NO_ADDED_MASS, World
@@ -382,8 +382,8 @@ def test_absurd_inputs_end_the_step_and_change_nothing(
 def test_answers_that_did_not_converge_are_warned_of_in_their_step_alone(
     make_ship: Make, world: MakeWorld, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Any answer is one, with a limit below nought."""
-    monkeypatch.setattr(module, "CONVERGED", -1.0)
+    """Any answer is one, with a limit below zero."""
+    monkeypatch.setattr(totals, "CONVERGED", -1.0)
     w = world([make_ship("a"), make_ship("b")], T_BONE)
     before, warned = 0, 0
     for k in range(80):

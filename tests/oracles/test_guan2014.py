@@ -9,7 +9,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from shipcollision_fmu.collision.dynamics.body_state import point_jacobian
+from shipcollision_fmu.collision.dynamics.contact import point_jacobian
 from shipcollision_fmu.collision.solvers.impact_process import solve_impact_process
 from shipcollision_fmu.ship.degrees_of_freedom import free_inverse
 from shipcollision_fmu.ship.frames import rotation

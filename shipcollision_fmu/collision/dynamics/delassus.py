@@ -1,11 +1,12 @@
-"""Inertia as the contacts feel it: the Delassus operator W and the free contact velocities.
+"""The law of motion at the contacts: relative velocities, and the Delassus operator W.
 
-    v_i = G_b nu_b - G_a nu_a                     velocity of b relative to a at contact i, in n     [m/s]
-    W_ij = sum over ships s of +- G_s,i M_s^-1 G_s,j^T       (3 x 3 blocks)                         [1/kg]
-    v(P) = v(0) + W P                             P (3k,) impulses on the b ships                    [N s]
+    v_i = G_b nu_b - G_a nu_a                     velocity of b relative to a at contact i           [m/s]
+    W_ij = sum over bodies s of +- G_s,i M_s^-1 G_s,j^T      (3 x 3 blocks)                          [1/kg]
+    v(P) = v(0) + W P                             P (3k,) impulses on the b bodies                   [N s]
 
-W is symmetric and positive semi-definite. It is J M^-1 J^T of Guan et al. 2014, equations (10)-(11), with M the 6x6
-rigid-body mass plus added mass of each ship, in place of their scalar mass and inertia, and with each ship's own arm.
+v, W and P are in the contacts' axes (normal, t1, t2). W is symmetric and positive semi-definite. It is J M^-1 J^T of
+Guan et al. 2014, equations (10)-(11), with M the 6x6 rigid-body mass plus added mass of each ship, in place of their
+scalar mass and inertia, and with each ship's own arm.
 """
 
 from __future__ import annotations
@@ -18,29 +19,32 @@ from ...ship.frames import Array
 from .body_state import BodyState
 from .contact import Contact
 
-__all__ = ["contact_jacobian", "delassus", "mobility"]
+__all__ = ["approach_velocities", "delassus", "mobility"]
 
 
-def contact_jacobian(contacts: Sequence[Contact]) -> tuple[Array, list[int]]:
-    """G (3k, 6m) from the twists of the m ships that touch to the k relative velocities; and those ships' indices."""
-    ships = sorted({s for c in contacts for s in (c.a, c.b)})
-    G = np.zeros((3 * len(contacts), 6 * len(ships)))
+def approach_velocities(contacts: Sequence[Contact], states: Sequence[BodyState]) -> Array:
+    """v (3k,) [m/s], the mean expected over the step (contact.mean_velocity), in contact axes."""
+    return np.concatenate([c.axes @ (c.G_b @ states[c.b].nu_mean - c.G_a @ states[c.a].nu_mean) for c in contacts])
+
+
+def delassus(contacts: Sequence[Contact], states: Sequence[BodyState]) -> Array:
+    """W (3k, 3k) [1/kg] in contact axes."""
+    bodies = sorted({body for c in contacts for body in (c.a, c.b)})
+    column = {body: slice(6 * i, 6 * i + 6) for i, body in enumerate(bodies)}
+    G = np.zeros((3 * len(contacts), 6 * len(bodies)))
     for i, c in enumerate(contacts):
-        for ship, G_ship in ((c.a, -c.G_a), (c.b, c.G_b)):
-            column = 6 * ships.index(ship)
-            G[3 * i : 3 * i + 3, column : column + 6] = G_ship
-    return G, ships
-
-
-def delassus(G: Array, ships: Sequence[int], states: Sequence[BodyState]) -> Array:
-    """W = G M^-1 G^T; (3k, 3k) [1/kg]."""
-    GM = np.hstack([G[:, 6 * i : 6 * i + 6] @ states[ship].M_inverse for i, ship in enumerate(ships)])
+        row = slice(3 * i, 3 * i + 3)
+        G[row, column[c.a]] = -c.G_a
+        G[row, column[c.b]] = c.G_b
+        G[row] = c.axes @ G[row]
+    GM = np.hstack([G[:, column[body]] @ states[body].M_inverse for body in bodies])
     W: Array = GM @ G.T
     symmetric: Array = 0.5 * (W + W.T)
     return symmetric
 
 
 def mobility(c: Contact, states: Sequence[BodyState]) -> Array:
-    """W of one contact alone, in n: what a unit impulse does to its relative velocity; (3, 3) [1/kg]."""
+    """W (3, 3) [1/kg] of one contact alone, in contact axes: what a unit impulse does to its relative velocity."""
     W: Array = c.G_a @ states[c.a].M_inverse @ c.G_a.T + c.G_b @ states[c.b].M_inverse @ c.G_b.T
-    return W
+    in_axes: Array = c.axes @ W @ c.axes.T
+    return in_axes

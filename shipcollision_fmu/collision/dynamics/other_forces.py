@@ -1,34 +1,34 @@
-"""How a ship's other forces move it within a step: seen in the last one, expected of the next.
+"""Velocity that other forces add to a ship within a step, estimated from the step before.
 
-A ship applies an impulse at the start of its step; thrust, rudder and current then push it on. Held against a quay, a
-ship that is merely stopped at every start creeps through it, by 1/2 a H in every step of H. So what is stopped is the
-*mean* velocity over the step:
+A ship model applies an impulse at the start of its step. Thrust, rudder and current then act on the ship until the end
+of the step. A ship that is pressed against a quay and merely stopped at every start would creep through it, by a H/2 H
+per step of H. Therefore the *mean* velocity over the step is stopped:
 
-    nu_start = nu received + M^-1 (impulse applied in the step)            after the step has begun
-    drift    = mean velocity over the step - that of coasting on           from the two poses received
-    gain     = velocity at its end - that of coasting on                   all in b at the step's start
+    nu_start      = nu received + M^-1 (impulse applied in the step)         after the step has begun
+    velocity_bias = mean velocity over the step - that of coasting           from the two poses received
+    velocity_gain = velocity at the end - that of coasting                   all in b at the start of the step
 
-Coasting on: CG straight ahead and CO round it. What is left is the work of forces.
+Coasting is the motion without forces (ship/coasting.py). Contact is detected and solved with nu + velocity_bias. With a
+one-step delay (impulse_ledger.py) an impulse meets a ship that has already gained velocity_gain: it is solved with nu +
+velocity_gain.
 
-and contact is looked for, and solved, with nu + drift. Under a parallel master an impulse is applied one step after it
-was issued, to a ship that has gained speed by then: nu + gain is the velocity that it will meet. The drift is measured
-where it acts, from poses. It is looked at only for ships that are in a collision: a first impact is solved with the
-velocities as they are. An answer with drift may turn an approach round (from -a H/2 to +a H/2, which the other forces
-turn back); that it never adds energy is seen to where it is booked (passivity.py).
+Only ships in an open collision have a bias. The first impact is solved with the velocities as received. The bias may
+reverse an approach, from -a H/2 to +a H/2, and the other forces reverse it again. passivity.py ensures that no energy
+is gained.
 
-Ships' models differ in what they move by under a constant force: the mean of the velocities at both ends of a step
-(exact), the one at its start (explicit Euler) or at its end (semi-implicit). Energy is reckoned with the velocity that
-an exact model would have, moving alike:
+Ship models differ in the velocity by which they move under a constant force: the mean of start and end (exact), the
+start (explicit Euler) or the end (semi-implicit Euler). Energy is reckoned with the velocity of an exact model with the
+same motion:
 
-    nu nu_energy = nu + mean - gain/2                        exact: nu; explicit: nu - a H/2; semi-implicit: nu + a H/2
+    nu_energy = nu + scheme_error,    scheme_error = velocity_bias - velocity_gain/2
+    exact: 0      explicit: -a H/2      semi-implicit: +a H/2      n inner steps: 1/n of these
 
-A scheme of n inner steps is 1/n as far off. Of an exact model mean - gain/2 is not nil either, but a twelfth of what
-the force grew by in the step: that moves no ship, and in an impact energy would be gained by it. Below EXACT of the
-gain it counts as nil: all that coasting ships have of it, and no scheme of less than a hundred inner steps.
+For an exact model the difference is a twelfth of the growth of the force in the step. It moves no ship, and an impact
+would gain energy by it. Below EXACT of the gain it counts as zero.
 
-What it costs: two poses per ship in contact, and one step of lag. A force that grows in a step lets the ship in by
-1/2 H^2 of its growth; when it falls the ship comes out by almost as much: under one that swings between nothing and
-twice its mean, in 3 s, a ship at the quay is 6 mm in after a minute of H = 0.1 s (tests/collision/test_quay.py).
+Cost: two poses per ship in contact, and a lag of one step. A growing force lets the ship in by H^2/2 of its growth in a
+step; a falling force lets it out by almost as much. Example: the force swings between zero and twice its mean in 3 s,
+with H = 0.1 s. After a minute the ship is 6 mm in the quay (tests/collision/test_quay.py).
 """
 
 from __future__ import annotations
@@ -40,17 +40,18 @@ import numpy as np
 
 from ...ship.frames import Array, rotation, rotation_vector
 
-__all__ = ["Drift", "ReceivedState", "drift"]
+__all__ = ["OtherForces", "ReceivedState", "estimate_other_forces"]
 
-MOST = 2.0
-"""Acceleration [m/s2] above which the motion between two steps is not a ship's (it was put elsewhere): no drift."""
+MAX_ACCELERATION = 2.0
+"""Acceleration [m/s2] above which the motion between two steps is no ship's: the host has moved the ship. With a lower
+limit a hard manoeuvre would be ignored, and a pressed ship would creep through a quay."""
 
-LEAST = 1e-9
-"""Drift [m/s] below which there is none: rounding of the poses."""
-
+ROUNDING = 1e-9
+"""Speed [m/s] of the bias and the gain that is rounding of the poses. With zero, coasting ships would have forces."""
 
 EXACT = 0.005
-"""Share of the gain below which mean - gain/2 is not the mark of an Euler scheme (1/2, of n inner steps 1/(2 n))."""
+"""Share of the gain up to which bias - gain/2 is not the mark of an Euler scheme: 1/2, or 1/(2 n) of n inner steps.
+With zero, an impact would gain energy by the growth of a force within the step."""
 
 
 class ReceivedState(NamedTuple):
@@ -64,21 +65,25 @@ class ReceivedState(NamedTuple):
     applied: list[float]
 
 
-class Drift(NamedTuple):
-    """What other forces did to a ship in a step, in the mean and by its end; (6,) each, in b at the step's start.
+class OtherForces(NamedTuple):
+    """What other forces did to a ship in a step; (6,) each, in b at the start of the step.
 
-    scheme_error: by how much the received twist (6,) falls short of that of a model that moves alike and is exact; None
-    for one that is.
+    velocity_bias: mean velocity over the step less that of coasting; velocity_gain: velocity at the end less that of
+    coasting; scheme_error: velocity_bias - velocity_gain/2, None for a ship model that integrates exactly.
     """
 
-    mean: Array
-    gain: Array
+    velocity_bias: Array
+    velocity_gain: Array
     scheme_error: Array | None
 
 
-def drift(before: ReceivedState, now: ReceivedState, M_inverse: Array, r_bg: Array, reach: float) -> Drift | None:
-    """Of the step that `before` began and `now` ended, M_inverse at the attitude before; None where there is nothing to
-    be seen."""
+def estimate_other_forces(
+    before: ReceivedState, now: ReceivedState, M_inverse: Array, r_bg: Array, reach: float
+) -> OtherForces | None:
+    """Other forces in the step that `before` began and `now` ended; None where there are none to be measured.
+
+    M_inverse (6, 6): at the attitude before; r_bg: CG in b [m]; reach: of the hull from CO [m].
+    """
     H = before.H
     if not isclose(before.t + H, now.t, rel_tol=1e-9, abs_tol=1e-6 * H):
         return None  # the host went elsewhere in time
@@ -86,25 +91,25 @@ def drift(before: ReceivedState, now: ReceivedState, M_inverse: Array, r_bg: Arr
     R = rotation(before.attitude)
     turn = R.T @ rotation(now.attitude)
     v, omega = start[:3], start[3:]
-    v_bg, coasted = np.cross(omega, r_bg), rotation_vector(omega * H)
-    mean_v = v + v_bg + (r_bg - coasted @ r_bg) / H  # of CO, coasting
-    moved = R.T @ (np.array(now.position) - np.array(before.position))
-    mean = np.concatenate([moved / H - mean_v, _turned(turn) / H - omega])
+    v_bg, E = np.cross(omega, r_bg), rotation_vector(omega * H)
+    coasting_mean = v + v_bg + (r_bg - E @ r_bg) / H  # velocity of CO
+    way = R.T @ (np.array(now.position) - np.array(before.position))
+    bias = np.concatenate([way / H - coasting_mean, _rotation_vector_of(turn) / H - omega])
     nu = np.array(now.nu)
-    gain = np.concatenate([turn @ nu[:3] - (v + v_bg - coasted @ v_bg), turn @ nu[3:] - omega])
-    moved_on, sped_up = _speed(mean, reach), _speed(gain, reach)
-    if moved_on > MOST * H or sped_up > MOST * H or max(moved_on, sped_up) <= LEAST:
+    gain = np.concatenate([turn @ nu[:3] - (v + v_bg - E @ v_bg), turn @ nu[3:] - omega])
+    bias_speed, gain_speed = _largest_speed(bias, reach), _largest_speed(gain, reach)
+    if not ROUNDING < max(bias_speed, gain_speed) <= MAX_ACCELERATION * H:
         return None
-    scheme_error = mean - 0.5 * gain
-    return Drift(mean, gain, scheme_error if _speed(scheme_error, reach) > EXACT * sped_up else None)
+    error = bias - 0.5 * gain
+    return OtherForces(bias, gain, error if _largest_speed(error, reach) > EXACT * gain_speed else None)
 
 
-def _speed(nu: Array, reach: float) -> float:
+def _largest_speed(nu: Array, reach: float) -> float:
     """No point of the hull moves faster [m/s]."""
     return hypot(*nu[:3].tolist()) + reach * hypot(*nu[3:].tolist())
 
 
-def _turned(R: Array) -> Array:
+def _rotation_vector_of(R: Array) -> Array:
     """Rotation vector [rad] of a rotation by less than a quarter turn."""
     x, y, z = R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]
     s = 0.5 * hypot(x, y, z)

@@ -14,7 +14,7 @@ from collections.abc import Sequence
 
 from ...ship.frames import Array
 from .body_state import BodyState
-from .contact import Impulse, actual_velocity
+from .contact import Impulse, energy_velocities
 
 __all__ = ["enforce_passivity"]
 
@@ -35,14 +35,14 @@ def enforce_passivity(impulses: Sequence[Impulse], states: Sequence[BodyState]) 
 
 def _scale(group: Sequence[Impulse], states: Sequence[BodyState]) -> float:
     work, J = 0.0, dict[int, Array]()
-    for impulse in group:
+    for impulse, v in zip(group, energy_velocities([i.contact for i in group], states), strict=True):
         c, P = impulse.contact, impulse.P
         if not P.any():
             continue
-        work += float(P @ actual_velocity(c, states))
-        for ship, taken in ((c.a, -(P @ c.G_a)), (c.b, P @ c.G_b)):
-            J[ship] = J[ship] + taken if ship in J else taken
-    quadratic = sum(float(taken @ states[ship].M_inverse @ taken) for ship, taken in J.items())
+        work += float(P @ v)
+        for body, J_body in ((c.a, -(P @ c.G_a)), (c.b, P @ c.G_b)):
+            J[body] = J[body] + J_body if body in J else J_body
+    quadratic = sum(float(J_body @ states[body].M_inverse @ J_body) for body, J_body in J.items())
     if quadratic <= 0.0 or work + 0.5 * quadratic <= ROUNDING * (abs(work) + quadratic):
         return 1.0
     return max(0.0, -2.0 * work / quadratic)

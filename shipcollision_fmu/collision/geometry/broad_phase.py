@@ -15,10 +15,13 @@ from collections import defaultdict
 from collections.abc import Sequence
 from math import floor, sqrt
 
-__all__ = ["Rectangle", "near_pairs"]
+__all__ = ["Pair", "Rectangle", "near_pairs"]
 
 Rectangle = tuple[float, float, float, float]
 """(north from, north to, east from, east to) [m]."""
+
+Pair = tuple[int, int]
+"""Indices (a, b) of two bodies, a < b."""
 
 FEW = 64
 """Bodies up to which comparing all with all is quicker than a grid; measured."""
@@ -27,7 +30,7 @@ MOST_CELLS = 1_000
 """Cells that one body may lie in; the cells are made larger where a quay would lie in more."""
 
 
-def near_pairs(rectangles: Sequence[Rectangle], moving: int) -> list[tuple[int, int]]:
+def near_pairs(rectangles: Sequence[Rectangle], moving: int) -> list[Pair]:
     """Pairs (a, b), a < b, sorted, whose rectangles overlap or touch and of which the first is one of the `moving`.
 
     The first `moving` bodies move, the others do not.

@@ -20,8 +20,9 @@ from typing import Any
 import numpy as np
 
 from ...errors import HostError
-from ...ship.frames import SWAP, Array, quaternion_w, swapped
+from ...ship.frames import SWAP, Array, pose_w, swapped, swapped_rows
 from ...ship.hull.solid import HullMesh
+from ..dynamics.body_state import BodyState
 
 __all__ = ["MARGIN", "BulletAdapter", "BulletBody", "Closest", "bullet_module"]
 
@@ -106,27 +107,30 @@ class BulletAdapter:
             _give_back_memory()
         self._client = -1
 
-    def place(self, ship: int, x: Array, R_nb: Array) -> None:
-        """Put a ship's parts at CO = x (3,) in n [m] with the attitude R_nb."""
+    def _place(self, ship: int, x: Array, R_nb: Array) -> None:
+        """Put a ship's parts at CO = x (3,) in n [m] with the attitude R_nb. A pose that is the same object as before
+        moves nothing."""
         before = self._placed[ship]
         if before is not None and before[0] is x and before[1] is R_nb:
             return
         self._placed[ship] = x, R_nb
         self._overlaps = {pair: gap for pair, gap in self._overlaps.items() if ship not in pair}
-        position, orientation = swapped(x), quaternion_w(R_nb)
+        position, orientation = pose_w(x, R_nb)
         for body in self._parts[ship]:
             self._p.resetBasePositionAndOrientation(body, position, orientation, physicsClientId=self._client)
 
-    def closest(self, a: int, b: int, distance: float) -> list[Closest]:
+    def closest(self, a: int, b: int, states: Sequence[BodyState], distance: float) -> list[Closest]:
         """Closest points of every pair of parts of ships a and b not farther apart than `distance` [m]."""
         found = []
+        self._place(a, states[a].x, states[a].R)
+        self._place(b, states[b].x, states[b].R)
         for i, part_a in enumerate(self._parts[a]):
             for j, part_b in enumerate(self._parts[b]):
                 for row in self._p.getClosestPoints(
                     part_a, part_b, distance - 2 * MARGIN, physicsClientId=self._client
                 ):
-                    normal = -np.array(swapped(row[7]))  # Bullet's normal points from B to A
-                    on_a, on_b = np.array(swapped(row[5])), np.array(swapped(row[6]))
+                    on_a, on_b, from_b = swapped_rows(row[5:8])
+                    normal = -from_b  # Bullet's normal points from B to A
                     found.append(
                         Closest(on_a - MARGIN * normal, on_b + MARGIN * normal, normal, row[8] + 2 * MARGIN, i, j)
                     )
@@ -134,8 +138,10 @@ class BulletAdapter:
             self._overlaps[a, b] = gap
         return found
 
-    def gap(self, a: int, b: int, cap: float) -> float:
+    def gap(self, a: int, b: int, states: Sequence[BodyState], cap: float) -> float:
         """Least distance [m] between ships a and b, negative in overlap, at most `cap`."""
+        self._place(a, states[a].x, states[a].R)
+        self._place(b, states[b].x, states[b].R)
         if (a, b) in self._overlaps:
             return min(cap, self._overlaps[a, b])
         least = cap
@@ -166,7 +172,7 @@ class BulletAdapter:
             fixedTimeStep=h, numSolverIterations=50, erp=0.0, contactERP=0.0, frictionERP=0.0, physicsClientId=client
         )
         made = [
-            self._dynamic_body(ship, body, friction, restitution, swapped(x + R_nb @ body.r_bg), quaternion_w(R_nb))
+            self._dynamic_body(ship, body, friction, restitution, *pose_w(x + R_nb @ body.r_bg, R_nb))
             for ship, body, (x, R_nb) in zip(ships, bodies, poses, strict=True)
         ]
         # A step at rest, blind to each other: until a body has made one, Bullet solves with the inertia of its shape at
@@ -235,7 +241,7 @@ def _listed(vertices: bytes) -> list[list[float]]:
 
 def _contact_row(row: Sequence[Any], h: float) -> tuple[Array, Array, Array, float, Array]:
     """A row of getContactPoints in n; Bullet's forces act on A along a normal that points from B to A."""
-    on_a, on_b, normal = (np.array(swapped(row[k])) for k in (5, 6, 7))
+    on_a, on_b, normal = swapped_rows(row[5:8])
     if row[9] == 0.0:  # a prediction: Bullet leaves the friction directions of a contact it did not solve unset
         return on_a, on_b, -normal, float(row[8]), np.zeros(3)
     force_on_a = normal * row[9] + np.array(swapped(row[11])) * row[10] + np.array(swapped(row[13])) * row[12]

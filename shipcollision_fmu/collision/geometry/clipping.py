@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from math import hypot
 
-__all__ = ["Point", "common_points", "convex_polygon"]
+__all__ = ["Point", "common_corners", "common_points", "convex_polygon"]
 
 Point = tuple[float, float]
 TOUCH = 1e-6
@@ -46,6 +46,11 @@ def convex_polygon(points: Iterable[Point]) -> list[Point]:
 
 def _span(a: Point, b: Point) -> float:
     return hypot(b[0] - a[0], b[1] - a[1])
+
+
+def common_corners(first: Iterable[Point], second: Iterable[Point]) -> list[Point]:
+    """Corners of the intersection of the convex hulls of two sets of points; empty when they do not overlap."""
+    return common_points(convex_polygon(first), convex_polygon(second))
 
 
 def common_points(first: list[Point], second: list[Point]) -> list[Point]:

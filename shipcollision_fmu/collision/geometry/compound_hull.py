@@ -28,7 +28,7 @@ from ..dynamics.contact import Contact
 from ..dynamics.contact_frame import contact_axes
 from .bullet import Closest
 from .clipping import convex_polygon
-from .manifold import FEATURE_DEPTH, contact_manifold, foremost, spread
+from .manifold import FEATURE_DEPTH, contact_manifold, facing_features, spread
 
 __all__ = ["CompoundHull", "merge_coplanar", "select_supported"]
 
@@ -131,7 +131,7 @@ def _supported(
         if depths[k] > DEEPEST:
             break
         normal = normals[k]
-        for point, gap in contact_manifold(foremost(in_a, normal), foremost(in_b, -normal), normal):
+        for point, gap in contact_manifold(*facing_features(in_a, in_b, normal), contact_axes(normal)):
             half = 0.5 * gap * normal
             instead = replace(closest, on_a=point - half, on_b=point + half, normal=normal, gap=-float(depths[k]))
             if gap <= 0.0 and _both_support(instead, one, other, states):
@@ -143,8 +143,8 @@ def _both_support(
     closest: Closest, one: CompoundHull, other: CompoundHull, states: tuple[BodyState, BodyState]
 ) -> bool:
     a, b = states
-    return one.supports(closest.part_a, a.body(closest.on_a), closest.normal @ a.R) and other.supports(
-        closest.part_b, b.body(closest.on_b), -(closest.normal @ b.R)
+    return one.supports(closest.part_a, a.in_body(closest.on_a), closest.normal @ a.R) and other.supports(
+        closest.part_b, b.in_body(closest.on_b), -(closest.normal @ b.R)
     )
 
 

@@ -19,10 +19,11 @@ import numpy as np
 from ...ship.frames import Array
 from ...ship.hull.solid import HullMesh
 from ..dynamics.body_state import BodyState
-from ..dynamics.contact import Contact, make_contact
+from ..dynamics.contact import Contact, make_contact, make_contacts
+from ..dynamics.contact_frame import contact_axes
 from .bullet import MARGIN, BulletAdapter, Closest
 from .compound_hull import CompoundHull, merge_coplanar, select_supported
-from .manifold import FEATURE_DEPTH, contact_manifold, foremost
+from .manifold import FEATURE_DEPTH, contact_manifold, facing_features
 from .plan_overlap import least_overlap
 
 __all__ = ["SHALLOW", "Detector", "LastNormals"]
@@ -53,21 +54,17 @@ class Detector:
         self._scales = [min(1.0, float(np.ptp(hull.vertices, axis=0).min()) / SMALL) for hull in hulls]
         self.bullet = BulletAdapter(hulls)
 
-    def place(self, ship: int, state: BodyState) -> None:
-        """Move a hull to its state's predicted pose."""
-        self.bullet.place(ship, state.x, state.R)
+    def clearance(self, a: int, b: int, states: Sequence[BodyState], cap: float) -> float:
+        """Least distance [m] between two hulls, negative in overlap, at most `cap`."""
+        return self.bullet.gap(a, b, states, cap)
 
-    def clearance(self, a: int, b: int, cap: float) -> float:
-        """Least distance [m] between two placed hulls, negative in overlap, at most `cap`."""
-        return self.bullet.gap(a, b, cap)
-
-    def touching(self, a: int, b: int) -> bool:
-        """Whether two placed hulls touch or overlap."""
-        return self.bullet.gap(a, b, MARGIN) <= 0.0
+    def touching(self, a: int, b: int, states: Sequence[BodyState]) -> bool:
+        """Whether two hulls touch or overlap."""
+        return self.bullet.gap(a, b, states, MARGIN) <= 0.0
 
     def contacts(self, a: int, b: int, states: Sequence[BodyState], last_normals: LastNormals) -> list[Contact]:
-        """Contact points of two placed hulls, gap <= 0. Updates `last_normals` while the overlap is shallow."""
-        touching = [c for c in self.bullet.closest(a, b, 0.0) if c.gap <= 0.0]
+        """Contact points of two hulls, gap <= 0. Updates `last_normals` while the overlap is shallow."""
+        touching = [c for c in self.bullet.closest(a, b, states, 0.0) if c.gap <= 0.0]
         if not touching:
             last_normals.pop((a, b), None)
             return []
@@ -88,23 +85,23 @@ class Detector:
                 carrier = 0 if len(feature_a) > len(feature_b) else 1
                 last_normals[(a, b)] = (carrier, (normal @ states[(a, b)[carrier]].R).tolist())
             # Features that pass each other (a corner beside a face's edge) leave Bullet's own point.
-            corners = contact_manifold(feature_a, feature_b, normal)
+            axes = contact_axes(normal)
+            corners = contact_manifold(feature_a, feature_b, axes)
             places = corners or [(0.5 * (closest.on_a + closest.on_b), closest.gap)]
             # Faces that meet flush touch with all their corners, whatever the last bits of the gaps say.
             touch = FLUSH if min(gap for _, gap in places) <= 0.0 else 0.0
-            for point, gap in places:
-                if gap <= touch:
-                    contact = make_contact(a, b, states, point, normal, gap)
-                    # With a last normal, parts that pass each other along it or lie behind others have no contact.
-                    inside = joined and not shallow and (not corners or self._is_inside(contact, closest, states))
-                    (hidden if inside else found).append(contact)
+            in_touch = [(point, gap) for point, gap in places if gap <= touch]
+            for contact in make_contacts(a, b, states, in_touch, normal, axes):
+                # With a last normal, parts that pass each other along it or lie behind others have no contact.
+                inside = joined and not shallow and (not corners or self._is_inside(contact, closest, states))
+                (hidden if inside else found).append(contact)
         return _distinct(merge_coplanar(found or hidden) if joined else found, scale * SAME_POINT)
 
     def facing(
         self, a: int, b: int, distance: float, states: Sequence[BodyState], last_normals: LastNormals
     ) -> Contact | None:
-        """The middle of what is nearer than `distance` [m] of two placed hulls, with the least gap; None: nothing."""
-        near = self.bullet.closest(a, b, distance)
+        """The middle of what is nearer than `distance` [m] of two hulls, with the least gap; None: nothing."""
+        near = self.bullet.closest(a, b, states, distance)
         if not near:
             return None
         nearest = min(near, key=lambda c: c.gap)
@@ -113,7 +110,9 @@ class Detector:
             normal = _turned(last_normals[a, b], states[a], states[b])
         depth = max(self._scale(a, b) * FEATURE_DEPTH, distance - gap)
         feature_a, feature_b = self._features(a, b, nearest, normal, states, depth)
-        places = contact_manifold(feature_a, feature_b, normal) or [(0.5 * (nearest.on_a + nearest.on_b), gap)]
+        places = contact_manifold(feature_a, feature_b, contact_axes(normal)) or [
+            (0.5 * (nearest.on_a + nearest.on_b), gap)
+        ]
         weights = [max(distance - g, 0.0) for _, g in places]
         if not any(weights):
             weights = [1.0] * len(places)
@@ -138,8 +137,8 @@ class Detector:
         half = 0.5 * contact.gap * contact.normal
         a, b = states[contact.a], states[contact.b]
         return self._compounds[contact.a].covers(
-            closest.part_a, a.body(contact.point - half), contact.normal @ a.R
-        ) or self._compounds[contact.b].covers(closest.part_b, b.body(contact.point + half), -(contact.normal @ b.R))
+            closest.part_a, a.in_body(contact.point - half), contact.normal @ a.R
+        ) or self._compounds[contact.b].covers(closest.part_b, b.in_body(contact.point + half), -(contact.normal @ b.R))
 
     def _placed_part(self, ship: int, part: int, states: Sequence[BodyState]) -> Array:
         points: Array = states[ship].x + self._hulls[ship].parts[part] @ states[ship].R.T
@@ -151,7 +150,7 @@ class Detector:
         """Points (n, 3) of either part that face the other one: foremost along the normal, within `depth` [m]."""
         in_a = self._placed_part(a, closest.part_a, states)
         in_b = self._placed_part(b, closest.part_b, states)
-        return foremost(in_a, normal, depth), foremost(in_b, -normal, depth)
+        return facing_features(in_a, in_b, normal, depth)
 
 
 def _distinct(contacts: list[Contact], apart: float) -> list[Contact]:

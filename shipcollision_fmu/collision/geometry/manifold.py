@@ -9,10 +9,9 @@ from __future__ import annotations
 import numpy as np
 
 from ...ship.frames import Array
-from ..dynamics.contact_frame import contact_axes
-from .clipping import Point, common_points, convex_polygon
+from .clipping import Point, common_corners
 
-__all__ = ["FEATURE_DEPTH", "MANIFOLD", "contact_manifold", "foremost", "spread"]
+__all__ = ["FEATURE_DEPTH", "MANIFOLD", "contact_manifold", "facing_features", "spread"]
 
 FEATURE_DEPTH = 0.05
 """Points of a part within this depth [m] of the foremost one belong to the touching feature: plates, edges and stems
@@ -22,20 +21,28 @@ MANIFOLD = 4
 """Contact points kept of one pair of parts: enough for the resultant of an area."""
 
 
-def foremost(points: Array, direction: Array, depth: float = FEATURE_DEPTH) -> Array:
-    """The points (k, 3) of a part (n, 3) that lie foremost along a direction, within `depth` [m]."""
+def facing_features(part_a: Array, part_b: Array, normal: Array, depth: float = FEATURE_DEPTH) -> tuple[Array, Array]:
+    """Points (k, 3) of the parts a and b (n, 3) that face the other: within `depth` [m] of the foremost along the
+    normal, which points from a to b.
+    """
+    return _foremost(part_a, normal, depth), _foremost(part_b, -normal, depth)
+
+
+def _foremost(points: Array, direction: Array, depth: float) -> Array:
     height = points @ direction
     feature: Array = points[height >= height.max() - depth]
     return feature
 
 
-def contact_manifold(feature_a: Array, feature_b: Array, normal: Array) -> list[tuple[Array, float]]:
-    """(point in n midway between the features, gap) of each common corner; empty when the features pass each other."""
-    axes = contact_axes(normal)
+def contact_manifold(feature_a: Array, feature_b: Array, axes: Array) -> list[tuple[Array, float]]:
+    """(point in n midway between the features, gap) of each common corner; empty when the features pass each other.
+
+    axes (3, 3): rows normal, t1, t2 in n.
+    """
     origin = feature_a[0]
     a = ((feature_a - origin) @ axes.T).tolist()  # rows (height along the normal, u, v)
     b = ((feature_b - origin) @ axes.T).tolist()
-    corners = common_points(convex_polygon([(u, v) for _, u, v in a]), convex_polygon([(u, v) for _, u, v in b]))
+    corners = common_corners([(u, v) for _, u, v in a], [(u, v) for _, u, v in b])
     if not corners:
         return []
     plane_a, plane_b = _plane(a), _plane(b)

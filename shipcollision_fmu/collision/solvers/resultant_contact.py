@@ -17,9 +17,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..dynamics.body_state import BodyState
-from ..dynamics.contact import Contact, contact_velocity, make_contact
-from ..dynamics.contact_frame import contact_axes
-from ..dynamics.delassus import contact_jacobian, delassus
+from ..dynamics.contact import Contact, make_contact
+from ..dynamics.delassus import approach_velocities, delassus
 from .gauss_seidel import solve_gauss_seidel
 
 __all__ = ["reduce_to_resultant"]
@@ -27,15 +26,12 @@ __all__ = ["reduce_to_resultant"]
 
 def reduce_to_resultant(contacts: Sequence[Contact], states: Sequence[BodyState]) -> Contact | None:
     """One contact for all of a pair's; None when nothing approaches. Its gap is the deepest."""
-    axes = [contact_axes(c.normal) for c in contacts]
-    velocity = np.concatenate([axis @ contact_velocity(c, states) for axis, c in zip(axes, contacts, strict=True)])
+    velocity = approach_velocities(contacts, states)
     if velocity[0::3].min() >= 0.0:
         return None
     if len(contacts) == 1:
         return contacts[0]
-    G, ships = contact_jacobian(contacts)
-    local = np.vstack([axis @ G[3 * i : 3 * i + 3] for i, axis in enumerate(axes)])
-    share = solve_gauss_seidel(delassus(local, ships, states), velocity, 0.0).P[:, 0]
+    share = solve_gauss_seidel(delassus(contacts, states), velocity, 0.0).P[:, 0]
     share = share / share.sum()
     point = sum((w * c.point for w, c in zip(share, contacts, strict=True)), np.zeros(3))
     normal = sum((w * c.normal for w, c in zip(share, contacts, strict=True)), np.zeros(3))

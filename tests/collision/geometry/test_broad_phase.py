@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from shipcollision_fmu.collision.dynamics.body_state import BodyState
 from shipcollision_fmu.collision.geometry import broad_phase
 from shipcollision_fmu.collision.geometry.broad_phase import Rectangle, near_pairs
 from shipcollision_fmu.collision.geometry.bullet import BulletAdapter
@@ -57,12 +58,12 @@ def test_clearance_is_that_of_the_nearest_pair(
     easts = [0.0, 330.0, 660.0, 770.0, 1100.0]
     start = [{"position": [0.0, e, 0.0], "nu": [0.0] * 6} for e in easts]
     out = world([box] * 5, start).run(0.1, 0.05).model.outputs
-    assert out.clearance[0] == pytest.approx(80.0, abs=1e-6)
+    assert out.clearance == pytest.approx(80.0, abs=1e-6)
     assert (out.nearest_ship_a, out.nearest_ship_b) == (3, 4)
     quay = '[q]\nkind = "quay"\nshape = "box"\nlength = 5000.0\nbreadth = 10.0\nposition = [2000.0, -70.0]'
     w = world([box] * 5, start, obstacles=quay).run(0.1, 0.05)
     out = w.model.outputs
-    assert out.clearance[0] == pytest.approx(50.0, abs=1e-6)
+    assert out.clearance == pytest.approx(50.0, abs=1e-6)
     assert (out.nearest_ship_a, out.nearest_ship_b) == (1, 6)
     out = world([box] * 5, start, clearance_range=60.0).run(0.1, 0.05).model.outputs
     assert (out.clearance, out.nearest_ship_a, out.nearest_ship_b) == (60.0, 0, 0)
@@ -85,13 +86,13 @@ def test_far_ships_are_never_given_to_the_narrow_phase(
     asked: list[tuple[int, int]] = []
     closest, gap = BulletAdapter.closest, BulletAdapter.gap
 
-    def counted(self: BulletAdapter, a: int, b: int, distance: float) -> list:
+    def counted(self: BulletAdapter, a: int, b: int, states: list[BodyState], distance: float) -> list:
         asked.append((a, b))
-        return closest(self, a, b, distance)
+        return closest(self, a, b, states, distance)
 
-    def measured(self: BulletAdapter, a: int, b: int, cap: float) -> float:
+    def measured(self: BulletAdapter, a: int, b: int, states: list[BodyState], cap: float) -> float:
         asked.append((a, b))
-        return gap(self, a, b, cap)
+        return gap(self, a, b, states, cap)
 
     monkeypatch.setattr(BulletAdapter, "closest", counted)
     monkeypatch.setattr(BulletAdapter, "gap", measured)

@@ -76,8 +76,6 @@ def touch(
     detector: Detector, one: BodyState, other: BodyState, last_normals: dict[Any, Any] | None = None
 ) -> list[list[float]]:
     """Contacts as rows (point, normal, gap), sorted."""
-    for i, s in enumerate((one, other)):
-        detector.place(i, s)
     contacts = detector.contacts(0, 1, [one, other], {} if last_normals is None else last_normals)
     return sorted([*np.round(c.point, 9).tolist(), *np.round(c.normal, 9).tolist(), c.gap] for c in contacts)
 

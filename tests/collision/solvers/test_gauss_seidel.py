@@ -9,7 +9,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from shipcollision_fmu.collision.dynamics.body_state import point_jacobian
+from shipcollision_fmu.collision.dynamics.contact import point_jacobian
 from shipcollision_fmu.collision.dynamics.contact_frame import contact_axes
 from shipcollision_fmu.collision.solvers.aclm_fixed_point import solve_aclm
 from shipcollision_fmu.collision.solvers.contact_law import law_residual

@@ -1,0 +1,139 @@
+"""The exchange with the ship models: states received, impulses and post-impact states returned.
+
+    receive    the ledger tells which impulses are pending (impulse_ledger.py); the received velocity is corrected by
+               them; what other forces will add is estimated (other_forces.py)
+    publish    the impulse of the step is entered in the ledger; pose and twist at the end of the step
+
+Most ships in most steps are *quiet*: nothing pending, no open collision. A quiet ship far from all others gets no state
+(ABSENT stands for it) and merely coasts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Container, Sequence
+from typing import Any
+
+import numpy as np
+
+from ..ship.coasting import coast
+from ..ship.frames import attitude_from_rotation, attitude_unwrapped
+from .bodies import Body
+from .dynamics.body_state import BodyState
+from .dynamics.impulse_ledger import ImpulseLedger, Reading
+from .dynamics.other_forces import ReceivedState, estimate_other_forces
+from .interface import ShipPost, ShipState
+
+__all__ = ["ABSENT", "ShipExchange"]
+
+ABSENT = BodyState.wall(np.zeros(3), 0.0)
+"""Stands for the state of a quiet ship that is far from all others."""
+
+_NO_FORCE = (0.0,) * 6
+
+
+class ShipExchange:
+    """Ledgers and last received states of the ships. inputs, outputs: of the model, one each per ship."""
+
+    def __init__(
+        self, bodies: Sequence[Body], feedback: str, inputs: Sequence[ShipState], outputs: Sequence[ShipPost]
+    ) -> None:
+        self._bodies, self._feedback, self._inputs, self._outputs = bodies, feedback, inputs, outputs
+        self._centres = [body.bullet.r_bg.tolist() for body in bodies[: len(inputs)]]
+        self.ledgers = [ImpulseLedger() for _ in inputs]
+        self._last_received: list[ReceivedState | None] = [None] * len(inputs)  # of ships in an open collision
+        self._readings: dict[int, Reading] = {}
+
+    # -- receive --------------------------------------------------------------------------------------
+
+    def receive_active(self, t: float, H: float) -> list[BodyState | None]:
+        """States at the start t of a step of H [s]; None for quiet ships."""
+        self._readings.clear()
+        self._delay = any(ledger.one_step_delay for ledger in self.ledgers)
+        return [
+            None
+            if self._last_received[i] is None
+            and self.ledgers[i].is_quiet(self._feedback, self._inputs[i].impulse_applied)
+            else self._receive(i, t, H)
+            for i in range(len(self._inputs))
+        ]
+
+    def receive_others(
+        self, t: float, H: float, active: Sequence[BodyState | None], wanted: Container[int]
+    ) -> list[BodyState]:
+        """States of all ships: the active ones, those of the quiet ships that are wanted, ABSENT for the rest."""
+        return [
+            state if state is not None else self._receive(i, t, H) if i in wanted else ABSENT
+            for i, state in enumerate(active)
+        ]
+
+    def _receive(self, i: int, t: float, H: float) -> BodyState:
+        """State of a ship, corrected by what is pending and by other forces."""
+        received, body, feedback = self._inputs[i], self._bodies[i], self._feedback
+        nu, x = np.array(received.velocity + received.rate), np.array(received.position)
+        M_inverse = body.inverse_at(received.attitude)
+        state = BodyState.at(x, np.array(received.attitude), nu, M_inverse, body.bullet.r_bg)
+        applied = np.array(received.impulse_applied)
+        reading = self.ledgers[i].read(feedback, x, state.R, nu, applied, M_inverse, body.reach, H)
+        nu = reading.nu + M_inverse @ reading.deficit if reading.deficit.any() else reading.nu
+        if (before := self._last_received[i]) is not None and feedback == "ledger":
+            forces = estimate_other_forces(
+                before, _as_received(t, 0.0, received), body.inverse_at(before.attitude), body.bullet.r_bg, body.reach
+            )
+            if forces is not None:
+                state.expect(forces)
+                if reading.pending.any():  # one-step delay: the impulse meets a ship that has gained velocity
+                    nu = nu + forces.velocity_gain
+        state.set_twist(nu)
+        if self._delay if reading.one_step_delay is None else reading.one_step_delay:
+            x_then, R_then = state.pose_after(reading.nu, H)
+            state.apply_at(x_then, R_then, body.inverse_at(attitude_from_rotation(R_then).tolist()))
+        state.nu_received = state.nu
+        self._readings[i] = reading
+        return state
+
+    # -- publish --------------------------------------------------------------------------------------
+
+    def publish(self, t: float, H: float, states: Sequence[BodyState], colliding: Container[int]) -> None:
+        """Close the ledgers of the step that began at t [s], and fill the outputs.
+
+        colliding: bodies in an open collision; for these the received state is kept until the next step.
+        """
+        for i, (out, received) in enumerate(zip(self._outputs, self._inputs, strict=True)):
+            state = states[i]
+            if state is ABSENT:
+                out.position[:], out.attitude[:], out.velocity[:] = coast(
+                    received.position, received.attitude, received.velocity, received.rate, self._centres[i], H
+                )
+                out.rate[:] = received.rate
+                out.force[:] = _NO_FORCE
+                continue
+            ledger = self.ledgers[i]
+            ledger.close(self._readings[i], state.issued, state.nu_received, state.x_applied, state.R_applied)
+            out.impulse[:] = ledger.issued.tolist()
+            out.force[:] = (state.issued / H).tolist() if state.issued.any() else _NO_FORCE
+            self._last_received[i] = _as_received(t, H, received) if i in colliding else None
+            nu = state.twist_at_predicted_pose().tolist()
+            out.position[:] = state.x.tolist()
+            out.attitude[:] = attitude_unwrapped(attitude_from_rotation(state.R), received.attitude[2]).tolist()
+            out.velocity[:], out.rate[:] = nu[:3], nu[3:]
+
+    # -- state ----------------------------------------------------------------------------------------
+
+    def get_state(self) -> dict[str, Any]:
+        """All of it as plain data."""
+        return {
+            "ledgers": [ledger.get_state() for ledger in self.ledgers],
+            "last_received": [None if s is None else list(s) for s in self._last_received],
+        }
+
+    def set_state(self, state: dict[str, Any]) -> None:
+        """Back to a state of get_state, exact to the bit."""
+        for ledger, saved in zip(self.ledgers, state["ledgers"], strict=True):
+            ledger.set_state(saved)
+        self._last_received = [None if s is None else ReceivedState(*s) for s in state["last_received"]]
+
+
+def _as_received(t: float, H: float, ship: ShipState) -> ReceivedState:
+    return ReceivedState(
+        t, H, list(ship.position), list(ship.attitude), ship.velocity + ship.rate, list(ship.impulse_applied)
+    )
