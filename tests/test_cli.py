@@ -347,7 +347,7 @@ def test_a_traffic_situation_becomes_a_scenario_with_its_ships(folder: Path) -> 
         (["trial", "kvlcc2", "zigzagg"], 2, "Invalid value for '{turning-circle|zigzag|crash-stop}': 'zig"),
         (["trial", "kvlcc2", "turning-circle", "--rudder-deg", "-35"], 2, "rudder_deg = -35 must be greater"),
         (["trial", "kvlcc2", "turning-circle", "--speed", "155"], 2, "speed = 155 m/s must be above 0 and at most"),
-        (["trial", "guan2014_own", "crash-stop"], 2, "so she can only coast: take one that is listed as manoeuvring"),
+        (["trial", "guan2014_own", "crash-stop"], 2, "so it can only coast: take one that is listed as manoeuvring"),
         (["trial", "kvlcc2", "zigzag", "--out", "barge.toml/x.csv"], 1, "cannot write to barge.toml: barge"),
         (["trial", "kvlcc2", "zigzag", "--out", "sub"], 1, "cannot write to sub: it is a folder"),
         (["trial", "kvlcc2", "crash-stop", "--rudder-deg", "9"], 2, "--rudder-deg goes with a turning-circle or a"),

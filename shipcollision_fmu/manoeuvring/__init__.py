@@ -7,6 +7,7 @@
     hull_forces, propeller, rudder  forces of the MMG standard model
     b_series                        a propeller measured in all four quadrants
     restoring, damping, wind        forces of buoyancy, of roll, heave and pitch damping, and of the air
+    held_motions                    starts in 3 and 4 degrees of freedom: what is held must be at rest
     actuators                       rudder and engine follow their orders
     trials/                         turning circle, zigzag and crash stop of a ship; no FMU carries them
 

@@ -29,7 +29,7 @@ class Actuator:
     rate: float
 
     def limit(self, order: float) -> float:
-        """The order, within range."""
+        """The order, limited to the range."""
         return min(self.most, max(self.least, order))
 
     def follow(self, value: float, order: float, time: float) -> float:
@@ -46,7 +46,7 @@ class Engine:
     reversal_delay: float = 0.0
 
     def limit(self, order: float) -> float:
-        """The order, within range."""
+        """The order, limited to the range."""
         return self.speed.limit(order)
 
     def find_gear(self, n: float) -> Gear:

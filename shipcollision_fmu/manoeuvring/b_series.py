@@ -2,7 +2,7 @@
 
     beta = atan2(u_P, 0.7 pi n D)      angle of the flow at 0.7 of the radius
              0 pulling on the spot; to 90 deg ahead, 90 stopped; to 180 turning astern while the ship runs ahead;
-             180 turning astern on the spot; -180 to -90 both astern; -90 to 0 turning ahead while she runs astern
+             180 turning astern on the spot; -180 to -90 both astern; -90 to 0 turning ahead while the ship runs astern
     T    = C_T*(beta) rho/2 (u_P^2 + (0.7 pi n D)^2) pi/4 D^2,   C_T* = sum_k A_k cos(k beta) + B_k sin(k beta)
 
 Coefficients: Roddy, Hess and Faller (2006), Neural network predictions of the 4-quadrant Wageningen propeller series,

@@ -1,7 +1,7 @@
-"""What the MMG model needs in any number of degrees of freedom: its force groups, its machines, its integration.
+"""The base of the MMG model in any number of degrees of freedom: force groups, machines, integration.
 
-Integrated by the classical Runge-Kutta method of order 4, rudder and propeller following their orders in between. All
-in plain floats: small numpy arrays are ten times slower.
+The classical Runge-Kutta method of order 4 integrates the motion; rudder and propeller follow their orders between its
+stages. All numbers are plain floats: small numpy arrays are ten times slower.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ __all__ = ["CALM", "Forces", "Machines", "Mmg", "Six", "Surroundings"]
 
 
 class Surroundings(NamedTuple):
-    """What is held over a step: velocities of water and air, towards north and east [m/s]; external force (X, Y, Z)
+    """Values held over a step: velocities of water and air, towards north and east [m/s]; external force (X, Y, Z)
     [N] and moment (K, M, N) [N m] about CO in b."""
 
     current_north: float
@@ -103,15 +103,15 @@ class Mmg(ABC):
 
     @abstractmethod
     def _pack(self, eta: Six, nu: Six) -> tuple[float, ...]:
-        """What is integrated, of eta and nu."""
+        """The integrated quantities, from eta and nu."""
 
     @abstractmethod
     def _unpack(self, x: tuple[float, ...], eta: Six, nu: Six) -> tuple[Six, Six]:
-        """eta and nu with what was integrated put in."""
+        """eta and nu with the integrated quantities put in."""
 
     @abstractmethod
     def _derivative(self, x: tuple[float, ...], delta: float, n: float, around: Surroundings) -> tuple[float, ...]:
-        """d/dt of what is integrated, at the rudder angle delta [rad] and the propeller speed n [1/s]."""
+        """d/dt of the integrated quantities, at the rudder angle delta [rad] and the propeller speed n [1/s]."""
 
     @staticmethod
     @abstractmethod
@@ -142,7 +142,7 @@ class Mmg(ABC):
         return eta, nu, Machines(delta, n, gear)
 
     def _compute_wind(self, u: float, v: float, psi: float, around: Surroundings) -> tuple[float, float, float, float]:
-        """X, Y, K, N of the wind at the velocity u, v over ground; nothing in a calm."""
+        """X, Y, K, N of the wind at the velocity u, v over ground; zero in a calm."""
         north, east = around.wind_north, around.wind_east
         if north == 0.0 == east:
             return 0.0, 0.0, 0.0, 0.0

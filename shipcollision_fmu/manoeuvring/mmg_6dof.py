@@ -20,7 +20,7 @@ below CG, so K < 0: the ship heels outwards, to port; the rudder's Y_R < 0 alone
 
 4 degrees of freedom: heave and pitch are held, and what is integrated, u, v, p, r and the wrenches on them, is that of
 the level axes that turn with the heading (phi_dot = p, psi_dot = r), as in the 4-DOF models of the MMG literature. What
-comes in and goes out is in b, like everywhere else; between the two ship/free_motions.py turns by the heel.
+comes in and goes out is in b, like everywhere else; between the two ship/degrees_of_freedom.py turns by the heel.
 """
 
 from __future__ import annotations

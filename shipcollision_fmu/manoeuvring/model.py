@@ -1,18 +1,19 @@
-"""One ship that sails: orders, current, impulses and forces in; pose and velocity out.
+"""The motion of one ship: orders, current, impulses and forces in; pose and velocity out.
 
 A communication step [t, t + h]:
 
-    check      what came in; a step that is refused changes nothing
-    strike     impulses issued since the last step, at once: nu += M^-1 (impulse - impulse_applied)
-    advance    hydrodynamics: the MMG model in 3, 4 or 6 degrees of freedom, external force on its right-hand side
-               otherwise: coasting, with half of the force's momentum before and half after the motion
-    publish    the new state
+    check            the inputs; a step that is refused changes nothing
+    apply pending    impulses issued since the last step, at once: nu += M^-1 (impulse - impulse_applied)
+    advance          hydrodynamics: the MMG model in 3, 4 or 6 degrees of freedom, external force on its right-hand side
+                     otherwise: coasting, with half of the force's momentum before and half after the motion
+    publish          the new state
 
-The impulse ledger: `impulse` is cumulative, everything the collision model ever issued. A sample that is lost or
-repeated loses and repeats nothing. Only the free degrees of freedom answer (M's other rows and columns are deleted
-before it is inverted, in level axes: ship/free_motions.py), but all six components count as applied.
+The impulse ledger: `impulse` is cumulative, the sum of all that the collision model has issued. A lost or repeated
+sample loses and repeats nothing. Only the free degrees of freedom respond: M's other rows and columns are deleted
+before the inversion, in level axes (ship/degrees_of_freedom.py). All six components count as applied.
 
-A strike changes M nu by exactly the impulse; a force F held over h changes it by F h. The model knows nothing of FMI.
+An impulse P changes M nu by exactly P; a force F held over h changes M nu by F h. The model is plain Python and does
+not depend on FMI.
 """
 
 from __future__ import annotations
@@ -38,13 +39,13 @@ from .mmg_6dof import Mmg6Dof
 __all__ = ["ShipManoeuvring"]
 
 ABSURD_SPEED = 1e3
-"""Speeds [m/s] from here on, at midship or at the ship's ends, are refused: a broken signal, not a ship."""
+"""Speeds [m/s] from here on, at midship or at the ship's ends, are refused: the signal is broken."""
 
 MAXIMUM_SUBSTEPS = 100_000
-"""Of one communication step: an hour and a half at 0.05 s. A longer step is a mistake in its unit."""
+"""Most substeps of a communication step: an hour and a half at 0.05 s. A longer step has another unit."""
 
 STEEPEST = 1.4
-"""Pitch angle [rad] from which Euler angles are no longer to be trusted, 80 degrees: no ship stands on end."""
+"""Pitch angle [rad], 80 degrees, from which steps are refused: Euler angles are singular at 90 degrees."""
 
 _ZERO: Six = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
@@ -65,7 +66,7 @@ class State(NamedTuple):
 
 
 class _SetUp(NamedTuple):
-    """What follows from the parameters."""
+    """Everything that follows from the parameters, computed once."""
 
     parameters: tuple[object, ...]
     ship: Ship
@@ -123,7 +124,7 @@ class ShipManoeuvring:
         self._publish(State(eta, nu, _ZERO, *machines, *forces))
 
     def _prepare(self) -> _SetUp:
-        """What the parameters ask for; what is there already when they are unchanged."""
+        """The set-up for the parameters, kept while they are unchanged."""
         p = self.parameters
         wanted = (p.ship, p.degrees_of_freedom, p.hydrodynamics, p.substep)
         if self._set_up is not None and self._set_up.parameters == wanted:
@@ -182,7 +183,7 @@ class ShipManoeuvring:
         return max(1, ceil(ratio - 1e-9))
 
     def _refuse_orders(self, set_up: _SetUp, refusal: type[InputError | StepError], when: str) -> None:
-        """A ship that drifts has nobody to carry them out."""
+        """Refuse orders to a ship without propeller, rudder and engine."""
         if set_up.mmg is None or set_up.mmg.propelled:
             return
         for name, order in (("rudder", self.inputs.rudder_order), ("propeller", self.inputs.propeller_order)):
@@ -193,7 +194,7 @@ class ShipManoeuvring:
                 )
 
     def _apply_pending(self, before: State, set_up: _SetUp) -> tuple[Six, Six]:
-        """Twist and ledger after the impulses that are not yet applied."""
+        """Twist and ledger after the pending impulses."""
         impulse = _six(map(float, self.inputs.impulse))
         pending = [issued - applied for issued, applied in zip(impulse, before.impulse_applied, strict=True)]
         return (set_up.apply_impulse(before.eta, before.nu, pending) if any(pending) else before.nu), impulse
@@ -244,7 +245,7 @@ class ShipManoeuvring:
         return Surroundings(i.current[0], i.current[1], *wind, *i.force)
 
     def _compute_forces(self, mmg: Mmg | None, eta: Six, nu: Six, machines: Machines) -> Forces:
-        """Forces by origin; nought when coasting."""
+        """Forces by origin; zero when coasting."""
         if mmg is None:
             return Forces(_ZERO, _ZERO, _ZERO, _ZERO)
         return mmg.compute_forces(eta, nu, machines, self._surroundings())

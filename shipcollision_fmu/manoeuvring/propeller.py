@@ -6,9 +6,9 @@
     thrust    = rho n^2 D_P^4 (k_0 + k_1 J + k_2 J^2),   X_P = (1 - t_P) thrust
 
 Multiplied out, thrust = rho D_P^2 (k_0 (n D_P)^2 + k_1 n D_P u_P + k_2 u_P^2): no J is needed. That is the ship's own
-curve, and holds where the propeller pulls ahead in a flow from ahead. No polynomial in J tells how a propeller that
-turns astern stalls while the ship still runs ahead: there, and wherever else the curve does not hold, the thrust is
-that of the Wageningen B4-70 propeller which pulls as much on the spot (b_series.py), measured in all four quadrants:
+curve, and it holds where the propeller pulls ahead in a flow from ahead. No polynomial in J describes how a propeller
+stalls that turns astern while the ship still runs ahead. Where the ship's curve does not hold, the thrust is that of
+the Wageningen B4-70 propeller with the same pull on the spot (b_series.py), measured in all four quadrants:
 
     n > 0, u_P > 0, curve above 0    the ship's own curve
     n > 0, u_P > 0, below            the series between its own zero of thrust and the stopped propeller, the angle
@@ -19,7 +19,7 @@ Thrust is continuous everywhere. Turning astern, the series pulls 0.74 of its th
 mirrored curve at J = -0.5. `astern_factor` scales what turning astern adds to the stopped propeller's drag: take it
 from the ship's own crash stop. With its default 1, full astern from service speed stops KVLCC2 within 16.8 L, the bulk
 carrier within 15.8 L, the container ships within 8.8 and 11 L; no crash stop of these ships was found to compare with.
-Not modelled: air drawn to the propeller, the side force of its wash on the stern (a ship keeps her heading in a crash
+Not modelled: air drawn to the propeller, the side force of its wash on the stern (a ship keeps its heading in a crash
 stop), the change of the thrust deduction astern, and the engine's torque, which limits how soon a real propeller can be
 turned astern at speed: `reversal_delay` and `rate` of [engine] stand for it.
 

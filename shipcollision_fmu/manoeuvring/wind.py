@@ -4,7 +4,7 @@
     Y = -1/2 rho_a V^2 A_Lw C_Dt sin(gamma)/c         N = (s_L - 0.18 (|gamma| - pi/2) L_oa) Y
     c = 1 - delta/2 (1 - C_Dl A_Fw/(A_Lw C_Dt)) sin^2(2 gamma)
 
-V [m/s] and gamma: speed and direction of the wind that the ship feels; gamma = 0 from ahead, positive from starboard.
+V [m/s] and gamma: speed and direction of the wind relative to the ship; gamma = 0 from ahead, positive from starboard.
 C_Dl is that of the wind from ahead or from astern. s_L forward of midship and s_H above the water [m]: centroid of the
 lateral area A_Lw. The formulas hold about midship at the waterline, which is CO. Air has the density of 15 degrees
 Celsius at sea level.

@@ -1,4 +1,4 @@
-"""A ship on a straight course at a steady speed: where a trial begins, and what revolutions keep the speed."""
+"""A ship on a straight course at a steady speed: where a trial begins, and the revolutions that keep the speed."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from ..model import ShipManoeuvring
 __all__ = ["STEP", "SteadyCourse", "find_self_propulsion", "find_steady_course", "make_model"]
 
 STEP = 0.005
-"""Of a trial, in lengths at the approach speed: 0.2 s for a tanker. Half as long moves no figure by 0.3 %."""
+"""Time step of a trial, in lengths at the steady speed: 0.2 s for a tanker. Half of it moves no figure by 0.3 %."""
 FASTEST = 50.0
-"""[m/s] A higher approach speed is one in another unit."""
+"""[m/s] A higher speed is a number in another unit."""
 
 
 @dataclass(frozen=True)
@@ -30,22 +30,22 @@ class SteadyCourse:
 
     @property
     def step(self) -> float:
-        """Of the trial [s]."""
+        """Time step of the trial [s]."""
         return STEP * self.ship.L_pp / self.speed
 
 
 def find_steady_course(
     name: str, *, speed: float | None = None, rev_per_s: float | None = None, degrees_of_freedom: int = 3
 ) -> SteadyCourse:
-    """The ship `name` (or of a file) on her approach; without a speed [m/s], at her service speed.
+    """The steady course of the ship `name` (or of a file), by default at its service speed [m/s].
 
-    Without revolutions, those that go with the speed: the file's service revolutions in proportion, else those of
-    self-propulsion. Raises ShipError for a ship that cannot be had, ScenarioError for a speed that she does not reach.
+    By default the revolutions [1/s] are those of find_self_propulsion. Raises ShipError for a ship that cannot be
+    loaded, and ScenarioError for a speed that it does not reach.
     """
     ship = load_ship(name)
     if ship.propeller is None or ship.manoeuvring is None or ship.engine is None:
         raise ScenarioError(
-            f"ship {name!r} has no [manoeuvring] with [propeller], so she can only coast: take one that is listed as "
+            f"ship {name!r} has no [manoeuvring] with [propeller], so it can only coast: take one that is listed as "
             "manoeuvring by `shipcollision ships`"
         )
     service = ship.propeller.service_speed
@@ -62,17 +62,18 @@ def find_steady_course(
 
 
 def find_self_propulsion(name: str, speed: float) -> float:
-    """Revolutions [1/s] at which a ship keeps her speed [m/s] on a straight course.
+    """Revolutions [1/s] at which a ship keeps a speed [m/s] on a straight course.
 
-    From the file's service point in proportion to the speed where it has one, so that a trial of a model tested off her
-    own balance is sailed as the test was; else where the propeller's thrust equals the resistance.
+    They are in proportion to the speed from the file's service point where the file has one. A trial of a ship model
+    that was tested away from its own balance is then sailed as the test was. Without a service point, the revolutions
+    are those at which the propeller's thrust equals the resistance.
     """
     ship = load_ship(name)
     propeller, most = ship.propeller, 0.0 if ship.engine is None else ship.engine.max_rev_per_s
     if propeller is not None and propeller.service_speed is not None and propeller.service_rev_per_s is not None:
         rev_per_s = propeller.service_rev_per_s * speed / propeller.service_speed
     elif _compute_surge_force(name, speed, most) < 0.0:
-        raise ScenarioError(f"ship {name!r} does not reach {speed:g} m/s with her engine's {most:g} rev/s: go slower")
+        raise ScenarioError(f"ship {name!r} does not reach {speed:g} m/s with its engine's {most:g} rev/s: go slower")
     else:
         low, rev_per_s = 0.0, most
         for _ in range(60):
@@ -85,13 +86,13 @@ def find_self_propulsion(name: str, speed: float) -> float:
 def _check_engine(name: str, speed: float, rev_per_s: float, most: float) -> None:
     if not (isfinite(rev_per_s) and 0.0 < rev_per_s <= most):
         raise ScenarioError(
-            f"ship {name!r} needs {rev_per_s:.4g} rev/s for {speed:g} m/s; must be above 0 and at most her engine's "
+            f"ship {name!r} needs {rev_per_s:.4g} rev/s for {speed:g} m/s; must be above 0 and at most its engine's "
             f"{most:g}: take a lower speed, or more revolutions"
         )
 
 
 def make_model(name: str, speed: float, rev_per_s: float, degrees_of_freedom: int = 3) -> ShipManoeuvring:
-    """Her model, set to a straight course at a speed [m/s] and not yet initialised."""
+    """The ship's model on a straight course at a speed [m/s], not yet initialised."""
     model = ShipManoeuvring()
     parameters = model.parameters
     parameters.ship, parameters.degrees_of_freedom, parameters.hydrodynamics = name, degrees_of_freedom, True

@@ -1,4 +1,4 @@
-"""A trial as it is sailed: the ship step by step, and what is read off her track."""
+"""A trial: the ship step by step, and what is read off its track."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .steady_course import STEP, SteadyCourse, make_model
 __all__ = ["Figure", "Moment", "Trial", "find_moment_of_heading", "sail_trial"]
 
 PATIENCE = 150.0
-"""Lengths at the approach speed after which a trial that has not ended is given up."""
+"""Lengths at the steady speed after which a trial that has not ended is given up."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class Moment:
 
 @dataclass(frozen=True)
 class Figure:
-    """A result: its name, value and unit, IMO's limit when there is one, and the one that may be allowed instead."""
+    """A result: name, value, unit, IMO's limit where there is a limit, and the limit that may be allowed instead."""
 
     name: str
     value: float
@@ -57,7 +57,7 @@ class Figure:
 
 @dataclass(frozen=True)
 class Trial:
-    """A finished trial: what it was, its figures by name, and the track."""
+    """A finished trial: its title, its figures by name, and the track."""
 
     title: str
     figures: dict[str, Figure]
@@ -70,7 +70,7 @@ class Trial:
 def sail_trial(
     start: SteadyCourse, what: str, rudder: Callable[[Moment], float], rev_per_s: float | None = None
 ) -> Iterator[Moment]:
-    """The ship at every step from the order on; `rudder` is asked what to order [rad] before each."""
+    """The ship at every step from the order on; `rudder` gives the rudder order [rad] before each."""
     model, h = make_model(start.name, start.speed, start.rev_per_s, start.degrees_of_freedom), start.step
     model.parameters.substep = h
     model.initialise()

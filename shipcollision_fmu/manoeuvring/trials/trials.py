@@ -36,7 +36,7 @@ __all__ = ["sail_crash_stop", "sail_turning_circle", "sail_zigzag"]
 STEADY = 1e-4
 """A turn is steady when speed and rate change by less than this part of themselves over 10 deg of heading."""
 MOST_TURN = 6.0 * pi
-"""[rad] A turn that is not steady by then is taken as it is."""
+"""[rad] A turn that is not steady after this change of heading is taken as it is."""
 OVERSHOOTS = 4
 """Counter-rudders of a zigzag."""
 
@@ -128,7 +128,7 @@ def sail_crash_stop(start: SteadyCourse, *, rev_per_s: float | None = None) -> T
     astern = engine.max_astern_rev_per_s if rev_per_s is None else rev_per_s
     if not 0.0 < astern <= engine.max_astern_rev_per_s:
         raise ScenarioError(
-            f"ship {start.name!r} cannot stop with {astern:g} rev/s astern: must be above 0 and at most her engine's "
+            f"ship {start.name!r} cannot stop with {astern:g} rev/s astern: must be above 0 and at most its engine's "
             f"max_astern_rev_per_s = {engine.max_astern_rev_per_s:g}"
         )
     L, sailed = start.ship.L_pp, 0.0

@@ -123,7 +123,7 @@ def test_self_propulsion_is_the_service_point_or_the_balance(tmp_path: Path) -> 
         ScenarioError, match=r"silent.toml' gives no service_speed in \[propeller\]: give --speed in m/s"
     ):
         find_steady_course(str(path))
-    with pytest.raises(ScenarioError, match=r"does not reach 20 m/s with her engine's 1.6 rev/s: go slower"):
+    with pytest.raises(ScenarioError, match=r"does not reach 20 m/s with its engine's 1.6 rev/s: go slower"):
         find_steady_course(str(path), speed=20.0)
 
 
@@ -147,7 +147,7 @@ def test_what_cannot_be_sailed_is_refused_in_one_line() -> None:
     with pytest.raises(ShipError, match=r"unknown ship 'kvlc2': did you mean kvlcc2\?"):
         find_steady_course("kvlc2")
     with pytest.raises(
-        ScenarioError, match=r"ship 'guan2014_own' has no \[manoeuvring\].* so she can only coast: take one"
+        ScenarioError, match=r"ship 'guan2014_own' has no \[manoeuvring\].* so it can only coast: take one"
     ):
         find_steady_course("guan2014_own")
     for speed in (0.0, -5.0, 55.0, float("inf")):
@@ -155,7 +155,7 @@ def test_what_cannot_be_sailed_is_refused_in_one_line() -> None:
             ScenarioError, match=r"speed = .* m/s must be above 0 and at most 50: give metres per second"
         ):
             find_steady_course("kvlcc2", speed=speed)
-    with pytest.raises(ScenarioError, match=r"needs 1.846 rev/s for 12 m/s; .* her engine's 1.6: take a lower speed"):
+    with pytest.raises(ScenarioError, match=r"needs 1.846 rev/s for 12 m/s; .* its engine's 1.6: take a lower speed"):
         find_steady_course("kvlcc2", speed=12.0)
     with pytest.raises(ScenarioError, match=r"cannot stop with 2 rev/s astern: .* max_astern_rev_per_s = 1"):
         sail_crash_stop(start, rev_per_s=2.0)
