@@ -62,7 +62,7 @@ def table(ships: tuple[str, ...] = SHIPS) -> Table:
 
 
 def _ship(i: int, s: str) -> Table:
-    """A ship: what is received at the start of a step, what is given at its end."""
+    """A ship: inputs at the start of a step, outputs at its end, parameters."""
     received, given, post = f"inputs.ships.{i}", f"outputs.ships.{i}", f"{s}.{POST}"
     return (
         *vector("input", named(s, POSITION), "m", f"{received}.position", f"CO of {s} in n"),
@@ -104,19 +104,20 @@ def _ship(i: int, s: str) -> Table:
         ),
         integer(
             "parameter", f"{s}.degrees_of_freedom", f"parameters.ships.{i}.degrees_of_freedom",
-            "As in the model that sails it; 3: surge, sway, yaw; 4: and roll; 6: all", minimum=3, maximum=6,
+            "Degrees of freedom, as in the ship's own model; 3: surge, sway, yaw; 4: and roll; 6: all",
+            minimum=3, maximum=6,
         ),
         real(
             "parameter", f"{s}.fender.stiffness", "N/m", f"parameters.ships.{i}.fender.stiffness", None,
-            "Of a fender around the hull; 0 for none", minimum=0.0,
+            "Stiffness of a fender around the hull; 0: no fender", minimum=0.0,
         ),
         real(
             "parameter", f"{s}.fender.damping", "N.s/m", f"parameters.ships.{i}.fender.damping", None,
-            "Of a fender around the hull", minimum=0.0,
+            "Damping of a fender around the hull", minimum=0.0,
         ),
         real(
             "parameter", f"{s}.fender.thickness", "m", f"parameters.ships.{i}.fender.thickness", None,
-            "How far before the hull the fender acts; 0 for none", minimum=0.0,
+            "Distance from the hull within which its fender acts; 0: no fender", minimum=0.0,
         ),
     )  # fmt: skip
 
@@ -217,7 +218,7 @@ def _impact() -> Table:
 
 
 def _energy() -> Table:
-    """What contact and fenders cost."""
+    """Energy lost to contact and in fenders."""
     return (
         real(
             "output", "energy.dissipated", "J", "outputs.energy.dissipated", None,
@@ -225,11 +226,11 @@ def _energy() -> Table:
         ),
         real(
             "output", "energy.normal", "J", "outputs.energy.normal", None,
-            "Part of it lost along the contact normals", depends_on=(),
+            "Part of energy.dissipated lost along the contact normals", depends_on=(),
         ),
         real(
             "output", "energy.tangential", "J", "outputs.energy.tangential", None,
-            "Part of it lost to friction", depends_on=(),
+            "Part of energy.dissipated lost to friction", depends_on=(),
         ),
         real(
             "output", "fender.stored", "J", "outputs.fender.stored", None,
@@ -243,29 +244,29 @@ def _energy() -> Table:
 
 
 def _solver() -> Table:
-    """How well contact was solved."""
+    """Accuracy of the contact solver."""
     return (
         real(
             "output", "solver.residual", "1", "outputs.solver.residual", None,
-            "By how much the law of contact was missed in this step, as a share of the approach speed", depends_on=(),
+            "Largest violation of the contact law in this step, as a share of the approach speed", depends_on=(),
         ),
         integer(
-            "output", "solver.sweeps", "outputs.solver.sweeps", "Most sweeps of an answer in this step", minimum=0,
-            depends_on=(),
+            "output", "solver.sweeps", "outputs.solver.sweeps", "Most solver sweeps of a contact problem in this step",
+            minimum=0, depends_on=(),
         ),
         integer(
             "output", "solver.unconverged", "outputs.solver.unconverged",
-            "Answers so far whose residual was above 1e-9", minimum=0, depends_on=(),
+            "Contact problems so far whose residual was above 1e-9", minimum=0, depends_on=(),
         ),
         integer(
             "output", "solver.scaled", "outputs.solver.scaled",
-            "Answers so far that were scaled back so as not to add energy", minimum=0, depends_on=(),
+            "Contact problems so far whose impulses were scaled back so as not to add energy", minimum=0, depends_on=(),
         ),
     )  # fmt: skip
 
 
 def _clearance() -> Table:
-    """Who is nearest to whom."""
+    """The nearest pair."""
     return (
         real(
             "output", "clearance", "m", "outputs.clearance", None,
@@ -273,17 +274,17 @@ def _clearance() -> Table:
         ),
         integer(
             "output", "nearest.ship_a", "outputs.nearest_ship_a",
-            "First ship of the pair that clearance is of, from 1; 0: none within clearance_range", minimum=0,
+            "First ship of the nearest pair, from 1; 0: no pair within clearance_range", minimum=0,
         ),
         integer(
             "output", "nearest.ship_b", "outputs.nearest_ship_b",
-            "Second ship of that pair; beyond the ships: an obstacle, in their order", minimum=0,
+            "Second ship of the nearest pair; beyond the ships: an obstacle, in their order", minimum=0,
         ),
     )  # fmt: skip
 
 
 def _parameters() -> Table:
-    """What holds for all pairs."""
+    """Parameters of all pairs."""
     return (
         real(
             "parameter", "friction", "1", "parameters.friction", None,
@@ -291,21 +292,21 @@ def _parameters() -> Table:
         ),
         real(
             "parameter", "restitution", "1", "parameters.restitution", None,
-            "Normal velocity after over before impact", minimum=0.0, maximum=1.0,
+            "Coefficient of restitution: normal speed after over normal speed before impact", minimum=0.0, maximum=1.0,
         ),
         real("parameter", "substep", "s", "parameters.substep", None, "Length of an internal step", minimum=0.0),
         real(
             "parameter", "minimum_separation_time", "s", "parameters.minimum_separation_time", None,
-            "Time apart after which the next contact is a new collision", minimum=0.0,
+            "Time without contact after which the next contact is a new collision", minimum=0.0,
         ),
         real(
             "parameter", "clearance_range", "m", "parameters.clearance_range", None,
-            "Cap of the clearance", minimum=0.0,
+            "Largest clearance that is measured", minimum=0.0,
         ),
-        enumeration("parameter", "response", tuple(RESPONSES), "parameters.response", "How contacts are answered"),
+        enumeration("parameter", "response", tuple(RESPONSES), "parameters.response", "Solver of the contact problem"),
         enumeration(
             "parameter", "feedback", tuple(FEEDBACKS), "parameters.feedback",
-            "How the ship models answer: by impulse_applied, by force, by adopting post.*, or not at all",
+            "How the ship models respond: by impulse_applied, by force, by adopting post.*, or not at all",
         ),
         string(
             "parameter", "obstacles", "parameters.obstacles",

@@ -97,7 +97,7 @@ def _inputs() -> Table:
         ),
         *wrench(
             "input", IMPULSE, IMPULSE_UNITS, "inputs.impulse",
-            "Cumulative impulse on the ship, in b about CO; what is new since the last step is applied at its start",
+            "Cumulative impulse on the ship, in b about CO; its increase is applied at the start of the next step",
         ),
         *wrench(
             "input", (*FORCE, *MOMENT), FORCE_UNITS, "inputs.force",
@@ -112,7 +112,7 @@ def _parameters() -> Table:
         string("parameter", "ship", "parameters.ship", "Name of a ship in the FMU's resources, or path of a TOML file"),
         integer(
             "parameter", "degrees_of_freedom", "parameters.degrees_of_freedom",
-            "3: surge, sway, yaw; 4: and roll; 6: all", minimum=3, maximum=6,
+            "Degrees of freedom; 3: surge, sway, yaw; 4: and roll; 6: all", minimum=3, maximum=6,
         ),
         boolean(
             "parameter", "hydrodynamics", "parameters.hydrodynamics",
@@ -137,7 +137,7 @@ def _parameters() -> Table:
 
 INTERFACE = Interface(
     name="ShipManoeuvring",
-    description="One ship sails in six degrees of freedom, and applies the impulses and forces that it is given.",
+    description="Motion of one ship in 3, 4 or 6 degrees of freedom under orders, wind, current, forces and impulses.",
     table=table,
     model=lambda ships: ShipManoeuvring(),
 )
