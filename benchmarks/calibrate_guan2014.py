@@ -26,7 +26,7 @@ from rich.console import Console
 from shipcollision_fmu import load_scenario, load_ship, simulate
 from shipcollision_fmu.cli.table import make_table
 from shipcollision_fmu.ship.frames import rotation
-from shipcollision_fmu.ship.loading.library import models_directory
+from shipcollision_fmu.ship.loading.library import find_models
 from shipcollision_fmu.ship.ship import Ship
 
 
@@ -77,7 +77,7 @@ def differences(x: Sequence[float], folder: Path) -> np.ndarray:
         ship_text("guan2014_own", own, own_depth, z_own, stem_rake_deg=rake, trim_x=trim, bow_length=bow)
     )
     (folder / "target.toml").write_text(ship_text("guan2014_target", target, target_depth, z_target))
-    source = (models_directory() / "scenarios" / "guan2014.toml").read_text()
+    source = (find_models() / "scenarios" / "guan2014.toml").read_text()
     (folder / "scenario.toml").write_text(source.replace('"guan2014_own"', '"own.toml"').replace(
         '"guan2014_target"', '"target.toml"'))  # fmt: skip
     scenario = load_scenario(folder / "scenario.toml")

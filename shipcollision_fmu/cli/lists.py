@@ -13,11 +13,11 @@ __all__ = ["scenarios", "ships"]
 @click.command()
 def ships() -> None:
     """List the shipped ships."""
-    from ..ship.loading.library import load_ship, ship_names
+    from ..ship.loading.library import list_ship_names, load_ship
     from .table import make_table
 
     table = make_table("name", "kind", ">L_pp [m]", ">B [m]", ">T [m]", ">mass [t]", "under way")
-    for name in ship_names():
+    for name in list_ship_names():
         ship = load_ship(name)
         under_way = "coasts" if ship.manoeuvring is None else "manoeuvres"
         sizes = (f"{ship.L_pp:g}", f"{ship.B:g}", f"{ship.T:g}", f"{ship.mass / 1e3:.0f}")

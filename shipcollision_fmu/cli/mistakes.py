@@ -50,7 +50,7 @@ class Commands(click.Group):
         """click's look-up, with a suggestion for a misspelt name."""
         names = self.list_commands(ctx)
         if args[0] not in names and not args[0].startswith("-"):
-            from ..ship.loading.messages import suggestion
+            from ..ship.loading.messages import suggest
 
-            ctx.fail(f"unknown command {args[0]!r}:{suggestion(args[0], names)} known: {', '.join(names)}")
+            ctx.fail(f"unknown command {args[0]!r}:{suggest(args[0], names)} known: {', '.join(names)}")
         return super().resolve_command(ctx, args)

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from ..ship.coasting import coast
-from ..ship.frames import attitude_from_rotation, attitude_unwrapped
+from ..ship.frames import attitude_from_rotation, unwrap_attitude
 from .bodies import Body
 from .dynamics.body_state import BodyState
 from .dynamics.impulse_ledger import ImpulseLedger, Reading
@@ -114,7 +114,7 @@ class ShipExchange:
             self._last_received[i] = _as_received(t, H, received) if i in colliding else None
             nu = state.twist_at_predicted_pose().tolist()
             out.position[:] = state.x.tolist()
-            out.attitude[:] = attitude_unwrapped(attitude_from_rotation(state.R), received.attitude[2]).tolist()
+            out.attitude[:] = unwrap_attitude(attitude_from_rotation(state.R), received.attitude[2]).tolist()
             out.velocity[:], out.rate[:] = nu[:3], nu[3:]
 
     # -- state ----------------------------------------------------------------------------------------

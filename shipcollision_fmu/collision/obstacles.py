@@ -33,8 +33,8 @@ from pydantic import Field, ValidationError, model_validator
 from ..errors import InputError
 from ..ship.frames import Array
 from ..ship.hull.solid import HullMesh
-from ..ship.loading.messages import one_line
-from ..ship.loading.toml import parsed, read_toml
+from ..ship.loading.messages import describe_error
+from ..ship.loading.toml import parse_toml, read_toml
 from ..ship.tables.table import Pair, Positive, Table
 from .fender import Fender
 from .geometry.clipping import convex_polygon
@@ -177,13 +177,13 @@ def read_obstacles(text: str) -> list[Obstacle]:
             raise InputError(f"obstacles: file {path} does not exist: give TOML text, or the path of a TOML file")
         content, source = read_toml(path, InputError), f"obstacles in {path.name}"
     else:
-        content, source = parsed(text, "obstacles", InputError), "obstacles"
+        content, source = parse_toml(text, "obstacles", InputError), "obstacles"
     if set(content) == {"obstacles"} and isinstance(content["obstacles"], dict):  # as in a scenario file
         content = content["obstacles"]
     try:
         tables = _Obstacles.model_validate({"obstacles": content}).obstacles
     except ValidationError as error:
-        raise InputError(f"{source}: {one_line(error, _Obstacles)}") from None
+        raise InputError(f"{source}: {describe_error(error, _Obstacles)}") from None
     return [obstacle(name, table) for name, table in tables.items()]
 
 

@@ -14,7 +14,7 @@ from typing import NamedTuple
 from ..errors import ShipError
 from ..ship.degrees_of_freedom import Six
 from ..ship.ship import Ship
-from ..ship.windage import windage
+from ..ship.windage import compute_windage
 from .actuators import Actuator, Engine, Gear, make_engine, make_steering_gear
 from .hull_forces import HullForces
 from .propeller import Propeller
@@ -89,7 +89,7 @@ class Mmg(ABC):
         self.engine: Engine = make_engine(ship.engine)
         self.propelled = ship.propeller is not None
         self._hull = HullForces(ship, ship.manoeuvring)
-        self._wind = WindForces(windage(ship), ship.L_oa)
+        self._wind = WindForces(compute_windage(ship), ship.L_oa)
         self._propeller = Propeller(ship, ship.propeller) if ship.propeller is not None else None
         self._rudder = (
             Rudder(ship, ship.rudder, ship.propeller)

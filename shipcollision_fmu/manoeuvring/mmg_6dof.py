@@ -32,7 +32,7 @@ import numpy as np
 
 from ..errors import ShipError
 from ..ship.degrees_of_freedom import free_inverse, from_level, to_level
-from ..ship.seakeeping import seakeeping
+from ..ship.seakeeping import compute_seakeeping
 from ..ship.ship import Ship
 from .damping import Damping
 from .mmg import Forces, Machines, Mmg, Six, Surroundings
@@ -52,7 +52,7 @@ class Mmg6Dof(Mmg):
 
     def __init__(self, ship: Ship, degrees_of_freedom: int) -> None:
         super().__init__(ship)
-        sea = seakeeping(ship)
+        sea = compute_seakeeping(ship)
         self._level = degrees_of_freedom == 4
         self.restoring = Restoring(sea)
         self._damping = Damping(sea)

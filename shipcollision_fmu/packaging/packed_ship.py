@@ -11,7 +11,7 @@ from pathlib import Path, PurePosixPath
 
 from ..errors import ShipError
 from ..scenario.toml_writer import format_toml
-from ..ship.loading.library import ship_content, ship_names
+from ..ship.loading.library import list_ship_names, read_ship_tables
 
 __all__ = ["FOLDER", "pack_ship"]
 
@@ -24,9 +24,9 @@ def pack_ship(name: str, ship: str) -> tuple[str, dict[str, bytes]]:
 
     ship: the argument of load_ship. Raises ShipError when a file cannot be read.
     """
-    if ship in ship_names():
+    if ship in list_ship_names():
         return ship, {}
-    content, source = ship_content(ship), Path(ship).name
+    content, source = read_ship_tables(ship), Path(ship).name
     files: dict[str, bytes] = {}
     hull = content.get("hull")
     if isinstance(hull, dict) and isinstance(hull.get("file"), str):

@@ -22,7 +22,7 @@ import numpy.typing as npt
 
 from ..fmi.names import STATE
 from ..scenario.tables.reference import Quantity, Reference
-from ..ship.frames import Array, quaternion_w, swapped
+from ..ship.frames import Array, quaternion_w, swap_axes
 from ..ship.ship import Ship
 from ..ship.ship_state import ShipState
 
@@ -74,10 +74,10 @@ def interpolate_state(states: npt.NDArray[Any], name: str, time: float) -> ShipS
 def paper_quantities(state: ShipState, r_bg: Array) -> dict[Quantity, float]:
     """The paper's twelve quantities of a ship's state about CO."""
     R_nb = state.R_nb
-    x, y, z = swapped(np.array(state.position) + R_nb @ r_bg)
+    x, y, z = swap_axes(np.array(state.position) + R_nb @ r_bg)
     p, r, h, _ = quaternion_w(R_nb)
-    v_x, v_y, v_z = swapped(state.velocity_at(r_bg))
-    w_x, w_y, w_z = swapped(R_nb @ np.array(state.rate))
+    v_x, v_y, v_z = swap_axes(state.velocity_at(r_bg))
+    w_x, w_y, w_z = swap_axes(R_nb @ np.array(state.rate))
     values: dict[Quantity, float] = {
         "x": x, "y": y, "z": z, "h": h, "p": p, "r": r,
         "v_x": v_x, "v_y": v_y, "v_z": v_z, "w_x": w_x, "w_y": w_y, "w_z": w_z,

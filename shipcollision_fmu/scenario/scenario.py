@@ -13,9 +13,9 @@ from pydantic import Field, PrivateAttr, ValidationError, model_validator
 
 from ..collision.obstacles import ObstacleTable
 from ..errors import ScenarioError, ShipError
-from ..ship.loading.library import load_ship, models_directory
-from ..ship.loading.messages import one_line, suggestion
-from ..ship.loading.toml import parsed, read_toml
+from ..ship.loading.library import find_models, load_ship
+from ..ship.loading.messages import describe_error, suggest
+from ..ship.loading.toml import parse_toml, read_toml
 from ..ship.ship import Ship
 from ..ship.tables.table import Table
 from .initial_overlap import refuse_overlap
@@ -189,7 +189,7 @@ class Scenario(Table):
 
 def list_scenario_names() -> list[str]:
     """Names of the shipped scenarios, sorted."""
-    return sorted(path.stem for path in (models_directory() / "scenarios").glob("*.toml"))
+    return sorted(path.stem for path in (find_models() / "scenarios").glob("*.toml"))
 
 
 def load_scenario(name_or_path: str | Path) -> Scenario:
@@ -209,7 +209,7 @@ def parse_scenario(text: str, source: str, directory: str | Path = ".") -> Scena
 
     Raises ScenarioError as load_scenario does.
     """
-    scenario = _validate(parsed(text, source, ScenarioError), source, Path(directory))
+    scenario = _validate(parse_toml(text, source, ScenarioError), source, Path(directory))
     scenario.check()
     return scenario
 
@@ -222,9 +222,9 @@ def _locate(name_or_path: str | Path) -> Path:
             fault = "is a folder" if path.is_dir() else "does not exist"
             raise ScenarioError(f"scenario file {text} {fault}: give the path of a TOML file or one of {names}")
         return path
-    path = models_directory() / "scenarios" / f"{text}.toml"
+    path = find_models() / "scenarios" / f"{text}.toml"
     if not path.is_file():
-        near = suggestion(text, list_scenario_names())
+        near = suggest(text, list_scenario_names())
         raise ScenarioError(f"unknown scenario {text!r}:{near} known: {names}; or give the path of a TOML file")
     return path
 
@@ -237,6 +237,6 @@ def _validate(data: dict[str, Any], source: str, directory: Path) -> Scenario:
     try:
         scenario = Scenario.model_validate(data)
     except ValidationError as error:
-        raise ScenarioError(f"{source}: {one_line(error, Scenario)}") from None
+        raise ScenarioError(f"{source}: {describe_error(error, Scenario)}") from None
     scenario._source, scenario._directory = source, directory
     return scenario

@@ -7,7 +7,7 @@ from functools import lru_cache
 from pathlib import Path
 from time import time_ns
 
-__all__ = ["Stamp", "content_digest", "file_stamp"]
+__all__ = ["Stamp", "digest_content", "take_stamp"]
 
 SETTLED_NS = 2_000_000_000
 """Age [ns] from which a file's times tell it from a later version. File systems count in steps of up to 2 s (FAT): with
@@ -16,7 +16,7 @@ less, a file that is written twice within a step would be taken for unchanged.""
 Stamp = tuple[str, int, int, int, int]
 
 
-def file_stamp(path: Path) -> Stamp | None:
+def take_stamp(path: Path) -> Stamp | None:
     """(path, inode, size, time of the last write, of the last change [ns]); None: read the file again.
 
     None for a file that cannot be reached or has been written within the last two seconds (SETTLED_NS).
@@ -30,14 +30,14 @@ def file_stamp(path: Path) -> Stamp | None:
     return str(path.absolute()), status.st_ino, status.st_size, status.st_mtime_ns, status.st_ctime_ns
 
 
-def content_digest(path: Path) -> str:
+def digest_content(path: Path) -> str:
     """SHA-256 of the file's content in hexadecimal digits. Raises OSError when it cannot be read."""
-    stamp = file_stamp(path)
-    return _digest(path) if stamp is None else _digest_of(stamp)
+    stamp = take_stamp(path)
+    return _digest(path) if stamp is None else _digest_unchanged(stamp)
 
 
 @lru_cache(maxsize=64)
-def _digest_of(stamp: Stamp) -> str:
+def _digest_unchanged(stamp: Stamp) -> str:
     return _digest(Path(stamp[0]))
 
 

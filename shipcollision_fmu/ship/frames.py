@@ -27,7 +27,6 @@ __all__ = [
     "Array",
     "attitude_from_quaternion",
     "attitude_from_rotation",
-    "attitude_unwrapped",
     "pose_w",
     "quaternion",
     "quaternion_w",
@@ -35,8 +34,9 @@ __all__ = [
     "rotation_from_quaternion",
     "rotation_vector",
     "skew",
-    "swapped",
+    "swap_axes",
     "swapped_rows",
+    "unwrap_attitude",
 ]
 
 Array = npt.NDArray[np.float64]
@@ -70,7 +70,7 @@ def attitude_from_rotation(R_nb: Array) -> Array:
     return np.array([atan2(R_nb[2, 1], R_nb[2, 2]), theta, atan2(R_nb[1, 0], R_nb[0, 0])])
 
 
-def attitude_unwrapped(attitude: Array, psi_near: float) -> Array:
+def unwrap_attitude(attitude: Array, psi_near: float) -> Array:
     """The same attitude with psi within half a turn of `psi_near` [rad]: the heading that has no jump."""
     phi, theta, psi = attitude
     return np.array([phi, theta, psi + 2 * pi * round((psi_near - psi) / (2 * pi))])
@@ -129,7 +129,7 @@ def attitude_from_quaternion(q: Sequence[float] | Array) -> Array:
     return attitude_from_rotation(rotation_from_quaternion(q))
 
 
-def swapped(v: Sequence[float] | Array) -> tuple[float, float, float]:
+def swap_axes(v: Sequence[float] | Array) -> tuple[float, float, float]:
     """The same vector in the other convention, n <-> w or b <-> Bullet's body axes: (y, x, -z)."""
     x, y, z = v
     return (float(y), float(x), -float(z))
@@ -144,7 +144,7 @@ def swapped_rows(vectors: Sequence[Sequence[float]]) -> Array:
 
 def pose_w(x: Array, R_nb: Array) -> tuple[tuple[float, float, float], tuple[float, float, float, float]]:
     """Bullet's pose of a body at x (3,) in n with R_nb: (position in w, quaternion of quaternion_w)."""
-    return swapped(x), quaternion_w(R_nb)
+    return swap_axes(x), quaternion_w(R_nb)
 
 
 def quaternion_w(R_nb: Array) -> tuple[float, float, float, float]:

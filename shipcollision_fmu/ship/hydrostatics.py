@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-__all__ = ["GRAVITY", "Hydrostatics", "hydrostatics"]
+__all__ = ["GRAVITY", "Hydrostatics", "compute_hydrostatics"]
 
 GRAVITY = 9.80665
 """Standard gravity [m/s2]."""
@@ -36,7 +36,7 @@ class Hydrostatics:
     GM_L: float
 
 
-def hydrostatics(
+def compute_hydrostatics(
     L: float, B: float, T: float, C_b: float, z_g: float, *, GM_T: float | None = None, GM_L: float | None = None
 ) -> Hydrostatics:
     """Hydrostatics of a hull [m] with CG z_g below the waterline; a GM that is given is kept."""

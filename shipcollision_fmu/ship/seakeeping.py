@@ -19,10 +19,10 @@ from dataclasses import dataclass
 from math import pi, sqrt
 
 from ..errors import ShipError
-from .hydrostatics import GRAVITY, hydrostatics
+from .hydrostatics import GRAVITY, compute_hydrostatics
 from .ship import Ship
 
-__all__ = ["Seakeeping", "seakeeping"]
+__all__ = ["Seakeeping", "compute_seakeeping"]
 
 RATIOS = {"zeta_heave": 0.2, "zeta_roll": 0.05, "zeta_pitch": 0.25, "zeta_roll_per_rad": 0.3}
 """Damping where the file says nothing."""
@@ -60,7 +60,7 @@ class Seakeeping:
     estimated: tuple[str, ...]
 
 
-def seakeeping(ship: Ship) -> Seakeeping:
+def compute_seakeeping(ship: Ship) -> Seakeeping:
     """Heave, roll and pitch of a ship. Raises ShipError for one that does not float upright."""
     C_b = ship.C_b
     if not BLOCK[0] <= C_b <= BLOCK[1]:
@@ -69,7 +69,7 @@ def seakeeping(ship: Ship) -> Seakeeping:
             "so its heave, roll and pitch cannot be told: take degrees_of_freedom = 3, or give a mass that fits"
         )
     table, notes = ship.seakeeping, []
-    water = hydrostatics(ship.L_pp, ship.B, ship.T, C_b, float(ship.r_bg[2]), GM_T=ship.GM_T, GM_L=ship.GM_L)
+    water = compute_hydrostatics(ship.L_pp, ship.B, ship.T, C_b, float(ship.r_bg[2]), GM_T=ship.GM_T, GM_L=ship.GM_L)
     if water.GM_T < LEAST_GM * ship.B or water.GM_L <= 0.0:
         how = "" if ship.GM_T is not None else f", estimated with KG = {ship.T - float(ship.r_bg[2]):.2f} m"
         raise ShipError(

@@ -20,7 +20,7 @@ from dataclasses import dataclass
 
 from .ship import Ship
 
-__all__ = ["BLENDERMANN", "Windage", "windage"]
+__all__ = ["BLENDERMANN", "Windage", "compute_windage"]
 
 BLENDERMANN: dict[str, tuple[float, float, float, float, float]] = {
     "car carrier": (0.95, 0.55, 0.60, 0.80, 1.2),
@@ -67,7 +67,7 @@ class Windage:
     estimated: tuple[str, ...]
 
 
-def windage(ship: Ship) -> Windage:
+def compute_windage(ship: Ship) -> Windage:
     """A ship's windage, from its table [wind] and what is estimated."""
     table, notes = ship.wind, []
     kind: str | None = table.type

@@ -53,9 +53,9 @@ def read(text: str) -> ObstacleTable:
 
 
 def _content(text: str) -> dict:
-    from shipcollision_fmu.ship.loading.toml import parsed
+    from shipcollision_fmu.ship.loading.toml import parse_toml
 
-    (table,) = parsed(text, "test", InputError).values()
+    (table,) = parse_toml(text, "test", InputError).values()
     return table
 
 

@@ -16,7 +16,7 @@ from shipcollision_fmu.encounters.imazu import KNOT
 from shipcollision_fmu.results.published import paper_quantities
 from shipcollision_fmu.scenario.tables.environment import Environment
 from shipcollision_fmu.scenario.tables.ship_start import ShipStart
-from shipcollision_fmu.ship.frames import SWAP, Array, quaternion, quaternion_w, rotation, swapped
+from shipcollision_fmu.ship.frames import SWAP, Array, quaternion, quaternion_w, rotation, swap_axes
 from shipcollision_fmu.ship.ship_state import ShipState
 from shipcollision_fmu.show.osg.zup import convert_quaternions, convert_vectors
 
@@ -42,8 +42,8 @@ def rows() -> dict[str, tuple[tuple[float, ...], tuple[float, ...]]]:
 
 
 def bullet(v: tuple[float, ...]) -> tuple[float, ...]:
-    assert tuple(SWAP @ v) == swapped(v)
-    return swapped(v)
+    assert tuple(SWAP @ v) == swap_axes(v)
+    return swap_axes(v)
 
 
 def osg(v: tuple[float, ...]) -> tuple[float, ...]:

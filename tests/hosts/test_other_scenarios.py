@@ -13,7 +13,7 @@ import pytest
 import trimesh
 
 from shipcollision_fmu.scenario.scenario import Scenario, load_scenario, parse_scenario
-from shipcollision_fmu.ship.loading.library import models_directory
+from shipcollision_fmu.ship.loading.library import find_models
 
 from .encounter import Encounter, Rows, run_master
 from .masters import MASTERS
@@ -87,7 +87,7 @@ def test_orders_in_time_reach_the_ship_in_libcosim(tmp_path: Path, host: str) ->
 )
 def test_a_ship_file_with_a_mesh_and_forces_for_feedback(tmp_path: Path, hull: str) -> None:
     """In Ecos, from a folder of its own: the package holds ship file and mesh, both are gone where they were."""
-    models, home = models_directory(), tmp_path / "home"
+    models, home = find_models(), tmp_path / "home"
     home.mkdir()
     text = (models / "ships" / "mesh_example.toml").read_text()
     (home / "mine.toml").write_text(text.replace("../hulls/example.obj", "hull.obj"))

@@ -18,7 +18,7 @@ from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
 from shipcollision_fmu.ship.degrees_of_freedom import FREE, level_axes
 from shipcollision_fmu.ship.frames import Array, rotation
 from shipcollision_fmu.ship.loading.library import load_ship
-from shipcollision_fmu.ship.seakeeping import Seakeeping, seakeeping
+from shipcollision_fmu.ship.seakeeping import Seakeeping, compute_seakeeping
 
 from .conftest import started
 
@@ -80,7 +80,7 @@ def energy(model: ShipManoeuvring, mmg: Mmg6Dof) -> float:
 def test_period_and_damping_of_a_decay(start: Start, decoupled: str, motion: str) -> None:
     """Damped period 2 pi/(w sqrt(1 - zeta^2)) and decay per period exp(-2 pi zeta/sqrt(1 - zeta^2)), within 2 %."""
     ship = load_ship(decoupled)
-    sea = seakeeping(ship)
+    sea = compute_seakeeping(ship)
     i, zeta = {"heave": (2, 0.1), "roll": (3, 0.05), "pitch": (4, 0.15)}[motion]
     K = (sea.K_33, sea.K_44, sea.K_55)[i - 2]
     w, damped = sqrt(K / ship.M[i, i]), sqrt(1.0 - zeta**2)
@@ -151,7 +151,7 @@ def test_small_motions_after_a_blow_are_those_of_the_linear_system(start: Start,
     free = list(FREE[degrees_of_freedom])
     x_0 = np.zeros(12)
     x_0[[6 + i for i in free]] = np.linalg.solve(M[np.ix_(free, free)], P[free])
-    over_a_step = exponential(0.25 * linear(seakeeping(KVLCC2), degrees_of_freedom))
+    over_a_step = exponential(0.25 * linear(compute_seakeeping(KVLCC2), degrees_of_freedom))
     computed, expected = [], [x_0]
     for k in range(240):
         model.step(0.25 * k, 0.25)
@@ -168,7 +168,7 @@ def test_small_motions_after_a_blow_are_those_of_the_linear_system(start: Start,
 
 def test_sway_coupling_shortens_the_roll_period(start: Start) -> None:
     """A floating ship rolls about an axis above the centre of its sway added mass: w^2 = K_44/(M_44 - M_24^2/M_22)."""
-    sea = seakeeping(KVLCC2)
+    sea = compute_seakeeping(KVLCC2)
     odd = [1, 3, 5]
     w = sqrt(sea.K_44 * np.linalg.inv(M[np.ix_(odd, odd)])[1, 1])
     model, before, times = start(**SIX, attitude=[1e-3, 0.0, 0.0]), 1e-3, []
@@ -293,7 +293,7 @@ def test_steady_heel_is_what_the_forces_say(start: Start, mode: dict[str, Any]) 
     """By hand: K_44 sin(phi) = -z_H Y_H - z_RY Y_R + m z_G u r, from the forces that the model reports."""
     ship = start(**mode, velocity=[7.97, 0.0, 0.0], orders=[radians(20.0), 1.2268], substep=0.1)
     sail(ship, 1500.0, 5.0)
-    o, sea = ship.outputs, seakeeping(KVLCC2)
+    o, sea = ship.outputs, compute_seakeeping(KVLCC2)
     u, r, z_G, a_H = o.velocity[0], o.rate[2], 2.2, 0.312
     z_RY = (sea.z_R + a_H * sea.z_H) / (1 + a_H)
     K = -sea.z_H * o.hull[1] - z_RY * o.rudder[1] + KVLCC2.mass * z_G * u * r

@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 from shipcollision_fmu.manoeuvring.restoring import Restoring
 from shipcollision_fmu.ship.frames import rotation
 from shipcollision_fmu.ship.loading.library import load_ship
-from shipcollision_fmu.ship.seakeeping import seakeeping
+from shipcollision_fmu.ship.seakeeping import compute_seakeeping
 
-SEA = seakeeping(load_ship("kvlcc2"))
+SEA = compute_seakeeping(load_ship("kvlcc2"))
 SHIFTED = Restoring(replace(SEA, x_F=-6.0))
 restoring = Restoring(SEA)
 

@@ -10,11 +10,11 @@ import pytest
 
 from shipcollision_fmu.manoeuvring.mmg import CALM, Machines, Six
 from shipcollision_fmu.manoeuvring.mmg_3dof import Mmg3Dof
-from shipcollision_fmu.ship.loading.library import load_ship, ship_names
+from shipcollision_fmu.ship.loading.library import list_ship_names, load_ship
 
 from .conftest import started
 
-SAILING = [name for name in ship_names() if load_ship(name).manoeuvring is not None]
+SAILING = [name for name in list_ship_names() if load_ship(name).manoeuvring is not None]
 
 
 @cache

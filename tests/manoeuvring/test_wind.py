@@ -13,11 +13,11 @@ from hypothesis import strategies as st
 from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
 from shipcollision_fmu.manoeuvring.wind import WindForces
 from shipcollision_fmu.ship.loading.library import load_ship
-from shipcollision_fmu.ship.windage import windage
+from shipcollision_fmu.ship.windage import compute_windage
 
 Start = Callable[..., ShipManoeuvring]
 SHIP = load_ship("kvlcc2")
-W = windage(SHIP)
+W = compute_windage(SHIP)
 wind = WindForces(W, SHIP.L_oa)
 
 

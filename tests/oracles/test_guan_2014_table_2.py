@@ -11,7 +11,7 @@ from shipcollision_fmu import load_scenario, simulate
 from shipcollision_fmu.cosim.run import Run
 from shipcollision_fmu.results.published import interpolate_state, paper_quantities
 from shipcollision_fmu.scenario.scenario import Scenario
-from shipcollision_fmu.ship.frames import swapped
+from shipcollision_fmu.ship.frames import swap_axes
 
 BEFORE = {  # as printed, but for row r, shifted by one column in print, and own y, 5 m too large in print
     "own": {"x": -343.2120, "y": 81.6614, "z": 0.0, "h": 0.2908, "p": -0.0073, "r": 0.0014, "v_x": -2.8282,
@@ -111,5 +111,5 @@ def test_contact_is_at_the_place_that_the_table_implies(scenario: Scenario, run:
     first = run.events["collisions"][0]["first_point"]
     assert first["b_b"][0] == pytest.approx(-29.0, abs=3.0)
     assert first["b_b"][1] == pytest.approx(16.1, abs=0.1)
-    x, y, _ = swapped(first["n"])
+    x, y, _ = swap_axes(first["n"])
     assert (x, y) == pytest.approx((-427.9, 195.7), abs=1.5)

@@ -29,7 +29,7 @@ from shipcollision_fmu.packaging.ssp import build_ssp, write_ssp
 from shipcollision_fmu.packaging.system_structure import TimedOrder, build_system_structure
 from shipcollision_fmu.scenario.scenario import list_scenario_names, load_scenario
 from shipcollision_fmu.ship.hull.hull import build_hull
-from shipcollision_fmu.ship.loading.library import load_ship, models_directory
+from shipcollision_fmu.ship.loading.library import find_models, load_ship
 
 Write = Callable[..., Path]
 OSP = "{http://opensimulationplatform.com/MSMI/OSPSystemStructure}"
@@ -121,7 +121,7 @@ def test_a_ship_file_travels_with_what_it_extends(scenario_file: Write, tmp_path
 
 
 def test_a_mesh_travels_with_its_ship(tmp_path: Path) -> None:
-    source = models_directory() / "ships" / "mesh_example.toml"
+    source = find_models() / "ships" / "mesh_example.toml"
     place, files = pack_ship("own", str(source))
     assert sorted(files) == ["ships/own.obj", "ships/own.toml"]
     for name, data in files.items():
@@ -133,7 +133,7 @@ def test_a_mesh_travels_with_its_ship(tmp_path: Path) -> None:
 
 
 def test_a_mesh_that_is_missing_is_refused(tmp_path: Path) -> None:
-    text = (models_directory() / "ships" / "mesh_example.toml").read_text().replace("../hulls/example.obj", "gone.obj")
+    text = (find_models() / "ships" / "mesh_example.toml").read_text().replace("../hulls/example.obj", "gone.obj")
     (tmp_path / "ship.toml").write_text(text)
     with pytest.raises(ShipError, match=r"ship.toml: mesh file .*gone.obj cannot be read: No such file"):
         pack_ship("own", str(tmp_path / "ship.toml"))

@@ -13,14 +13,14 @@ from shipcollision_fmu.ship.frames import (
     SWAP,
     attitude_from_quaternion,
     attitude_from_rotation,
-    attitude_unwrapped,
     quaternion,
     quaternion_w,
     rotation,
     rotation_from_quaternion,
     rotation_vector,
     skew,
-    swapped,
+    swap_axes,
+    unwrap_attitude,
 )
 
 angle = st.floats(-3.1, 3.1)
@@ -80,8 +80,8 @@ def test_rotation_vector_is_smooth_at_zero() -> None:
 def test_the_swap_is_a_rotation_and_its_own_inverse() -> None:
     np.testing.assert_array_equal(SWAP @ SWAP, np.eye(3))
     assert np.linalg.det(SWAP) == pytest.approx(1.0)
-    assert swapped((1.0, 2.0, 3.0)) == (2.0, 1.0, -3.0)
-    np.testing.assert_array_equal(SWAP @ [1.0, 2.0, 3.0], swapped((1.0, 2.0, 3.0)))
+    assert swap_axes((1.0, 2.0, 3.0)) == (2.0, 1.0, -3.0)
+    np.testing.assert_array_equal(SWAP @ [1.0, 2.0, 3.0], swap_axes((1.0, 2.0, 3.0)))
 
 
 @given(attitudes)
@@ -93,13 +93,13 @@ def test_bullets_quaternion_swaps_both_sides(attitude: tuple[float, ...]) -> Non
 def test_a_point_on_the_port_bow_stays_on_the_port_bow() -> None:
     port_bow = np.array([100.0, -5.0, 0.0])
     R_nb = rotation((0.0, 0.0, radians(30)))
-    in_world = rotation_from_quaternion(quaternion_w(R_nb)) @ np.array(swapped(port_bow))
-    np.testing.assert_allclose(in_world, swapped(R_nb @ port_bow), atol=1e-12)
+    in_world = rotation_from_quaternion(quaternion_w(R_nb)) @ np.array(swap_axes(port_bow))
+    np.testing.assert_allclose(in_world, swap_axes(R_nb @ port_bow), atol=1e-12)
     assert in_world[0] < 100 * np.sin(radians(30))  # west of the stem: to port on a northerly heading
 
 
 @given(st.floats(-50.0, 50.0), angle)
 def test_unwrapped_heading_has_no_jump(near: float, psi: float) -> None:
-    unwrapped = attitude_unwrapped(np.array([0.0, 0.0, psi]), near)[2]
+    unwrapped = unwrap_attitude(np.array([0.0, 0.0, psi]), near)[2]
     assert abs(unwrapped - near) <= pi + 1e-9
     assert np.cos(unwrapped - psi) == pytest.approx(1.0)

@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import HostError
-from ...ship.frames import SWAP, Array, pose_w, swapped, swapped_rows
+from ...ship.frames import SWAP, Array, pose_w, swap_axes, swapped_rows
 from ...ship.hull.solid import HullMesh
 from ..dynamics.body_state import BodyState
 
@@ -182,7 +182,7 @@ class BulletAdapter:
         p.setCollisionFilterPair(made[0], made[1], -1, -1, 1, physicsClientId=client)
         for handle, body, (_, R_nb), nu in zip(made, bodies, poses, twists, strict=True):
             velocity = R_nb @ (nu[:3] + np.cross(nu[3:], body.r_bg))
-            p.resetBaseVelocity(handle, swapped(velocity), swapped(R_nb @ nu[3:]), physicsClientId=client)
+            p.resetBaseVelocity(handle, swap_axes(velocity), swap_axes(R_nb @ nu[3:]), physicsClientId=client)
         p.stepSimulation(physicsClientId=client)
         rows = p.getContactPoints(made[0], made[1], physicsClientId=client)
         for handle in made:
@@ -218,7 +218,7 @@ class BulletAdapter:
         p.changeDynamics(
             handle, -1, mass=body.mass, linearDamping=0.0, angularDamping=0.0, lateralFriction=friction**0.5,
             restitution=restitution**0.5,
-            localInertiaDiagonal=np.abs(swapped(body.inertia)).tolist(), physicsClientId=client,
+            localInertiaDiagonal=np.abs(swap_axes(body.inertia)).tolist(), physicsClientId=client,
         )  # fmt: skip
         return handle
 
@@ -244,5 +244,5 @@ def _contact_row(row: Sequence[Any], h: float) -> tuple[Array, Array, Array, flo
     on_a, on_b, normal = swapped_rows(row[5:8])
     if row[9] == 0.0:  # a prediction: Bullet leaves the friction directions of a contact it did not solve unset
         return on_a, on_b, -normal, float(row[8]), np.zeros(3)
-    force_on_a = normal * row[9] + np.array(swapped(row[11])) * row[10] + np.array(swapped(row[13])) * row[12]
+    force_on_a = normal * row[9] + np.array(swap_axes(row[11])) * row[10] + np.array(swap_axes(row[13])) * row[12]
     return on_a, on_b, -normal, float(row[8]), -force_on_a * h

@@ -15,7 +15,7 @@ from typing import Annotated
 from pydantic import AliasChoices, ConfigDict, Field, ValidationError
 
 from ...errors import ScenarioError
-from ...ship.loading.messages import one_line
+from ...ship.loading.messages import describe_error
 from ...ship.tables.table import Table
 
 __all__ = [
@@ -129,4 +129,4 @@ def read_situation(path: Path) -> Situation:
     try:
         return Situation.model_validate(content)
     except ValidationError as error:
-        raise ScenarioError(f"{path.name}: {one_line(error, Situation)}") from None
+        raise ScenarioError(f"{path.name}: {describe_error(error, Situation)}") from None

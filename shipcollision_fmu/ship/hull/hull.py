@@ -30,7 +30,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...errors import ShipError
-from ..file_stamp import content_digest
+from ..file_stamp import digest_content
 from ..frames import Array
 from ..tables.hull import HullTable
 from .convex import Indices, half_spaces
@@ -76,31 +76,31 @@ def build_hull(L_oa: float, B: float, T: float, table: HullTable) -> HullMesh:
     digest = ""
     if table.file is not None:
         try:
-            digest = content_digest(Path(table.file))
-        except OSError:  # mesh_hull refuses the file by name
-            return _built(L_oa, B, T, table)
-    return _built_once(_Form(L_oa, B, T, table, table.model_dump_json(), digest))
+            digest = digest_content(Path(table.file))
+        except OSError:  # build_mesh_hull refuses the file by name
+            return _build(L_oa, B, T, table)
+    return _build_once(_Form(L_oa, B, T, table, table.model_dump_json(), digest))
 
 
 @lru_cache(maxsize=HULLS_KEPT)
-def _built_once(form: _Form) -> HullMesh:
-    hull = _built(form.L_oa, form.B, form.T, form.table)
+def _build_once(form: _Form) -> HullMesh:
+    hull = _build(form.L_oa, form.B, form.T, form.table)
     for array in (hull.vertices, hull.triangles, *hull.parts, *hull.planes):
         array.flags.writeable = False
     return hull
 
 
-def _built(L_oa: float, B: float, T: float, table: HullTable) -> HullMesh:
+def _build(L_oa: float, B: float, T: float, table: HullTable) -> HullMesh:
     if table.shape == "mesh":
-        from .mesh import mesh_hull
+        from .mesh import build_mesh_hull
 
-        return mesh_hull(L_oa, B, T, table)
+        return build_mesh_hull(L_oa, B, T, table)
     if table.shape == "box":
-        plan, levels = _box_plan(L_oa, B), [(T, 0.0, 0.0, 0.0), (T - table.depth, 0.0, 0.0, 0.0)]
+        plan, levels = _draw_box(L_oa, B), [(T, 0.0, 0.0, 0.0), (T - table.depth, 0.0, 0.0, 0.0)]
     else:
-        plan, levels = _ship_plan(L_oa, B, table), _levels(T, table)
-    rings = [_ring(plan, z, rake, flare, bilge) for z, rake, flare, bilge in levels]
-    if min(_edge_lengths(ring, plan).min() for ring in rings) <= 0.0:
+        plan, levels = _draw_ship(L_oa, B, table), _place_levels(T, table)
+    rings = [_offset_ring(plan, z, rake, flare, bilge) for z, rake, flare, bilge in levels]
+    if min(_measure_edges(ring, plan).min() for ring in rings) <= 0.0:
         raise ShipError(
             f"[hull]: rake, flare and bilge leave no room for the bow: bow_length = {table.bow_length} m, "
             f"stem_rake_deg = {table.stem_rake_deg}, flare_deg = {table.flare_deg}, bilge = {table.bilge} m; lengthen "
@@ -108,18 +108,18 @@ def _built(L_oa: float, B: float, T: float, table: HullTable) -> HullMesh:
         )
     vertices = np.vstack(rings) + [table.trim_x, 0.0, 0.0]
     n = len(plan.corners)
-    parts = _convex_parts(vertices, rings, levels)
-    planes = tuple(half_spaces(part, _triangles(len(part) // n, n)) for part in parts)
-    return HullMesh(vertices, _triangles(len(rings), n), parts, planes)
+    parts = _join_convex_bands(vertices, rings, levels)
+    planes = tuple(half_spaces(part, _connect_rings(len(part) // n, n)) for part in parts)
+    return HullMesh(vertices, _connect_rings(len(rings), n), parts, planes)
 
 
-def _box_plan(L: float, B: float) -> _Plan:
+def _draw_box(L: float, B: float) -> _Plan:
     x, y = L / 2, B / 2
     corners = np.array([[x, -y], [x, y], [-x, y], [-x, -y]])
     return _Plan(corners, np.zeros(4, bool), np.zeros(4, bool))
 
 
-def _ship_plan(L_oa: float, B: float, table: HullTable) -> _Plan:
+def _draw_ship(L_oa: float, B: float, table: HullTable) -> _Plan:
     """Deck polygon: from the stem along starboard to the transom and back along port."""
     straight = table.transom_fraction == 1.0  # collinear edges would have no corner between them
     bow_edges = 1 if table.bow_exponent == 1.0 else BOW_EDGES
@@ -136,7 +136,7 @@ def _ship_plan(L_oa: float, B: float, table: HullTable) -> _Plan:
     return _Plan(np.vstack([starboard, port]), (i < bow_edges) | (i >= 2 * n - 1 - bow_edges), i == n - 1)
 
 
-def _levels(T: float, table: HullTable) -> list[tuple[float, float, float, float]]:
+def _place_levels(T: float, table: HullTable) -> list[tuple[float, float, float, float]]:
     """(z, shift aft of the bow, inward offset of the bow, inward offset of all but the transom) from keel to deck."""
     z_deck = T - table.depth
     rake, flare = tan(radians(table.stem_rake_deg)), tan(radians(table.flare_deg))
@@ -149,7 +149,7 @@ def _levels(T: float, table: HullTable) -> list[tuple[float, float, float, float
     return [(z, (z - z_deck) * rake, (min(z, 0.0) - z_deck) * flare, bilge) for z, bilge in heights]
 
 
-def _ring(plan: _Plan, z: float, rake: float, flare: float, bilge: float) -> Array:
+def _offset_ring(plan: _Plan, z: float, rake: float, flare: float, bilge: float) -> Array:
     """Corners of the level at z, (n, 3): the deck's edges moved inwards and intersected again."""
     edges = np.roll(plan.corners, -1, axis=0) - plan.corners
     normal = np.column_stack([edges[:, 1], -edges[:, 0]]) / np.linalg.norm(edges, axis=1)[:, None]
@@ -162,7 +162,7 @@ def _ring(plan: _Plan, z: float, rake: float, flare: float, bilge: float) -> Arr
     return np.column_stack([corners[..., 0], np.full(len(corners), z)])
 
 
-def _edge_lengths(ring: Array, plan: _Plan) -> Array:
+def _measure_edges(ring: Array, plan: _Plan) -> Array:
     """Signed length of each edge along the deck's edge: not positive when an edge has vanished."""
     edges = np.roll(plan.corners, -1, axis=0) - plan.corners
     ours = (np.roll(ring, -1, axis=0) - ring)[:, :2]
@@ -170,7 +170,7 @@ def _edge_lengths(ring: Array, plan: _Plan) -> Array:
     return lengths
 
 
-def _triangles(levels: int, n: int) -> Indices:
+def _connect_rings(levels: int, n: int) -> Indices:
     """Shell between consecutive rings, bottom and deck; outward normals (z down, rings from the keel up)."""
     shell = []
     for level in range(levels - 1):
@@ -184,7 +184,7 @@ def _triangles(levels: int, n: int) -> Indices:
     return np.array(shell + bottom + deck, dtype=np.int64)
 
 
-def _convex_parts(
+def _join_convex_bands(
     vertices: Array, rings: list[Array], levels: list[tuple[float, float, float, float]]
 ) -> tuple[Array, ...]:
     """Bands of levels joined while convex together: only a flare's knuckle at the waterline splits the hull."""

@@ -38,7 +38,7 @@ from ..tables.hull import HullTable
 from .convex import Indices, enclosed_volume, half_spaces, is_convex
 from .solid import HullMesh
 
-__all__ = ["UNITS", "VOLUME_TOLERANCE", "mesh_hull"]
+__all__ = ["UNITS", "VOLUME_TOLERANCE", "build_mesh_hull"]
 
 UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "ft": 0.3048, "in": 0.0254}
 """Metres per unit of a file."""
@@ -63,7 +63,7 @@ LARGEST_FILE = 200 * 2**20
 """Bytes of a file that are read at all."""
 
 
-def mesh_hull(L_oa: float, B: float, T: float, table: HullTable) -> HullMesh:
+def build_mesh_hull(L_oa: float, B: float, T: float, table: HullTable) -> HullMesh:
     """Hull of `table.file` (a path from the current folder, or absolute), in b about CO [m].
 
     L_oa, B, T [m] are what the mesh is compared with. Raises ShipError when the file or the mesh is refused, HostError
@@ -71,9 +71,9 @@ def mesh_hull(L_oa: float, B: float, T: float, table: HullTable) -> HullMesh:
     """
     assert table.file is not None
     path = Path(table.file)
-    vertices, triangles = _read(path)
+    vertices, triangles = _read_mesh(path)
     metres = table.scale or UNITS[table.unit]
-    placed = (vertices - table.origin) @ _axes(table).T * metres
+    placed = (vertices - table.origin) @ _find_axes(table).T * metres
     _check_closed(path.name, vertices, triangles)
     _check_size(path.name, placed, L_oa, table)
     _check_axes(path.name, placed, L_oa, B, table)
@@ -87,7 +87,7 @@ def mesh_hull(L_oa: float, B: float, T: float, table: HullTable) -> HullMesh:
         )
     if volume < 0.0:  # all of it inside out: turned
         triangles = triangles[:, ::-1].copy()
-    cut = _convex_parts(path.name, placed, triangles, table.max_parts)
+    cut = _cut_into_convex_parts(path.name, placed, triangles, table.max_parts)
     return HullMesh(
         placed, triangles, tuple(p for p, _ in cut.parts), tuple(half_spaces(*part) for part in cut.parts),
         cut.volume_error, cut.bulge,
@@ -97,7 +97,7 @@ def mesh_hull(L_oa: float, B: float, T: float, table: HullTable) -> HullMesh:
 # -- reading ----------------------------------------------------------------------------------------
 
 
-def _module(name: str, purpose: str) -> ModuleType:
+def _import_optional(name: str, purpose: str) -> ModuleType:
     try:
         return import_module(name)
     except ImportError as error:
@@ -107,7 +107,7 @@ def _module(name: str, purpose: str) -> ModuleType:
         ) from None
 
 
-def _read(path: Path) -> tuple[Array, Indices]:
+def _read_mesh(path: Path) -> tuple[Array, Indices]:
     """Vertices (n, 3), those at one place joined, and triangles (m, 3) with three different corners."""
     kind = path.suffix.lower().removeprefix(".")
     if kind not in ("obj", "stl"):
@@ -122,7 +122,7 @@ def _read(path: Path) -> tuple[Array, Indices]:
         raise ShipError(f"{path.name}: has {size} bytes, more than {LARGEST_FILE}: simplify the mesh")
     if kind == "stl":
         _check_whole(path, size)
-    trimesh = _module("trimesh", "a hull from a mesh file is read with it")
+    trimesh = _import_optional("trimesh", "a hull from a mesh file is read with it")
     try:
         with path.open("rb") as file:
             mesh = trimesh.load_mesh(
@@ -163,13 +163,13 @@ def _check_whole(path: Path, size: int) -> None:
         )
 
 
-def _axes(table: HullTable) -> Array:
+def _find_axes(table: HullTable) -> Array:
     """(3, 3), rows: forward, starboard and down in the file's axes."""
-    forward, up = _direction(table.forward), _direction(table.up)
+    forward, up = _parse_axis(table.forward), _parse_axis(table.up)
     return np.array([forward, np.cross(forward, up), -up])
 
 
-def _direction(axis: str) -> Array:
+def _parse_axis(axis: str) -> Array:
     direction = np.zeros(3)
     direction["xyz".index(axis[1])] = -1.0 if axis[0] == "-" else 1.0
     return direction
@@ -207,11 +207,11 @@ def _check_closed(name: str, vertices: Array, triangles: Indices) -> None:
 
 def _check_size(name: str, placed: Array, L_oa: float, table: HullTable) -> None:
     longest = float(np.ptp(placed, axis=0).max())
-    if _alike(longest, L_oa):
+    if _is_alike(longest, L_oa):
         return
     said = f"scale = {table.scale:g}" if table.scale else f'unit = "{table.unit}"'
     in_file = longest / (table.scale or UNITS[table.unit])
-    unit = next((u for u, metres in UNITS.items() if _alike(in_file * metres, L_oa)), None)
+    unit = next((u for u, metres in UNITS.items() if _is_alike(in_file * metres, L_oa)), None)
     remedy = f'looks like {_NAMES[unit]}: set unit = "{unit}"' if unit else "set unit or scale, or correct L_oa"
     raise ShipError(f"{name}: is {longest:.6g} m long with {said}, and L_oa = {L_oa:.6g} m: {remedy}")
 
@@ -219,14 +219,14 @@ def _check_size(name: str, placed: Array, L_oa: float, table: HullTable) -> None
 def _check_axes(name: str, placed: Array, L_oa: float, B: float, table: HullTable) -> None:
     """Length lies forward and breadth across; else the axes are named that would do."""
     x, y, z = np.ptp(placed, axis=0).tolist()
-    if _alike(x, L_oa) and _alike(y, B):
+    if _is_alike(x, L_oa) and _is_alike(y, B):
         return
-    extent = dict(zip("xyz", np.ptp(placed @ _axes(table), axis=0).tolist(), strict=True))
+    extent = dict(zip("xyz", np.ptp(placed @ _find_axes(table), axis=0).tolist(), strict=True))
     sizes = ", ".join(f"{axis} {size:.6g} m" for axis, size in extent.items())
     for forward, across, up in permutations("xyz"):
         if (
-            _alike(extent[forward], L_oa)
-            and _alike(extent[across], B)
+            _is_alike(extent[forward], L_oa)
+            and _is_alike(extent[across], B)
             and (forward, up) != (table.forward[1], table.up[1])
         ):
             raise ShipError(
@@ -240,7 +240,7 @@ def _check_axes(name: str, placed: Array, L_oa: float, B: float, table: HullTabl
     )
 
 
-def _alike(size: float, expected: float) -> bool:
+def _is_alike(size: float, expected: float) -> bool:
     return bool(1.0 / (1.0 + SIZE_TOLERANCE) <= size / expected <= 1.0 + SIZE_TOLERANCE)
 
 
@@ -287,10 +287,10 @@ class Cut:
     bulge: float = 0.0
 
 
-def _convex_parts(name: str, vertices: Array, triangles: Indices, max_parts: int) -> Cut:
+def _cut_into_convex_parts(name: str, vertices: Array, triangles: Indices, max_parts: int) -> Cut:
     if is_convex(vertices, triangles, CONVEX_WITHIN):
         return Cut(((vertices, triangles),))
-    cut = _cut(vertices.tobytes(), triangles.tobytes(), max_parts)
+    cut = _cut_solid(vertices.tobytes(), triangles.tobytes(), max_parts)
     if cut.volume_error > VOLUME_TOLERANCE:
         raise ShipError(
             f"{name}: its {len(cut.parts)} convex parts hold {cut.volume_error:.1%} more than the solid, at most "
@@ -301,9 +301,9 @@ def _convex_parts(name: str, vertices: Array, triangles: Indices, max_parts: int
 
 
 @lru_cache(maxsize=8)
-def _cut(vertices: bytes, triangles: bytes, max_parts: int) -> Cut:
+def _cut_solid(vertices: bytes, triangles: bytes, max_parts: int) -> Cut:
     """The solid cut by CoACD, to at most max_parts. Kept in memory for several ships of one hull."""
-    coacd = _module("coacd", "a hull that is not convex is cut into parts with it")
+    coacd = _import_optional("coacd", "a hull that is not convex is cut into parts with it")
     coacd.set_log_level("error")
     p = np.frombuffer(vertices).reshape(-1, 3)
     faces = np.frombuffer(triangles, dtype=np.int64).reshape(-1, 3)
@@ -312,8 +312,8 @@ def _cut(vertices: bytes, triangles: bytes, max_parts: int) -> Cut:
         found = coacd.run_coacd(
             coacd.Mesh(p, faces), threshold=threshold, max_convex_hull=max_parts, preprocess_mode="off", seed=SEED
         )
-        parts = tuple(_outward(np.array(v, dtype=float), np.array(f, dtype=np.int64)) for v, f in found)
-        cut = Cut(parts, sum(enclosed_volume(*part) for part in parts) / volume - 1.0, _bulge(p, parts))
+        parts = tuple(_turn_outward(np.array(v, dtype=float), np.array(f, dtype=np.int64)) for v, f in found)
+        cut = Cut(parts, sum(enclosed_volume(*part) for part in parts) / volume - 1.0, _measure_bulge(p, parts))
         if best is None or cut.bulge < best.bulge:
             best = cut
         if best.bulge <= BULGE_GOAL * float(np.ptp(p[:, 1])):
@@ -322,7 +322,7 @@ def _cut(vertices: bytes, triangles: bytes, max_parts: int) -> Cut:
     return best
 
 
-def _bulge(surface: Array, parts: tuple[Part, ...]) -> float:
+def _measure_bulge(surface: Array, parts: tuple[Part, ...]) -> float:
     """How deep [m] the deepest vertex of the solid's surface lies inside a part; it should lie on one."""
     deepest = 0.0
     for part in parts:
@@ -332,7 +332,7 @@ def _bulge(surface: Array, parts: tuple[Part, ...]) -> float:
     return deepest
 
 
-def _outward(vertices: Array, triangles: Indices) -> Part:
+def _turn_outward(vertices: Array, triangles: Indices) -> Part:
     return (
         (vertices, triangles) if enclosed_volume(vertices, triangles) > 0.0 else (vertices, triangles[:, ::-1].copy())
     )

@@ -18,18 +18,18 @@ import numpy as np
 from ...errors import ShipError
 from ..frames import Array
 from ..inertia import added_mass_matrix, is_positive_definite, rigid_body_inertia
-from ..seakeeping import seakeeping
+from ..seakeeping import compute_seakeeping
 from ..ship import Ship
-from ..windage import windage
+from ..windage import compute_windage
 from .ship_file import ShipFile
 
-__all__ = ["assembled"]
+__all__ = ["assemble_ship"]
 
 FRACTIONS = {"m_x": 0.05, "m_y": 0.85, "m_z": 1.0, "j_x": 0.2, "j_y": 1.0, "j_z": 0.21}
 """Added mass over mass, added inertia over rigid-body inertia about CG, where the file says nothing."""
 
 
-def assembled(content: ShipFile, file: str) -> Ship:
+def assemble_ship(content: ShipFile, file: str) -> Ship:
     """The ship that a validated file describes; `file` names it in messages.
 
     Raises ShipError when the inertia that comes out is not positive definite.
@@ -54,7 +54,7 @@ def assembled(content: ShipFile, file: str) -> Ship:
         estimated.append("r_bg = (0, 0, 0)")
 
     M_RB = rigid_body_inertia(p.mass, r_bg, radii)
-    M_A = _added_mass(content, p.mass * radii**2, estimated, file)
+    M_A = _assemble_added_mass(content, p.mass * radii**2, estimated, file)
     M = M_RB + M_A
     if not is_positive_definite(M):
         raise ShipError(
@@ -70,23 +70,23 @@ def assembled(content: ShipFile, file: str) -> Ship:
         rudder=content.rudder, engine=content.engine, seakeeping=content.seakeeping, wind=content.wind,
         estimated=tuple(estimated),
     )  # fmt: skip
-    return ship if ship.manoeuvring is None else replace(ship, estimated=(*estimated, *_of_the_sailing_ship(ship)))
+    return ship if ship.manoeuvring is None else replace(ship, estimated=(*estimated, *_list_sailing_estimates(ship)))
 
 
-def _of_the_sailing_ship(ship: Ship) -> tuple[str, ...]:
+def _list_sailing_estimates(ship: Ship) -> tuple[str, ...]:
     """What heave, roll, pitch and wind need and the file does not say; a coasting ship has no use for it."""
     try:
-        floating = seakeeping(ship).estimated
+        floating = compute_seakeeping(ship).estimated
     except ShipError:  # said when 4 or 6 degrees of freedom are asked for
         floating = ()
-    return (*floating, *windage(ship).estimated)
+    return (*floating, *compute_windage(ship).estimated)
 
 
-def _added_mass(content: ShipFile, inertia_g: Array, estimated: list[str], file: str) -> Array:
+def _assemble_added_mass(content: ShipFile, inertia_g: Array, estimated: list[str], file: str) -> Array:
     """M_A about CO from the full matrix, the fractions, or the MMG set; adds to `estimated`."""
     p, table, mmg = content.particulars, content.added_mass, content.manoeuvring
     if table.M_A is not None:
-        return _checked_M_A(np.array(table.M_A, dtype=float), file)
+        return _check_M_A(np.array(table.M_A, dtype=float), file)
     brought: dict[str, float] = {}
     if mmg is not None and mmg.m_x is not None and mmg.m_y is not None and mmg.J_z is not None:
         mass_unit = 0.5 * p.rho * p.L_pp**2 * p.T
@@ -109,7 +109,7 @@ def _added_mass(content: ShipFile, inertia_g: Array, estimated: list[str], file:
     return added_mass_matrix(**values, z_y=z_y)
 
 
-def _checked_M_A(M_A: Array, file: str) -> Array:
+def _check_M_A(M_A: Array, file: str) -> Array:
     """M_A as given, made exactly symmetric. Raises ShipError when it is not an added mass."""
     largest = float(np.abs(M_A).max())
     i, j = np.unravel_index(int(np.abs(M_A - M_A.T).argmax()), M_A.shape)

@@ -19,14 +19,14 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import ShipError
-from ..file_stamp import Stamp, content_digest, file_stamp
+from ..file_stamp import Stamp, digest_content, take_stamp
 from ..ship import Ship
-from .assembly import assembled
-from .messages import suggestion
-from .ship_file import ship_file
+from .assembly import assemble_ship
+from .messages import suggest
+from .ship_file import validate_ship_file
 from .toml import read_toml
 
-__all__ = ["Ship", "load_ship", "models_directory", "ship_content", "ship_names"]
+__all__ = ["Ship", "find_models", "list_ship_names", "load_ship", "read_ship_tables"]
 
 SHIPS_KEPT = 64
 """Ships and ship files that are kept in memory. With fewer than a run has ships, they are read and made again."""
@@ -35,16 +35,16 @@ DICT = "ship given as a dict"
 """Stands for the file's name in messages."""
 
 
-def models_directory() -> Path:
+def find_models() -> Path:
     """Folder of the shipped models: inside an installed package, beside the package in a working copy."""
     package = Path(__file__).resolve().parents[2]
     inside = package / "models"
     return inside if inside.is_dir() else package.parent / "models"
 
 
-def ship_names() -> list[str]:
+def list_ship_names() -> list[str]:
     """Names of the shipped ships, sorted."""
-    return sorted(path.stem for path in (models_directory() / "ships").glob("*.toml"))
+    return sorted(path.stem for path in (find_models() / "ships").glob("*.toml"))
 
 
 def load_ship(source: str | Path | Mapping[str, Any], directory: Path | None = None) -> Ship:
@@ -56,17 +56,17 @@ def load_ship(source: str | Path | Mapping[str, Any], directory: Path | None = N
     not found or refused.
     """
     if isinstance(source, Mapping):
-        return _ship(_overlay(_plain(source), directory or Path(), DICT, ()), DICT)
+        return _make_ship(_overlay(_convert_to_toml(source), directory or Path(), DICT, ()), DICT)
     if directory is not None and _is_path(source) and (directory / source).is_file():
         source = directory / source
-    path = _located(source)
-    return _ship(_file_content(path, ()), path.name)
+    path = _locate(source)
+    return _make_ship(_read_with_base(path, ()), path.name)
 
 
-def ship_content(name_or_path: str | Path) -> dict[str, Any]:
+def read_ship_tables(name_or_path: str | Path) -> dict[str, Any]:
     """The tables of a ship file as load_ship reads them: those of the files that it extends laid under its own, the
     mesh file of [hull] findable from the current folder."""
-    return _file_content(_located(name_or_path), ())
+    return _read_with_base(_locate(name_or_path), ())
 
 
 @dataclass(frozen=True)
@@ -78,20 +78,20 @@ class _Content:
     source: str = field(compare=False)
 
 
-def _ship(tables: dict[str, Any], source: str) -> Ship:
+def _make_ship(tables: dict[str, Any], source: str) -> Ship:
     """The ship of these tables; `source` names them in messages."""
     hull = tables.get("hull")
     mesh = hull.get("file") if isinstance(hull, dict) else None
     try:
-        digest = content_digest(Path(mesh)) if isinstance(mesh, str) else ""
+        digest = digest_content(Path(mesh)) if isinstance(mesh, str) else ""
     except OSError:  # build_hull says so
         digest = ""
-    return _assembled(_Content(json.dumps([tables, digest], sort_keys=True, default=repr), tables, source))
+    return _assemble_once(_Content(json.dumps([tables, digest], sort_keys=True, default=repr), tables, source))
 
 
 @lru_cache(maxsize=SHIPS_KEPT)
-def _assembled(content: _Content) -> Ship:
-    return assembled(ship_file(content.tables, content.source), content.source)
+def _assemble_once(content: _Content) -> Ship:
+    return assemble_ship(validate_ship_file(content.tables, content.source), content.source)
 
 
 def _is_path(name_or_path: str | Path) -> bool:
@@ -99,51 +99,51 @@ def _is_path(name_or_path: str | Path) -> bool:
     return isinstance(name_or_path, Path) or text.endswith(".toml") or "/" in text or "\\" in text
 
 
-def _located(name_or_path: str | Path, beside: Path | None = None) -> Path:
+def _locate(name_or_path: str | Path, beside: Path | None = None) -> Path:
     text = str(name_or_path)
     if _is_path(name_or_path):
         path = Path(text)
         if beside is not None and not path.is_absolute():
             path = beside / path
         if not path.is_file():
-            known = ", ".join(ship_names())
+            known = ", ".join(list_ship_names())
             raise ShipError(f"ship file {text} does not exist: give the path of a TOML file or one of {known}")
         return path
-    folders = [models_directory() / "ships"] if beside is None else [beside, models_directory() / "ships"]
+    folders = [find_models() / "ships"] if beside is None else [beside, find_models() / "ships"]
     for folder in folders:
         path = folder / f"{text}.toml"
         if path.is_file():
             return path
-    names = ship_names()
+    names = list_ship_names()
     raise ShipError(
-        f"unknown ship {text!r}:{suggestion(text, names)} known: {', '.join(names)}; or give the path of a TOML file"
+        f"unknown ship {text!r}:{suggest(text, names)} known: {', '.join(names)}; or give the path of a TOML file"
     )
 
 
-def _plain(value: Any) -> Any:
+def _convert_to_toml(value: Any) -> Any:
     """The same in dicts with text as keys and in lists, as a TOML file has it."""
     if isinstance(value, Mapping):
-        return {str(key): _plain(below) for key, below in value.items()}
-    return [_plain(below) for below in value] if isinstance(value, list | tuple) else value
+        return {str(key): _convert_to_toml(below) for key, below in value.items()}
+    return [_convert_to_toml(below) for below in value] if isinstance(value, list | tuple) else value
 
 
-def _toml(path: Path) -> dict[str, Any]:
+def _read_tables(path: Path) -> dict[str, Any]:
     """Content of a ship file, the caller's own."""
-    stamp = file_stamp(path)
-    return read_toml(path, ShipError) if stamp is None else deepcopy(_unchanged_toml(stamp))
+    stamp = take_stamp(path)
+    return read_toml(path, ShipError) if stamp is None else deepcopy(_read_unchanged(stamp))
 
 
 @lru_cache(maxsize=SHIPS_KEPT)
-def _unchanged_toml(stamp: Stamp) -> dict[str, Any]:
+def _read_unchanged(stamp: Stamp) -> dict[str, Any]:
     return read_toml(Path(stamp[0]), ShipError)
 
 
-def _file_content(path: Path, above: tuple[Path, ...]) -> dict[str, Any]:
+def _read_with_base(path: Path, above: tuple[Path, ...]) -> dict[str, Any]:
     """Tables of the file, those of its base under its own. `above`: the files that led here."""
     if path.resolve() in above:
         chain = " extends ".join(p.stem for p in (*above, path))
         raise ShipError(f"{path.name}: extends goes round in a circle ({chain}): remove one extends")
-    return _overlay(_toml(path), path.parent, path.name, (*above, path.resolve()))
+    return _overlay(_read_tables(path), path.parent, path.name, (*above, path.resolve()))
 
 
 def _overlay(own: dict[str, Any], folder: Path, source: str, above: tuple[Path, ...]) -> dict[str, Any]:
@@ -157,10 +157,10 @@ def _overlay(own: dict[str, Any], folder: Path, source: str, above: tuple[Path, 
     if not isinstance(base_name, str):
         raise ShipError(f"{source}: extends = {base_name!r} must be a ship's name or path in quotes")
     try:
-        base_path = _located(base_name, folder)
+        base_path = _locate(base_name, folder)
     except ShipError as error:
         raise ShipError(f"{source}: extends: {error}") from None
-    base = _file_content(base_path, above)
+    base = _read_with_base(base_path, above)
     for key, value in own.items():
         both_tables = isinstance(value, dict) and isinstance(base.get(key), dict)
         base[key] = {**base[key], **value} if both_tables else value

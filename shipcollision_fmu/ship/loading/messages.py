@@ -13,54 +13,54 @@ from typing import Annotated, Any, Union, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 
-__all__ = ["one_line", "suggestion"]
+__all__ = ["describe_error", "suggest"]
 
 _LONGEST_VALUE = 60
 """Characters of a value that are shown; a pasted 6x6 matrix would hide the message."""
 
 
-def one_line(error: ValidationError, model: type[BaseModel]) -> str:
+def describe_error(error: ValidationError, model: type[BaseModel]) -> str:
     """What to tell the user about `error`, raised while validating data against `model`; without the file's name.
 
     Unknown keys come first: a misspelt key is usually the cause of a missing one.
     """
     problems = error.errors(include_url=False)
     first = min(problems, key=lambda p: p["type"] != "extra_forbidden")  # min keeps the first of equals
-    line = _described(first, model)
+    line = _describe(first, model)
     rest = len(problems) - 1
     return line if rest == 0 else f"{line} (and {rest} more problem{'s' if rest > 1 else ''})"
 
 
-def suggestion(word: str, known: Sequence[str]) -> str:
+def suggest(word: str, known: Sequence[str]) -> str:
     """' did you mean X?' or nothing."""
     near = get_close_matches(word.lower(), [k.lower() for k in known], n=1, cutoff=0.6)
     return f" did you mean {next(k for k in known if k.lower() == near[0])}?" if near else ""
 
 
-def _described(problem: Any, model: type[BaseModel]) -> str:
+def _describe(problem: Any, model: type[BaseModel]) -> str:
     kind, loc, value = problem["type"], problem["loc"], problem["input"]
     if kind == "extra_forbidden":
-        table = next(_models(_annotation_at(model, loc[:-1])), model)
+        table = next(_list_models(_find_annotation(model, loc[:-1])), model)
         known = list(table.model_fields)
-        return f"{_where(loc)} is not a known key:{suggestion(str(loc[-1]), known)} known: {', '.join(known)}"
-    what = _description(model, loc)
+        return f"{_name_place(loc)} is not a known key:{suggest(str(loc[-1]), known)} known: {', '.join(known)}"
+    what = _find_description(model, loc)
     if kind == "missing":
-        return f"{_where(loc)} is missing: give {what or 'its value'}"
+        return f"{_name_place(loc)} is missing: give {what or 'its value'}"
     message = problem["msg"].removeprefix("Value error, ")
     if kind == "value_error":
         if isinstance(value, dict) and len(loc) > 1 and not message.startswith("["):  # a check of a whole table
             return f"[{'.'.join(map(str, loc))}] {message}"
-        return f"{_where(loc)}: {message}" if loc and not message.startswith("[") else message
+        return f"{_name_place(loc)}: {message}" if loc and not message.startswith("[") else message
     said = message.replace("Input should", "should").replace("should be", "must be").replace("should have", "must have")
-    return f"{_where(loc)} = {_shown(value)} {said[0].lower()}{said[1:]}" + (f": it is {what}" if what else "")
+    return f"{_name_place(loc)} = {_shorten(value)} {said[0].lower()}{said[1:]}" + (f": it is {what}" if what else "")
 
 
-def _shown(value: object) -> str:
+def _shorten(value: object) -> str:
     text = repr(value)
     return text if len(text) <= _LONGEST_VALUE else text[: _LONGEST_VALUE - 3] + "..."
 
 
-def _where(loc: tuple[int | str, ...]) -> str:
+def _name_place(loc: tuple[int | str, ...]) -> str:
     """('added_mass', 'M_A', 2, 3) as '[added_mass] M_A[2][3]'."""
     if len(loc) == 1:
         return f"[{loc[0]}]"
@@ -70,28 +70,28 @@ def _where(loc: tuple[int | str, ...]) -> str:
     return f"[{'.'.join(map(str, loc[:key]))}] {inner.removeprefix('.')}"
 
 
-def _description(model: type[BaseModel], loc: tuple[int | str, ...]) -> str:
+def _find_description(model: type[BaseModel], loc: tuple[int | str, ...]) -> str:
     named = [i for i, part in enumerate(loc) if isinstance(part, str)]
     if not named:
         return ""
     last = named[-1]
-    for table in _models(_annotation_at(model, loc[:last])):
+    for table in _list_models(_find_annotation(model, loc[:last])):
         field = table.model_fields.get(str(loc[last]))
         if field is not None:
             return field.description or ""
     return ""
 
 
-def _annotation_at(model: Any, loc: tuple[int | str, ...]) -> Any:
+def _find_annotation(model: Any, loc: tuple[int | str, ...]) -> Any:
     """Type annotation of what stands at `loc` below `model`, None when the path leaves the models."""
     annotation: Any = model
     for part in loc:
-        annotation = next(_below(annotation, part), None)
+        annotation = next(_find_below(annotation, part), None)
     return annotation
 
 
-def _below(annotation: Any, part: int | str) -> Iterator[Any]:
-    for member in _members(annotation):
+def _find_below(annotation: Any, part: int | str) -> Iterator[Any]:
+    for member in _list_members(annotation):
         if isinstance(member, type) and issubclass(member, BaseModel):
             if part in member.model_fields:
                 yield member.model_fields[str(part)].annotation
@@ -99,16 +99,16 @@ def _below(annotation: Any, part: int | str) -> Iterator[Any]:
             yield get_args(member)[-1]
 
 
-def _members(annotation: Any) -> list[Any]:
+def _list_members(annotation: Any) -> list[Any]:
     """A union's members, an Annotated's type, else the annotation itself."""
     if get_origin(annotation) is Annotated:
-        return _members(get_args(annotation)[0])
+        return _list_members(get_args(annotation)[0])
     if get_origin(annotation) in (Union, UnionType):
-        return [m for arg in get_args(annotation) for m in _members(arg)]
+        return [m for arg in get_args(annotation) for m in _list_members(arg)]
     return [annotation]
 
 
-def _models(annotation: Any) -> Iterator[type[BaseModel]]:
-    for member in _members(annotation):
+def _list_models(annotation: Any) -> Iterator[type[BaseModel]]:
+    for member in _list_members(annotation):
         if isinstance(member, type) and issubclass(member, BaseModel):
             yield member

@@ -36,7 +36,7 @@ from typing import Any, NamedTuple
 from ...errors import ShipError
 from ..hydrostatics import GRAVITY
 
-__all__ = ["Dimensions", "added_mass_fractions", "completed", "hull_derivatives"]
+__all__ = ["Dimensions", "complete_tables", "estimate_added_mass", "estimate_hull_derivatives"]
 
 REACH = (0.40, 0.90)
 """C_b of displacement ships: finer and fuller hulls are none of the regressions' ships."""
@@ -71,7 +71,7 @@ class Dimensions(NamedTuple):
     rho: float
 
 
-def added_mass_fractions(d: Dimensions) -> tuple[float, float, float]:
+def estimate_added_mass(d: Dimensions) -> tuple[float, float, float]:
     """m_x/m, m_y/m, and J_z/(m L^2). Zhou's regressions of the Motora charts."""
     LB, TB, C_b, s = d.L / d.B, d.T / d.B, d.C_b, d.T * d.L / d.B**2
     m_x = 0.01 * (
@@ -92,7 +92,7 @@ def added_mass_fractions(d: Dimensions) -> tuple[float, float, float]:
     return m_x, m_y, k_J**2
 
 
-def hull_derivatives(d: Dimensions, m_x: float, m_y: float) -> dict[str, float]:
+def estimate_hull_derivatives(d: Dimensions, m_x: float, m_y: float) -> dict[str, float]:
     """The table [manoeuvring] but for R_0 and the added masses; m_x, m_y over 1/2 rho L^2 T."""
     k, c, LB, fine = 2.0 * d.T / d.L, d.C_b * d.B / d.L, d.L / d.B, 1.0 - d.C_b
     return {
@@ -115,7 +115,7 @@ def hull_derivatives(d: Dimensions, m_x: float, m_y: float) -> dict[str, float]:
     }
 
 
-def completed(
+def complete_tables(
     d: Dimensions, given: Mapping[str, Mapping[str, Any]], own_masses: tuple[float, float] | None
 ) -> tuple[dict[str, dict[str, Any]], list[str]]:
     """The tables manoeuvring, propeller, rudder and engine, with what is not `given` estimated; and what was.
@@ -128,20 +128,20 @@ def completed(
             f"[manoeuvring] estimate = true with C_b = mass / (rho L_pp B T) = {d.C_b:.3f}: must be {REACH[0]:.2f} to "
             f"{REACH[1]:.2f}; give a mass that fits the draught, or the MMG set, or remove the table: the ship coasts"
         )
-    made = _Made(given)
-    made.notes.append(f"[manoeuvring] Yoshimura & Masumoto (2012), {_grade(d)}")
-    masses = _masses(d, made, own_masses)
-    propeller = _propeller(d, made)
-    _hull(d, made, masses, propeller["service_speed"])
+    made = _Tables(given)
+    made.notes.append(f"[manoeuvring] Yoshimura & Masumoto (2012), {_name_grade(d)}")
+    masses = _estimate_masses(d, made, own_masses)
+    propeller = _estimate_propeller(d, made)
+    _estimate_hull(d, made, masses, propeller["service_speed"])
     if "service_rev_per_s" not in propeller:
-        propeller["service_rev_per_s"] = _self_propulsion(d, made.tables["manoeuvring"]["R_0"], propeller)
+        propeller["service_rev_per_s"] = _solve_self_propulsion(d, made.tables["manoeuvring"]["R_0"], propeller)
         made.notes.append(f"[propeller] service_rev_per_s = {propeller['service_rev_per_s']:.4g} (self-propulsion)")
-    _rudder(d, made)
-    _engine(propeller["service_rev_per_s"], made)
+    _estimate_rudder(d, made)
+    _estimate_engine(propeller["service_rev_per_s"], made)
     return made.tables, made.notes
 
 
-class _Made:
+class _Tables:
     """Tables as they are completed, and what was estimated."""
 
     def __init__(self, given: Mapping[str, Mapping[str, Any]]) -> None:
@@ -159,7 +159,7 @@ class _Made:
         return self.tables[name]
 
 
-def _masses(d: Dimensions, made: _Made, own_masses: tuple[float, float] | None) -> dict[str, float]:
+def _estimate_masses(d: Dimensions, made: _Tables, own_masses: tuple[float, float] | None) -> dict[str, float]:
     """m_x, m_y, and J_z where it is estimated with them, over 1/2 rho L^2 T and 1/2 rho L^4 T."""
     own = made.given.get("manoeuvring", {})
     if own_masses is not None:
@@ -167,41 +167,41 @@ def _masses(d: Dimensions, made: _Made, own_masses: tuple[float, float] | None) 
     if own.get("m_x") is not None:
         return {"m_x": own["m_x"], "m_y": own["m_y"]}
     mass = 2.0 * d.C_b * d.B / d.L  # over 1/2 rho L^2 T
-    m_x, m_y, J_z = (fraction * mass for fraction in added_mass_fractions(d))
+    m_x, m_y, J_z = (fraction * mass for fraction in estimate_added_mass(d))
     made.notes.append(f"[manoeuvring] m_x = {m_x:.4g}, m_y = {m_y:.4g}, J_z = {J_z:.4g} (Zhou, Motora charts)")
     return {"m_x": m_x, "m_y": m_y, "J_z": J_z}
 
 
-def _propeller(d: Dimensions, made: _Made) -> dict[str, Any]:
-    w_P0 = _wake(d)
+def _estimate_propeller(d: Dimensions, made: _Tables) -> dict[str, Any]:
+    w_P0 = _estimate_wake(d)
     return made.lay_under(
         "propeller",
         {
             "D_p": min(0.7 * d.T, 9.9), "t_P": 0.6 * w_P0, "w_P0": w_P0, "x_P": -0.48,
             "C_1": 2.0, "C_2_plus": 1.0 / (1.0 - w_P0), "C_2_minus": 1.0 / (1.0 - w_P0),
-            "k_0": K_T[0], "k_1": K_T[1], "k_2": K_T[2], "service_speed": _service_speed(d),
+            "k_0": K_T[0], "k_1": K_T[1], "k_2": K_T[2], "service_speed": _estimate_service_speed(d),
         },
         "Taylor's wake, which vanishes in large drift; generic K_T; Alexander's speed, Froude number at most 0.26",
     )  # fmt: skip
 
 
-def _hull(d: Dimensions, made: _Made, masses: Mapping[str, float], speed: float) -> None:
+def _estimate_hull(d: Dimensions, made: _Tables, masses: Mapping[str, float], speed: float) -> None:
     """The table manoeuvring; its added masses only where they are estimated here."""
     values = {**masses} if "J_z" in masses else {}
-    values |= hull_derivatives(d, masses["m_x"], masses["m_y"])
-    values["R_0"] = _resistance(d, speed)
+    values |= estimate_hull_derivatives(d, masses["m_x"], masses["m_y"])
+    values["R_0"] = _estimate_resistance(d, speed)
     if "R_0" not in made.given.get("manoeuvring", {}):
         made.notes.append(f"[manoeuvring] R_0 = {values['R_0']:.4g} (ITTC-57, Mumford, no wave resistance)")
     made.lay_under("manoeuvring", values).pop("estimate", None)
 
 
-def _rudder(d: Dimensions, made: _Made) -> None:
+def _estimate_rudder(d: Dimensions, made: _Tables) -> None:
     A_R = d.L * d.T / 100.0 * (1.0 + 25.0 * (d.B / d.L) ** 2)
     H_R = min(sqrt(1.8 * A_R), 0.85 * d.T)
     own = made.given.get("rudder", {})
     A, H = own.get("A_R", A_R), own.get("H_R", H_R)
     aspect = H * H / A
-    c, epsilon = d.C_b * d.B / d.L, 2.26 - 1.82 * (1.0 - _wake(d))
+    c, epsilon = d.C_b * d.B / d.L, 2.26 - 1.82 * (1.0 - _estimate_wake(d))
     made.lay_under(
         "rudder",
         {
@@ -213,7 +213,7 @@ def _rudder(d: Dimensions, made: _Made) -> None:
     )  # fmt: skip
 
 
-def _engine(n: float, made: _Made) -> None:
+def _estimate_engine(n: float, made: _Tables) -> None:
     """From the revolutions at service speed [1/s]."""
     made.lay_under(
         "engine",
@@ -222,12 +222,12 @@ def _engine(n: float, made: _Made) -> None:
     )
 
 
-def _wake(d: Dimensions) -> float:
+def _estimate_wake(d: Dimensions) -> float:
     """w_P0, Taylor."""
     return 0.5 * d.C_b - 0.05
 
 
-def _grade(d: Dimensions) -> str:
+def _name_grade(d: Dimensions) -> str:
     """'grade B', or 'grade C: ...' with what lies outside the regressions' band."""
     outside = []
     for name, value in (("L/B", d.L / d.B), ("T/B", d.T / d.B), ("C_b", d.C_b)):
@@ -237,19 +237,19 @@ def _grade(d: Dimensions) -> str:
     return f"grade C: {', '.join(outside)}" if outside else "grade B"
 
 
-def _service_speed(d: Dimensions) -> float:
+def _estimate_service_speed(d: Dimensions) -> float:
     """Alexander's formula V/sqrt(L) = 2 (1.08 - C_b) [kn, ft] in SI, at most the Froude number 0.26 [m/s]."""
     knots = 2.0 * (1.08 - d.C_b) * sqrt(d.L / 0.3048)
     return min(knots * 1852.0 / 3600.0, FASTEST_FROUDE * sqrt(GRAVITY * d.L))
 
 
-def _resistance(d: Dimensions, speed: float) -> float:
+def _estimate_resistance(d: Dimensions, speed: float) -> float:
     C_F = 0.075 / (log10(speed * d.L / NU_WATER) - 2.0) ** 2
     S = 1.025 * d.L * (d.C_b * d.B + 1.7 * d.T)
     return (FORM_FACTOR * C_F + ROUGHNESS) * S / (d.L * d.T)
 
 
-def _self_propulsion(d: Dimensions, R_0: float, propeller: Mapping[str, float]) -> float:
+def _solve_self_propulsion(d: Dimensions, R_0: float, propeller: Mapping[str, float]) -> float:
     """Revolutions [1/s] at which (1 - t_P) thrust is the resistance at service speed: a quadratic equation in n D_p."""
     U, D = propeller["service_speed"], propeller["D_p"]
     k_0, k_1, k_2 = propeller["k_0"], propeller["k_1"], propeller["k_2"]

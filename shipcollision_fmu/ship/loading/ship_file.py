@@ -17,10 +17,10 @@ from ..tables.hull import HullTable
 from ..tables.manoeuvring import EngineTable, ManoeuvringTable, PropellerTable, RudderTable
 from ..tables.particulars import AddedMassTable, ParticularsTable, SeakeepingTable, ShipTable, WindTable
 from ..tables.table import Table
-from .messages import one_line
-from .mmg_estimate import Dimensions, completed
+from .messages import describe_error
+from .mmg_estimate import Dimensions, complete_tables
 
-__all__ = ["ShipFile", "ship_file"]
+__all__ = ["ShipFile", "validate_ship_file"]
 
 C_B_LIMITS = (0.40, 0.90)
 """Block coefficients of displacement ships; fine yachts and full barges lie just inside."""
@@ -51,7 +51,7 @@ class ShipFile(Table):
         return self._estimated
 
     @model_validator(mode="after")
-    def _mass_fits_the_dimensions(self) -> ShipFile:
+    def _check_mass(self) -> ShipFile:
         p = self.particulars
         box = p.rho * p.L_pp * p.B * p.T
         C_b = p.mass / box
@@ -77,7 +77,7 @@ class ShipFile(Table):
         return self
 
     @model_validator(mode="after")
-    def _centre_of_gravity_is_aboard(self) -> ShipFile:
+    def _check_centre_of_gravity(self) -> ShipFile:
         p = self.particulars
         limits = (p.L_pp / 2, p.B / 2, max(p.T, self.hull.depth))
         for axis, value, limit in zip("xyz", p.r_bg or (0.0, 0.0, 0.0), limits, strict=True):
@@ -86,7 +86,7 @@ class ShipFile(Table):
         return self
 
     @model_validator(mode="after")
-    def _hull_fits_the_dimensions(self) -> ShipFile:
+    def _check_hull(self) -> ShipFile:
         p, hull = self.particulars, self.hull
         if hull.depth <= p.T:
             raise ValueError(
@@ -105,7 +105,7 @@ class ShipFile(Table):
         return self
 
     @model_validator(mode="after")
-    def _one_added_mass(self) -> ShipFile:
+    def _check_one_added_mass(self) -> ShipFile:
         if self.manoeuvring is not None and self.manoeuvring.m_x is not None:
             twice = [key for key in ("m_x", "m_y", "j_z", "M_A") if getattr(self.added_mass, key) is not None]
             if twice:
@@ -116,7 +116,7 @@ class ShipFile(Table):
         return self
 
     @model_validator(mode="after")
-    def _mmg_set_is_whole(self) -> ShipFile:
+    def _check_mmg_set(self) -> ShipFile:
         if self.manoeuvring is not None:
             lacking = [t for t in ("propeller", "rudder", "engine") if getattr(self, t) is None]
             if len(lacking) in (1, 2):
@@ -127,25 +127,25 @@ class ShipFile(Table):
         return self
 
 
-def ship_file(data: Mapping[str, Any], file: str) -> ShipFile:
+def validate_ship_file(data: Mapping[str, Any], file: str) -> ShipFile:
     """The validated content of a ship file; `file` names it in messages.
 
     Raises ShipError with one line: file, key, what is wrong, its value, the limit, the remedy.
     """
     table = data.get("manoeuvring")
     if isinstance(table, Mapping) and table.get("estimate") is True:
-        return _estimated_file(data, file)
-    return _validated(data, file)
+        return _complete_and_validate(data, file)
+    return _validate(data, file)
 
 
 _ESTIMATED = ("manoeuvring", "propeller", "rudder", "engine")
 """Tables that `[manoeuvring] estimate = true` completes."""
 
 
-def _estimated_file(data: Mapping[str, Any], file: str) -> ShipFile:
+def _complete_and_validate(data: Mapping[str, Any], file: str) -> ShipFile:
     """The content with its MMG set completed. First what is given is checked, then it takes part in the estimate."""
     rest = {key: value for key, value in data.items() if key not in _ESTIMATED}
-    content = _validated(rest, file)
+    content = _validate(rest, file)
     p, added = content.particulars, content.added_mass
     d = Dimensions(p.L_pp, p.B, p.T, p.mass / (p.rho * p.L_pp * p.B * p.T), p.r_bg[0] if p.r_bg else 0.0, p.rho)
     unit = 2.0 * d.C_b * d.B / d.L  # the mass over 1/2 rho L^2 T
@@ -155,22 +155,22 @@ def _estimated_file(data: Mapping[str, Any], file: str) -> ShipFile:
     elif added.m_x is not None and added.m_y is not None and added.j_z is not None:
         own_masses = (added.m_x * unit, added.m_y * unit)
     try:
-        tables, _ = completed(d, {}, own_masses)
+        tables, _ = complete_tables(d, {}, own_masses)
         for name in _ESTIMATED:
             own = data.get(name, {})
             tables[name] = {**tables[name], **own} if isinstance(own, Mapping) else own
-        checked = _validated({**rest, **tables}, file)
+        checked = _validate({**rest, **tables}, file)
         given = {name: getattr(checked, name).model_dump(include=set(data.get(name, {}))) for name in _ESTIMATED}
-        tables, notes = completed(d, given, own_masses)
+        tables, notes = complete_tables(d, given, own_masses)
     except ShipError as error:
         raise ShipError(f"{file}: {error}") from None
-    content = _validated({**rest, **tables}, file)
+    content = _validate({**rest, **tables}, file)
     content._estimated = tuple(notes)
     return content
 
 
-def _validated(data: Mapping[str, Any], file: str) -> ShipFile:
+def _validate(data: Mapping[str, Any], file: str) -> ShipFile:
     try:
         return ShipFile.model_validate(data)
     except ValidationError as error:
-        raise ShipError(f"{file}: {one_line(error, ShipFile)}") from None
+        raise ShipError(f"{file}: {describe_error(error, ShipFile)}") from None

@@ -9,7 +9,7 @@ from typing import Any
 
 from ...errors import InputError
 
-__all__ = ["parsed", "read_toml"]
+__all__ = ["parse_toml", "read_toml"]
 
 # tomllib came with Python 3.11; tomli is the same code. Imported by name so that type checking needs neither twice.
 _tomllib = import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
@@ -23,10 +23,10 @@ def read_toml(path: Path, refusal: type[InputError]) -> dict[str, Any]:
         raise refusal(f"{path.name}: cannot be read: {error.strerror}") from None
     except UnicodeDecodeError as error:
         raise refusal(f"{path.name}: is not UTF-8 text (byte {error.start}): save it as UTF-8") from None
-    return parsed(text, path.name, refusal)
+    return parse_toml(text, path.name, refusal)
 
 
-def parsed(text: str, source: str, refusal: type[InputError]) -> dict[str, Any]:
+def parse_toml(text: str, source: str, refusal: type[InputError]) -> dict[str, Any]:
     """Content of TOML text; `source` names it in the one line with which `refusal` is raised when it is not TOML."""
     try:
         content: dict[str, Any] = _tomllib.loads(text)

@@ -53,7 +53,7 @@ class HullTable(Table):
     )
 
     @model_validator(mode="after")
-    def _mesh_keys_go_with_a_mesh(self) -> HullTable:
+    def _check_mesh_keys(self) -> HullTable:
         if self.shape != "mesh":
             if others := sorted(self.model_fields_set & MESH_KEYS):
                 raise ValueError(f'[hull] shape = "{self.shape}" has no {", ".join(others)}: only "mesh" has')
@@ -71,7 +71,7 @@ class HullTable(Table):
         return self
 
     @model_validator(mode="after")
-    def _fits_its_shape(self) -> HullTable:
+    def _check_shape(self) -> HullTable:
         if self.shape == "mesh":
             return self
         if self.shape == "box":

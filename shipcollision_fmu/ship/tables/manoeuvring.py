@@ -42,7 +42,7 @@ class ManoeuvringTable(Table):
     J_z: NotNegative | None = Field(default=None, description="the non-dimensional added yaw inertia about midship")
 
     @model_validator(mode="after")
-    def _all_added_masses_or_none(self) -> ManoeuvringTable:
+    def _check_added_masses(self) -> ManoeuvringTable:
         given = [key for key in ("m_x", "m_y", "J_z") if getattr(self, key) is not None]
         if len(given) not in (0, 3):
             raise ValueError(f"[manoeuvring] gives {', '.join(given)} of m_x, m_y, J_z: give all three or none")

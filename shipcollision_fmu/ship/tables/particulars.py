@@ -67,7 +67,7 @@ class AddedMassTable(Table):
     )
 
     @model_validator(mode="after")
-    def _one_or_the_other(self) -> AddedMassTable:
+    def _check_M_A_alone(self) -> AddedMassTable:
         if self.M_A is not None:
             others = sorted(self.model_fields_set - {"M_A"})
             if others:

@@ -17,9 +17,9 @@ from shipcollision_fmu.errors import HostError, ShipError
 from shipcollision_fmu.ship.hull import mesh as mesh_module
 from shipcollision_fmu.ship.hull.convex import enclosed_volume, half_spaces, is_convex
 from shipcollision_fmu.ship.hull.hull import build_hull
-from shipcollision_fmu.ship.hull.mesh import UNITS, mesh_hull
+from shipcollision_fmu.ship.hull.mesh import UNITS, build_mesh_hull
 from shipcollision_fmu.ship.hull.solid import HullMesh
-from shipcollision_fmu.ship.loading.library import load_ship, models_directory
+from shipcollision_fmu.ship.loading.library import find_models, load_ship
 from shipcollision_fmu.ship.tables.hull import HullTable
 from tests.ship_files import ship_toml
 
@@ -66,7 +66,7 @@ def read(tmp_path: Path) -> Read:
         path = tmp_path / f"hull.{kind}"
         faces = hull.triangles if triangles is None else triangles
         path.write_text({"obj": obj, "stl": stl}[kind](change(hull.vertices * TO_FILE), faces))
-        return mesh_hull(L_OA, B, T, HullTable(shape="mesh", depth=DEPTH, file=str(path), **keys))
+        return build_mesh_hull(L_OA, B, T, HullTable(shape="mesh", depth=DEPTH, file=str(path), **keys))
 
     return go
 
@@ -194,7 +194,7 @@ def test_broken_files_are_refused(tmp_path: Path, name: str, content: bytes | No
     if content is not None:
         (tmp_path / name).write_bytes(content)
     with pytest.raises(ShipError, match=message) as raised:
-        mesh_hull(L_OA, B, T, HullTable(shape="mesh", depth=DEPTH, file=str(tmp_path / name)))
+        build_mesh_hull(L_OA, B, T, HullTable(shape="mesh", depth=DEPTH, file=str(tmp_path / name)))
     assert "\n" not in str(raised.value)
 
 
@@ -209,12 +209,12 @@ def test_a_binary_stl_is_read_and_refused_when_it_is_cut_short(tmp_path: Path) -
     path, whole = tmp_path / "hull.stl", binary_stl((BOX.vertices * TO_FILE)[BOX.triangles])
     table = HullTable(shape="mesh", depth=DEPTH, file=str(path))
     path.write_bytes(whole)
-    assert rows(mesh_hull(L_OA, B, T, table).vertices) == rows(BOX.vertices)
+    assert rows(build_mesh_hull(L_OA, B, T, table).vertices) == rows(BOX.vertices)
     path.write_bytes(whole[:-30])
     with pytest.raises(
         ShipError, match=r"hull\.stl: is cut short: its 12 triangles take 684 bytes, and it has 654: ex"
     ):
-        mesh_hull(L_OA, B, T, table)
+        build_mesh_hull(L_OA, B, T, table)
 
 
 def test_shells_inside_each_other_hold_nothing(read: Read) -> None:
@@ -228,7 +228,7 @@ def test_shells_inside_each_other_hold_nothing(read: Read) -> None:
 @pytest.mark.parametrize("package", ["trimesh", "coacd"])
 def test_a_missing_package_is_named(read: Read, monkeypatch: pytest.MonkeyPatch, package: str) -> None:
     monkeypatch.setitem(sys.modules, package, None)
-    mesh_module._cut.cache_clear()
+    mesh_module._cut_solid.cache_clear()
     with pytest.raises(HostError, match=rf"{package} cannot be imported .*pip install 'shipcollision-fmu\[mesh\]'"):
         read(FLARED)
 
@@ -275,7 +275,7 @@ def test_the_example_ship_is_cut_to_the_same_bits_in_every_process() -> None:
     assert abs(hull.volume_error) < 0.01
     x, y, z = np.ptp(hull.vertices, axis=0)
     assert (x, y, z) == (pytest.approx(120.0), pytest.approx(20.0), pytest.approx(12.0))
-    root = models_directory().parent
+    root = find_models().parent
     other = subprocess.run(
         [sys.executable, "-c", PARTS_DIGEST], cwd=root, capture_output=True, text=True, check=True, timeout=1200
     )
@@ -283,12 +283,12 @@ def test_the_example_ship_is_cut_to_the_same_bits_in_every_process() -> None:
 
 
 def test_the_example_file_is_what_its_program_writes() -> None:
-    spec = importlib.util.spec_from_file_location("make_example_hull", models_directory() / "make_example_hull.py")
+    spec = importlib.util.spec_from_file_location("make_example_hull", find_models() / "make_example_hull.py")
     assert spec is not None
     assert spec.loader is not None
     made = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(made)
-    assert (models_directory() / "hulls" / "example.obj").read_text() == made.obj()
+    assert (find_models() / "hulls" / "example.obj").read_text() == made.obj()
 
 
 def test_file_is_relative_to_the_ship_file_that_names_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

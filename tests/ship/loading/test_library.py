@@ -11,7 +11,7 @@ import pytest
 from shipcollision_fmu.errors import ShipError
 from shipcollision_fmu.ship.frames import Array
 from shipcollision_fmu.ship.hull.hull import build_hull
-from shipcollision_fmu.ship.loading.library import load_ship, models_directory, ship_names
+from shipcollision_fmu.ship.loading.library import find_models, list_ship_names, load_ship
 from tests.ship_files import ship_toml
 
 BARGE = ship_toml()
@@ -117,7 +117,7 @@ def test_mmg_set_is_the_added_mass() -> None:
     assert m == pytest.approx(1025.0 * 312_600.0)
 
 
-@pytest.mark.parametrize("name", ship_names())
+@pytest.mark.parametrize("name", list_ship_names())
 def test_shipped_ship_loads(name: str) -> None:
     ship = load_ship(name)
     assert ship.name
@@ -160,7 +160,7 @@ def test_extends_a_shipped_ship_and_a_path(tmp_path: Path) -> None:
     ship = load_ship(written(tmp_path, "mine.toml", 'extends = "kvlcc2"\n[ship]\nname = "Mine"\n'))
     assert (ship.name, ship.L_pp) == ("Mine", 320.0)
     (tmp_path / "base").mkdir()
-    shutil.copy(models_directory() / "ships" / "kvlcc2.toml", tmp_path / "base" / "kvlcc2.toml")
+    shutil.copy(find_models() / "ships" / "kvlcc2.toml", tmp_path / "base" / "kvlcc2.toml")
     by_path = load_ship(written(tmp_path, "by_path.toml", 'extends = "base/kvlcc2.toml"\n'))
     np.testing.assert_array_equal(by_path.M, ship.M)
 

@@ -11,9 +11,9 @@ from shipcollision_fmu.errors import ShipError
 from shipcollision_fmu.ship.loading.library import load_ship
 from shipcollision_fmu.ship.loading.mmg_estimate import (
     Dimensions,
-    added_mass_fractions,
-    completed,
-    hull_derivatives,
+    complete_tables,
+    estimate_added_mass,
+    estimate_hull_derivatives,
 )
 from tests.ship_files import ship_toml
 
@@ -34,13 +34,13 @@ TABLE = {
 
 def primed_masses(d: Dimensions) -> dict[str, float]:
     m = 2 * d.C_b * d.B / d.L
-    return dict(zip(("m", "m_x", "m_y", "J_z"), (m, *(f * m for f in added_mass_fractions(d))), strict=True))
+    return dict(zip(("m", "m_x", "m_y", "J_z"), (m, *(f * m for f in estimate_added_mass(d))), strict=True))
 
 
 @pytest.mark.parametrize(("column", "d"), [(0, BULK), (1, CONTAINER)], ids=["bulk carrier", "container ship"])
 def test_coefficients(column: int, d: Dimensions) -> None:
     values = primed_masses(d)
-    values |= hull_derivatives(d, values["m_x"], values["m_y"])
+    values |= estimate_hull_derivatives(d, values["m_x"], values["m_y"])
     assert set(values) == set(TABLE)
     for key, row in TABLE.items():
         digits = 4 if key == "J_z" else 3
@@ -57,13 +57,13 @@ def test_added_masses_of_kvlcc2() -> None:
 
 def test_signs_are_those_of_v_and_r() -> None:
     """Drifting to starboard is braked, turning is braked; in the drift angle the signs of the first two would flip."""
-    values = hull_derivatives(CONTAINER, 0.003, 0.111)
+    values = estimate_hull_derivatives(CONTAINER, 0.003, 0.111)
     for key in ("Y_v", "N_v", "Y_vvv", "N_vvv", "Y_vrr", "N_r", "N_rrr"):
         assert values[key] < 0.0, key
 
 
 def test_propulsion_and_rudder_sizes() -> None:
-    tables, _ = completed(BULK, {}, None)
+    tables, _ = complete_tables(BULK, {}, None)
     w = 0.5 * 0.84 - 0.05
     assert tables["propeller"]["w_P0"] == pytest.approx(w)
     assert tables["propeller"]["t_P"] == pytest.approx(0.6 * w)
@@ -76,7 +76,7 @@ def test_propulsion_and_rudder_sizes() -> None:
 
 
 def test_service_revolutions_balance_the_resistance() -> None:
-    tables, _ = completed(CONTAINER, {}, None)
+    tables, _ = complete_tables(CONTAINER, {}, None)
     p, R_0 = tables["propeller"], tables["manoeuvring"]["R_0"]
     n, D, U = p["service_rev_per_s"], p["D_p"], p["service_speed"]
     J = U * (1 - p["w_P0"]) / n / D
@@ -86,7 +86,7 @@ def test_service_revolutions_balance_the_resistance() -> None:
 
 def test_resistance_is_ittc_57_on_the_wetted_surface() -> None:
     """KVLCC2 at 15.5 kn: 0.00785, as its file works out by hand."""
-    tables, _ = completed(KVLCC2, {"propeller": {"service_speed": 7.974}}, None)
+    tables, _ = complete_tables(KVLCC2, {"propeller": {"service_speed": 7.974}}, None)
     assert tables["manoeuvring"]["R_0"] == pytest.approx(0.00785, abs=5e-6)
 
 
@@ -150,7 +150,7 @@ def test_a_ships_own_added_mass_is_the_one(tmp_path: Path) -> None:
     unit = 2 * 0.6 * 20 / 100
     assert own.manoeuvring.Y_r == pytest.approx(0.06 * unit + 0.5 * 0.6 * 20 / 100)
     assert own.manoeuvring.X_vr == pytest.approx(1.91 * 0.12 - 0.08 - 0.9 * unit)
-    assert ship.M_A[1, 1] == pytest.approx(added_mass_fractions(Dimensions(100, 20, 6, 0.6, 0, 1025))[1] * ship.mass)
+    assert ship.M_A[1, 1] == pytest.approx(estimate_added_mass(Dimensions(100, 20, 6, 0.6, 0, 1025))[1] * ship.mass)
 
 
 def test_sway_added_mass_sits_at_half_the_draught(tmp_path: Path) -> None:
@@ -162,12 +162,12 @@ def test_sway_added_mass_sits_at_half_the_draught(tmp_path: Path) -> None:
 @pytest.mark.parametrize("C_b", [0.399, 0.901])
 def test_out_of_reach_is_refused(C_b: float) -> None:
     with pytest.raises(ShipError, match=rf"estimate = true with C_b = .* = {C_b}: must be 0\.40 to 0\.90; give a mass"):
-        completed(BULK._replace(C_b=C_b), {}, None)
+        complete_tables(BULK._replace(C_b=C_b), {}, None)
 
 
 def test_linear_derivatives_are_those_of_a_wing() -> None:
     """Y_v = -(pi k/2 + 1.4 c) and N_v = -k, k = 2 T/L: Jones' wing of low aspect ratio, and what thickness adds."""
-    values = hull_derivatives(BULK, 0.0, 0.0)
+    values = estimate_hull_derivatives(BULK, 0.0, 0.0)
     k = 2 * 16.1 / 279
     assert values["N_v"] == -k
     assert values["Y_v"] + 1.4 * 0.84 * 44 / 279 == pytest.approx(-pi * k / 2)

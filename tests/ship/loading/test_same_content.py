@@ -17,27 +17,27 @@ from shipcollision_fmu.ship.hull import hull as hull_module
 from shipcollision_fmu.ship.hull.hull import build_hull
 from shipcollision_fmu.ship.hull.solid import HullMesh
 from shipcollision_fmu.ship.loading import library
-from shipcollision_fmu.ship.loading.library import load_ship, models_directory
-from shipcollision_fmu.ship.loading.toml import parsed
+from shipcollision_fmu.ship.loading.library import find_models, load_ship
+from shipcollision_fmu.ship.loading.toml import parse_toml
 from shipcollision_fmu.ship.ship import Ship
 from tests.conftest import BARGE
 
 
 def tables_of(text: str) -> dict[str, Any]:
-    return parsed(text, "a ship of the tests", InputError)
+    return parse_toml(text, "a ship of the tests", InputError)
 
 
 BARGE_TABLES = tables_of(BARGE)
-EXAMPLE = models_directory() / "hulls" / "example.obj"
+EXAMPLE = find_models() / "hulls" / "example.obj"
 LONG_AGO = 1_000_000_000
 
 
 @pytest.fixture
 def counts(monkeypatch: pytest.MonkeyPatch) -> Counter[str]:
     """How often each ship file is read, and a hull built, with nothing remembered from before."""
-    for cached in (library._unchanged_toml, library._assembled, hull_module._built_once):
+    for cached in (library._read_unchanged, library._assemble_once, hull_module._build_once):
         cached.cache_clear()
-    counted, read, built = Counter[str](), library.read_toml, hull_module._built
+    counted, read, built = Counter[str](), library.read_toml, hull_module._build
 
     def reading(path: Path, refusal: Any) -> Any:
         counted[path.name] += 1
@@ -49,7 +49,7 @@ def counts(monkeypatch: pytest.MonkeyPatch) -> Counter[str]:
 
     monkeypatch.setattr(file_stamp, "SETTLED_NS", 0)  # files of a fresh checkout, too
     monkeypatch.setattr(library, "read_toml", reading)
-    monkeypatch.setattr(hull_module, "_built", building)
+    monkeypatch.setattr(hull_module, "_build", building)
     return counted
 
 
@@ -104,7 +104,7 @@ def test_a_file_that_was_just_written_is_read_again(monkeypatch: pytest.MonkeyPa
 
 
 def mesh_ship(mesh: Path, **changes: Any) -> dict[str, Any]:
-    tables = tables_of((models_directory() / "ships" / "mesh_example.toml").read_text(encoding="utf-8"))
+    tables = tables_of((find_models() / "ships" / "mesh_example.toml").read_text(encoding="utf-8"))
     tables["hull"] |= {"file": str(mesh)} | changes
     return tables
 

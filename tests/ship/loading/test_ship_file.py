@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from shipcollision_fmu.errors import ShipError
-from shipcollision_fmu.ship.loading.ship_file import ship_file
+from shipcollision_fmu.ship.loading.ship_file import validate_ship_file
 from shipcollision_fmu.ship.tables.manoeuvring import ManoeuvringTable
 from tests.ship_files import ship_tables
 
@@ -18,14 +18,14 @@ PARAMETRIC = {"shape": "parametric", "depth": 8.0, "bow_length": 15.0, "stern_le
 
 
 def test_least_file_is_accepted() -> None:
-    content = ship_file(BARE, "barge.toml")
+    content = validate_ship_file(BARE, "barge.toml")
     assert content.particulars.mass == 8.2e6
     assert content.particulars.rho == 1025.0
     assert content.manoeuvring is None
 
 
 def test_integers_are_numbers() -> None:
-    assert ship_file(ship_tables(particulars={"B": 20}), "barge.toml").particulars.B == 20.0
+    assert validate_ship_file(ship_tables(particulars={"B": 20}), "barge.toml").particulars.B == 20.0
 
 
 # C_b from the mass: 1025 x 100 x 20 x 5 = 10.25e6 kg fill the box.
@@ -126,7 +126,7 @@ REFUSED: list[tuple[dict[str, Any], str]] = [
 @pytest.mark.parametrize(("data", "message"), REFUSED, ids=[message[:40] for _, message in REFUSED])
 def test_refused(data: dict[str, Any], message: str) -> None:
     with pytest.raises(ShipError, match=message) as raised:
-        ship_file(data, "barge.toml")
+        validate_ship_file(data, "barge.toml")
     line = str(raised.value)
     assert line.startswith("barge.toml: ")
     assert "\n" not in line
@@ -134,7 +134,7 @@ def test_refused(data: dict[str, Any], message: str) -> None:
 
 def test_further_problems_are_counted() -> None:
     with pytest.raises(ShipError, match=r"B = -1\.0 must be .*\(and 2 more problems\)$"):
-        ship_file(ship_tables(particulars={"mass": -1.0, "B": -1.0, "T": -1.0}), "barge.toml")
+        validate_ship_file(ship_tables(particulars={"mass": -1.0, "B": -1.0, "T": -1.0}), "barge.toml")
 
 
 @pytest.mark.parametrize("key", ["m_x", "m_y", "j_z", "M_A"])
@@ -142,18 +142,21 @@ def test_two_added_masses_are_refused(key: str) -> None:
     value: Any = [[0.0] * 6] * 6 if key == "M_A" else 0.1
     data = ship_tables(manoeuvring={**MMG, "m_x": 0.02, "m_y": 0.2, "J_z": 0.01}, added_mass={key: value})
     with pytest.raises(ShipError, match=rf"\[added_mass\] {key} and \[manoeuvring\] m_x, m_y, J_z are two"):
-        ship_file(data, "barge.toml")
+        validate_ship_file(data, "barge.toml")
 
 
 @pytest.mark.parametrize("particulars", [{"mass": 12e6}, {"mass": 3e6}, {"C_b": 0.5}])
 def test_inconsistent_mass_is_let_through_with_a_reason(particulars: dict[str, Any]) -> None:
     reason = "the paper prints dead-weights"
-    content = ship_file(ship_tables(particulars={**particulars, "allow_inconsistent": reason}), "barge.toml")
+    content = validate_ship_file(ship_tables(particulars={**particulars, "allow_inconsistent": reason}), "barge.toml")
     assert content.particulars.allow_inconsistent == reason
 
 
 def test_fresh_water_has_its_own_limit() -> None:
     """10.3e6 kg fit into 10 000 m3 of the Dead Sea, and 9.1e6 kg are too much for fresh water's 0.90."""
-    assert ship_file(ship_tables(particulars={"mass": 10.3e6, "rho": 1240.0}), "barge.toml").particulars.rho == 1240.0
+    assert (
+        validate_ship_file(ship_tables(particulars={"mass": 10.3e6, "rho": 1240.0}), "barge.toml").particulars.rho
+        == 1240.0
+    )
     with pytest.raises(ShipError, match=r"outside 0\.40 to 0\.90"):
-        ship_file(ship_tables(particulars={"mass": 9.1e6, "rho": 1000.0}), "barge.toml")
+        validate_ship_file(ship_tables(particulars={"mass": 9.1e6, "rho": 1000.0}), "barge.toml")
