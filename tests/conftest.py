@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -60,6 +60,9 @@ speed = 1.0
 friction = 0.3
 """
 
+if TYPE_CHECKING:
+    from selenium.webdriver import Chrome
+
 Write = Callable[..., Path]
 
 
@@ -70,6 +73,15 @@ def _fmus_of_the_tests(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Non
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(fmu_files, "fmu_directory", lambda ships=(): home / "-".join(ships))
         yield
+
+
+@pytest.fixture(scope="session")
+def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Chrome]:
+    """A browser for all pages: to start it takes longer than to open a page."""
+    from tests.show.browser import chromium
+
+    with chromium(tmp_path_factory.mktemp("profile")) as driver:
+        yield driver
 
 
 @pytest.fixture

@@ -36,13 +36,12 @@ heading_deg = 0.0
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A working folder with a scenario in it; FMUs are kept in another."""
+    """A working folder with a scenario in it; FMUs are those of the session, see tests/conftest.py."""
     here = tmp_path / "here"
     here.mkdir()
     (here / "barge.toml").write_text(BARGE, encoding="utf-8")
     (here / "encounter.toml").write_text(SCENARIO, encoding="utf-8")
     monkeypatch.chdir(here)
-    monkeypatch.setattr(fmu_files, "fmu_directory", lambda ships=(): tmp_path / "fmus")
     return here
 
 
@@ -99,7 +98,7 @@ def test_a_page_that_cannot_be_made_does_not_undo_the_run(folder: Path, monkeypa
     def failing(name: str) -> str:
         raise HostError("the page's bundle is missing")
 
-    monkeypatch.setattr("shipcollision_fmu.show.page._bundled", failing)
+    monkeypatch.setattr("shipcollision_fmu.show.page._read_bundle", failing)
     result = called("run", "encounter.toml", "--in-process")
     assert result.exit_code == 0
     assert result.stderr.strip().endswith("no page: the page's bundle is missing")
@@ -265,7 +264,7 @@ def test_without_pybullet_it_is_one_line(folder: Path, command: str) -> None:
     result = fresh(command, cwd=folder, prelude="import sys; sys.modules['pybullet'] = None")
     assert result.returncode == 1
     assert result.stdout == ""
-    assert result.stderr.startswith("error: pybullet, which finds the contacts, is not installed: run `python -m pip")
+    assert result.stderr.startswith("error: pybullet, which detects the contacts, is not installed: run `python -m pip")
     assert "3.10 or 3.11" in result.stderr
     assert result.stderr.count("\n") == 1
     assert sorted(path.name for path in folder.iterdir()) == ["barge.toml", "encounter.toml"]
@@ -332,7 +331,7 @@ SITUATION = """{"version": "0.2.0", "ownShip": {"static": {"id": 1, "dimensions"
 
 def test_a_traffic_situation_becomes_a_scenario_with_its_ships(folder: Path) -> None:
     Path("s.json").write_text(SITUATION, encoding="utf-8")
-    made = called("import", "s.json", "--out", "in/s.toml", "--duration", "150", "--step", "0.5")
+    made = called("import", "s.json", "--out", "in/s.toml", "--duration", "115", "--step", "0.5")
     assert made.exit_code == 0, made.stderr
     assert made.stdout.split() == ["in/s-own.toml", "in/s-target.toml", "in/s.toml"]
     result = called("run", "in/s.toml", "--in-process")

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from selenium.webdriver import Chrome
 from selenium.webdriver.support.ui import WebDriverWait
 
 from shipcollision_fmu import HostError, Run, load_scenario, simulate
@@ -16,7 +17,7 @@ from shipcollision_fmu.cosim.run_repr import run_html, run_text
 from shipcollision_fmu.show.page import build_page
 from shipcollision_fmu.show.scene.scene import load_scene
 from tests.conftest import Write
-from tests.show.browser import PATIENCE, chromium
+from tests.show.browser import PATIENCE
 
 
 @pytest.fixture
@@ -114,16 +115,16 @@ def test_the_page_of_a_notebook_is_that_of_the_runs_folder(run: Run, tmp_path: P
     assert "<!doctype" not in repr(page)
 
 
-def test_the_page_plays_inside_a_notebook(run: Run, tmp_path: Path) -> None:
+def test_the_page_plays_inside_a_notebook(run: Run, tmp_path: Path, browser: Chrome) -> None:
     notebook = tmp_path / "notebook.html"
     notebook.write_text(f"<!doctype html><meta charset='utf-8'><p>cell</p>{run.page()._repr_html_()}", encoding="utf-8")
-    with chromium(tmp_path / "profile") as driver:
-        driver.get(notebook.as_uri())
-        driver.switch_to.frame(0)
-        WebDriverWait(driver, PATIENCE, poll_frequency=0.05).until(
-            lambda d: d.execute_script("return document.body?.dataset.ready")
-        )
-        assert driver.execute_script("return document.body.dataset.ready") == "true"
-        assert driver.execute_script("replay.seek(2.0); return Object.keys(replay.drawn().poses)") == ["own", "target"]
-        assert driver.execute_script("try { return parent.document.title } catch { return null }") is None
-        assert [entry["message"] for entry in driver.get_log("browser")] == []
+    browser.get_log("browser")  # of pages before
+    browser.get(notebook.as_uri())
+    browser.switch_to.frame(0)
+    WebDriverWait(browser, PATIENCE, poll_frequency=0.05).until(
+        lambda d: d.execute_script("return document.body?.dataset.ready")
+    )
+    assert browser.execute_script("return document.body.dataset.ready") == "true"
+    assert browser.execute_script("replay.seek(2.0); return Object.keys(replay.drawn().poses)") == ["own", "target"]
+    assert browser.execute_script("try { return parent.document.title } catch { return null }") is None
+    assert [entry["message"] for entry in browser.get_log("browser")] == []

@@ -40,7 +40,7 @@ def check(made: Encounter) -> None:
 def test_every_kind_collides_as_requested(kind: str, hydrodynamics: bool | None) -> None:
     check(
         encounter(
-            Request(kind, time=45.0, after=0.5, hydrodynamics=hydrodynamics, before=30.0 if KINDS[kind].helm else None)
+            Request(kind, time=20.0, after=0.5, hydrodynamics=hydrodynamics, before=15.0 if KINDS[kind].helm else None)
         )
     )
 
@@ -48,7 +48,7 @@ def test_every_kind_collides_as_requested(kind: str, hydrodynamics: bool | None)
 @pytest.mark.parametrize("free", [4, 6])
 def test_a_ship_that_heels_in_its_turn_collides_as_requested(free: int) -> None:
     """Own's deck edge leans half a metre outwards at the impact."""
-    made = encounter("late-evasive", time=45.0, before=30.0, after=0.5, degrees_of_freedom=free)
+    made = encounter("late-evasive", time=25.0, before=22.0, after=0.5, degrees_of_freedom=free)
     assert [ship.free for ship in made.scenario.ships.values()] == [free, free]
     check(made)
 
@@ -59,8 +59,11 @@ def test_coasting_ships_have_the_degrees_of_freedom_that_are_asked_for() -> None
     assert "degrees_of_freedom = 3" in usual.text
 
 
-def grid(angles: range, places: tuple[float, ...], speeds: tuple[tuple[float, float], ...]) -> Iterator[Request]:
-    for angle, s, side, (own, target) in product(angles, places, ("starboard", "port"), speeds):
+def grid(
+    angles: range, places: tuple[float, ...], speeds: tuple[tuple[float, float], ...],
+    sides: tuple[str, ...] = ("starboard", "port"),
+) -> Iterator[Request]:  # fmt: skip
+    for angle, s, side, (own, target) in product(angles, places, sides, speeds):
         yield Request("crossing", angle_deg=float(angle), at=s, side=side, own_speed=own, target_speed=target,
                      time=3.0, after=0.2)  # type: ignore[arg-type]  # fmt: skip
 
@@ -82,9 +85,10 @@ def sweep(own: str, target: str, requests: Iterator[Request]) -> tuple[int, int]
 
 
 def test_a_coarse_grid_collides_as_requested() -> None:
-    made, refused = sweep("kvlcc2", "kvlcc2", grid(range(0, 181, 45), (-0.5, 0.2, 0.5), ((6.0, 3.0),)))
-    assert made + refused == 30
-    assert made >= 16
+    """Of one side: the other is its mirror, see test_port_is_the_mirror_of_starboard."""
+    made, refused = sweep("kvlcc2", "kvlcc2", grid(range(0, 181, 45), (-0.5, 0.2, 0.5), ((6.0, 3.0),), ("port",)))
+    assert made + refused == 15
+    assert made >= 8
 
 
 @pytest.mark.parametrize(
@@ -151,7 +155,7 @@ def test_the_heading_turns_the_whole_encounter() -> None:
 
 
 def test_the_file_is_an_ordinary_scenario(tmp_path: Path) -> None:
-    made = encounter(Request("late-evasive", name="mine"), tmp_path)
+    made = encounter(Request("late-evasive", name="mine", time=20.0, before=15.0), tmp_path)
     path = tmp_path / "mine.toml"
     path.write_text(made.text, encoding="utf-8")
     loaded = load_scenario(path)

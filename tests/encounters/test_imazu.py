@@ -11,6 +11,7 @@ import pytest
 from shipcollision_fmu import simulate
 from shipcollision_fmu.encounters.imazu import COURSES, imazu
 from shipcollision_fmu.errors import ScenarioError
+from shipcollision_fmu.scenario.scenario import parse_scenario
 
 NM = 1852.0
 
@@ -48,10 +49,13 @@ def test_all_are_bound_for_the_origin_at_one_time(case: int) -> None:
         assert hypot(north, east) < 0.1
 
 
-@pytest.mark.parametrize("case", [4, 8, 18])
-def test_a_case_ends_in_a_collision(case: int) -> None:
-    """With a third of the speed and a tenth of the time, to be short: the geometry is the same."""
-    run = simulate(imazu(case, time=150.0, after=1.0, step=0.5).scenario, in_process=True)
+@pytest.mark.parametrize(("case", "meet"), [(4, 120.0), (8, 124.5), (18, 97.0)])
+def test_a_case_ends_in_a_collision(case: int, meet: float) -> None:
+    """With a twelfth of the time, and only until the first hulls have met at `meet` [s]: the geometry is the same."""
+    text = imazu(case, time=150.0, after=1.0, step=0.5).text
+    assert "duration = 151.0" in text
+    scenario = parse_scenario(text.replace("duration = 151.0", f"duration = {meet}"), "a shorter case")
+    run = simulate(scenario, in_process=True)
     assert run.summary["collisions"] >= 1
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import base64
 import csv
 import time
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -21,7 +20,7 @@ from shipcollision_fmu.show.page import build_page, write_page
 from shipcollision_fmu.show.scene.run_folder import STATE
 from shipcollision_fmu.show.scene.scene import Scene, load_scene
 
-from .browser import Page, chromium
+from .browser import Page
 from .conftest import MakeRun
 from .foreign import with_many_collisions, with_names
 
@@ -29,13 +28,6 @@ CENTIMETRE = 0.01
 SMALL = (500, 440)
 """Size of the window [pixels] where drawing takes long without a graphics card."""
 TIMES = ("before", "during", "after")
-
-
-@pytest.fixture(scope="module")
-def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Chrome]:
-    """One browser for all pages."""
-    with chromium(tmp_path_factory.mktemp("profile")) as driver:
-        yield driver
 
 
 @pytest.fixture(scope="module", params=["guan2014", pytest.param("kvlcc2_crossing", marks=pytest.mark.slow)])
