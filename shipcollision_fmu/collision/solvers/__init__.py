@@ -1,1 +1,20 @@
-"""solvers."""
+"""Solvers of an impact: from W and v at the contacts to impulses P.
+
+Data that flows in: the Delassus operator W [1/kg] and the relative velocities v [m/s] before the impact, both in
+contact axes (normal, two tangents), friction mu and restitution e. Out: impulses P [N s] on ship b; v + W P obeys
+the law of contact. No solver depends on ships or hulls; resultant_contact and warm_start alone read contacts.
+
+    contact_law            the law of contact and its residual; friction in a disc
+    one_contact            one contact, exactly
+    gauss_seidel           all contacts of a plastic impact: NSGS, with what follows
+        warm_start         the impulses of the substep before, to start from
+        aitken             extrapolation between sweeps
+        alart_curnier      after MAX_SWEEPS: Newton's method on all contacts together
+        aclm_fixed_point   where Newton's method cycles: a sequence of convex problems (ACLM)
+    poisson_restitution    all contacts of an impact with restitution: the solver of response `pgs`
+    resultant_contact      the contacts of a pair reduced to one
+    impact_process         one contact followed along its normal impulse: the solver of response `closed_form`
+        slip_flow          how the slip turns on the way
+
+Imports: dynamics/ (contacts, W), ship/frames, errors. The room is imported by collision/responses.py and model.py.
+"""

@@ -1,36 +1,41 @@
-"""Where sweeps that slow down steadily are going.
+"""Aitken's extrapolation of a vector sequence that converges linearly.
 
     step_k = P_k - P_(k-1),   ratio = step_k . step_(k-1) / |step_(k-1)|^2
-    P_k + ratio/(1 - ratio) step_k          the limit, if every step is that share of the one before
+    P_k + ratio/(1 - ratio) step_k          the limit, if every step is the same share of the step before
 
-Reference: Irons and Tuck (1969), Int. J. Numer. Methods Eng. 1:275-277.
+References: Irons and Tuck (1969), Int. J. Numer. Methods Eng. 1:275-277.
 """
 
 from __future__ import annotations
 
 __all__ = ["Aitken"]
 
-SLOWEST = 0.98
-"""Ratio of a sweep's step to that of the one before up to which the rest of the sequence is foreseen."""
+MAX_RATIO = 0.98
+"""Largest ratio of two steps for which the limit is extrapolated. At 1 the factor ratio/(1 - ratio) has no limit.
+A smaller ratio costs sweeps (a quarter more at 0.5, on 1 080 patches of two ships)."""
 
 
 class Aitken:
-    """Where a sequence of sweeps is going, from how its last step compares with the one before.
+    """The steps of one sequence of Gauss-Seidel sweeps.
 
-    What it gives is only a start for the next sweep, which puts every contact back into its law.
+    An extrapolation is only a start of the next sweep. That sweep makes every contact obey the law of contact again, so
+    an extrapolation that is off costs sweeps and no accuracy.
     """
 
     def __init__(self) -> None:
         self._step: list[float] = []
 
-    def __call__(self, P: list[float], last: list[float]) -> list[float]:
-        """A better start for the next sweep than P, of which the sweep before was `last`; P where none can be told."""
+    def extrapolate(self, P: list[float], last: list[float]) -> list[float]:
+        """Impulses from which the next sweep starts: the limit, or P where the steps have no steady ratio.
+
+        P: impulses after this sweep; last: impulses before it. Both as flat lists.
+        """
         before, self._step = self._step, [x - y for x, y in zip(P, last, strict=True)]
         square = sum(d * d for d in before)
         if square == 0.0:
             return P
         ratio = sum(d * e for d, e in zip(self._step, before, strict=True)) / square
-        if not 0.0 < ratio < SLOWEST:
+        if not 0.0 < ratio < MAX_RATIO:
             return P
         factor, step = ratio / (1.0 - ratio), self._step
         self._step = []

@@ -1,12 +1,16 @@
-"""The law of contact with Coulomb friction, and by how much impulses miss it.
+"""The law of contact: non-penetration with Coulomb friction in a plastic impact.
 
     0 <= P_n   perpendicular to   v_n >= 0                         no approach left, no pull
     |P_t| <= mu P_n,   and while sliding   P_t = -mu P_n v_t / |v_t|    friction inside the cone, against the slip
 
-It is equation (13) of Guan et al. 2014, the law with bounds, with a cone for their pyramid. Here v = v(0) + W P. The
-block of one contact has its tangents turned so that W_tt = diag(a_1, a_2):
+    v = v(0) + W P        velocity at the contacts after the impulses P [N s]; v(0) before; W: Delassus operator [1/kg]
+
+It is equation (13) of Guan et al. (2014), the law with bounds, with a round cone in place of their pyramid. The
+tangents of each contact are turned to the principal axes of its W_tt, so that the block of the contact is
 
     W = [[W_nn, w_1, w_2], [w_1, a_1, 0], [w_2, 0, a_2]]
+
+Reference for friction in a disc: More and Sorensen (1983), SIAM J. Sci. Stat. Comput. 4:553-572.
 """
 
 from __future__ import annotations
@@ -22,7 +26,7 @@ __all__ = ["ContactBlock", "law_residual", "solve_friction_in_disc"]
 
 
 class ContactBlock(NamedTuple):
-    """W of one contact in its principal tangents [1/kg]; h_i = 1 / a_i, zero where the ships cannot move."""
+    """W of one contact in its principal tangents [1/kg]; h_i = 1 / a_i, zero along a tangent in which no ship moves."""
 
     W_nn: float
     w_1: float
@@ -34,23 +38,26 @@ class ContactBlock(NamedTuple):
 
     @classmethod
     def of(cls, W: Array) -> ContactBlock:
-        """From W (3, 3) whose tangents are principal already, with exact zeros where the ships cannot move."""
+        """The block of W (3, 3), in principal tangents, with exact zeros along a tangent in which no ship moves."""
         W_nn, w_1, w_2, a_1, a_2 = (float(x) for x in (W[0, 0], W[0, 1], W[0, 2], W[1, 1], W[2, 2]))
         return cls(W_nn, w_1, w_2, a_1, a_2, 1.0 / a_1 if a_1 > 0.0 else 0.0, 1.0 / a_2 if a_2 > 0.0 else 0.0)
 
 
 def solve_friction_in_disc(W: ContactBlock, v_1: float, v_2: float, radius: float) -> tuple[float, float]:
-    """Friction (P_1, P_2) in a disc [N s] that holds the slip v if it can, and else takes most energy from it."""
+    """Friction (P_1, P_2) [N s] of maximum dissipation in a disc: it stops the slip v [m/s] if the disc holds it.
+
+    Otherwise P = -(W_tt + g)^-1 v on the rim, with one g > 0. radius [N s].
+    """
     size = hypot(v_1, v_2)
     if size == 0.0 or radius <= 0.0:
         return 0.0, 0.0
     P_1, P_2 = -v_1 * W.h_1, -v_2 * W.h_2
-    held = (W.h_1 > 0.0 or v_1 == 0.0) and (W.h_2 > 0.0 or v_2 == 0.0)
-    if held and hypot(P_1, P_2) <= radius:
+    can_stick = (W.h_1 > 0.0 or v_1 == 0.0) and (W.h_2 > 0.0 or v_2 == 0.0)
+    if can_stick and hypot(P_1, P_2) <= radius:
         return P_1, P_2
     # |P(g)| falls with g; 1/|P(g)| is concave, so Newton's method from the left never overshoots.
     g = max(0.0, size / radius - max(W.a_1, W.a_2), abs(v_1) / radius - W.a_1, abs(v_2) / radius - W.a_2)
-    if g > 1e18 * max(W.a_1, W.a_2):  # next to it W_tt is nothing
+    if g > 1e18 * max(W.a_1, W.a_2):  # W_tt is lost to rounding beside g
         return -v_1 / size * radius, -v_2 / size * radius
     for _ in range(60):
         b_1, b_2 = W.a_1 + g, W.a_2 + g
@@ -67,10 +74,10 @@ def solve_friction_in_disc(W: ContactBlock, v_1: float, v_2: float, radius: floa
 
 
 def law_residual(W: Array, v: Array, mu: float, P: Array) -> float:
-    """By how much impulses break the law: the largest velocity [m/s] by which a contact misses complementarity, or its
-    friction the projection on the cone. W (3k, 3k), v (3k,) before, P (k, 3), tangents in any axes.
+    """Velocity [m/s] by which impulses miss the law of contact: the largest of all contacts, zero if the law holds.
 
-    Zero if and only if the law holds at every contact (the natural map of the complementarity problem).
+    Of a contact it is the larger of |min(W_nn P_n, v_n)| and of what friction misses its projection on the disc by (the
+    natural map of the complementarity problem). W (3k, 3k) [1/kg], v (3k,) [m/s] before, P (k, 3) [N s], any tangents.
     """
     after, stiff = (v + W @ P.ravel()).reshape(-1, 3), np.diag(W).reshape(-1, 3).tolist()
     if not np.isfinite(after).all():

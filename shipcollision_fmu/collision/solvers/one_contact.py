@@ -1,14 +1,16 @@
-"""The exact answer of one contact to the law of contact (contact_law.py), for any W (3, 3) that is positive definite.
+"""The exact solution of the law of contact (contact_law.py) at one contact, for any positive definite W (3, 3).
 
-Three answers are tried in turn: apart, stick, slide. Where ships are held (heave, in 3 degrees of freedom) and the
-normal slopes, many impulses stop them alike: the least is taken, that of friction at its limit. Sliding is one equation
-for the angle of the friction, solved by Newton's method. Where that fails (friction so strong that it presses the hulls
-together on the way, or hulls that can hardly move in some direction), the normal impulse itself is the unknown:
+Three cases are tried in turn: apart, stick, slide. Where a degree of freedom is held (heave, in 3 degrees of freedom)
+and the normal slopes, many impulses stop the ships alike. The least of them is taken, with friction at its limit.
 
-    f(P_n) = v_n + W_nn P_n + w . P_t(P_n) = 0        P_t(P_n): friction in the disc of radius mu P_n that takes most
+Sliding is one equation for the angle of friction, solved by Newton's method. Newton's method fails where friction is so
+strong that it presses the hulls together on the way, or where the hulls can hardly move in some direction. There the
+normal impulse itself is the unknown:
 
-f(0) < 0, and f grows without bound for any W that is positive definite: a zero exists and is bracketed. P_t(P_n) is the
-smallest of a quadratic form on a disc, P_t = -(W_tt + g)^-1 (v_t + w P_n) with one g >= 0 (g = 0: it sticks).
+    f(P_n) = v_n + W_nn P_n + w . P_t(P_n) = 0        P_t(P_n): friction of most dissipation in a disc of radius mu P_n
+
+f(0) < 0, and f grows without bound for any positive definite W, so a zero exists and is bracketed. P_t(P_n) minimises a
+quadratic form on a disc: P_t = -(W_tt + g)^-1 (v_t + w P_n) with one g >= 0, and g = 0 where the contact sticks.
 
 References: Jourdan, Alart and Jean (1998), Comput. Methods Appl. Mech. Eng. 155:31-47 (block form with friction);
 More and Sorensen (1983), SIAM J. Sci. Stat. Comput. 4:553-572 (the quadratic form on a disc).
@@ -23,45 +25,48 @@ from .contact_law import ContactBlock, solve_friction_in_disc
 __all__ = ["solve_one_contact"]
 
 RANK = 1e-9
-"""Share of W_nn below which what is left of it when friction holds both tangents is rounding."""
+"""Share of W_nn below which the mobility along the normal, with both tangents held by friction, is rounding.
+
+Larger: ships that can just part are given the least impulse of ships that cannot. Smaller: the impulse of held ships is
+divided by rounding.
+"""
 
 ROUNDING = 1e-14
-"""Approach, as a share of that before, that counts as stopped."""
+"""Approach, as a share of the approach before, that counts as stopped. Smaller: the bracket never closes."""
 
 Row = tuple[float, float, float]
 NONE: Row = (0.0, 0.0, 0.0)
 
 
-def solve_one_contact(W: ContactBlock, v: Row, mu: float, near: float | None = None) -> tuple[Row, float | None]:
-    """Impulse (P_n, P_1, P_2) [N s] of one contact with the velocity v [m/s] before; and the angle of its friction if
-    it slides.
+def solve_one_contact(W: ContactBlock, v: Row, mu: float, start_angle: float | None = None) -> tuple[Row, float | None]:
+    """Impulse (P_n, P_1, P_2) [N s] of one contact with the velocity v [m/s] before, and the angle of friction [rad] if
+    the contact slides.
 
-    near: angle from which the search starts; None: friction against the slip before.
+    start_angle: from which the search starts; None: against the slip before.
     """
     v_n, v_1, v_2 = v
     if v_n >= 0.0:
         return NONE, None
-    stick = _stick(W, v, mu)
+    stick = _solve_stick(W, v, mu)
     if stick is not None:
         return stick, None
     if mu == 0.0:
         return (-v_n / W.W_nn, 0.0, 0.0), None
-    found = _slide(W, v, mu, atan2(-v_2, -v_1) if near is None else near)
-    return found if found is not None else _bracketed(W, v, mu)
+    sliding = _solve_slide(W, v, mu, atan2(-v_2, -v_1) if start_angle is None else start_angle)
+    return sliding if sliding is not None else _solve_bracketed(W, v, mu)
 
 
-def _stick(W: ContactBlock, v: Row, mu: float) -> Row | None:
-    """The impulse in the cone that stops all three directions, the least where there are many; None when there is
-    none."""
+def _solve_stick(W: ContactBlock, v: Row, mu: float) -> Row | None:
+    """The least impulse in the cone that stops all three directions; None if there is none."""
     v_n, v_1, v_2 = v
     if (W.h_1 == 0.0 and v_1 != 0.0) or (W.h_2 == 0.0 and v_2 != 0.0):
         return None
     rest = W.W_nn - W.w_1 * W.w_1 * W.h_1 - W.w_2 * W.w_2 * W.h_2
-    left = v_n - W.w_1 * W.h_1 * v_1 - W.w_2 * W.h_2 * v_2  # of the approach, when friction holds both tangents
+    left = v_n - W.w_1 * W.h_1 * v_1 - W.w_2 * W.h_2 * v_2  # approach that is left when friction holds both tangents
     held = rest <= RANK * W.W_nn
     if held and abs(left) > RANK * hypot(v_n, v_1, v_2):
         return None
-    P_n = _least_in_cone(W, v_1, v_2, mu) if held else -left / rest
+    P_n = _solve_least_stick(W, v_1, v_2, mu) if held else -left / rest
     P_1, P_2 = -(v_1 + W.w_1 * P_n) * W.h_1, -(v_2 + W.w_2 * P_n) * W.h_2
     size, most = hypot(P_1, P_2), mu * P_n
     if held and most > 0.0 and abs(size - most) <= 1e-6 * most:  # on the cone, but for rounding
@@ -71,29 +76,32 @@ def _stick(W: ContactBlock, v: Row, mu: float) -> Row | None:
     return P_n, P_1, P_2
 
 
-def _least_in_cone(W: ContactBlock, v_1: float, v_2: float, mu: float) -> float:
-    """Least P_n at which friction that holds the slip is in the cone, where P_n does nothing more; 0: none."""
+def _solve_least_stick(W: ContactBlock, v_1: float, v_2: float, mu: float) -> float:
+    """The least P_n [N s] for which friction that stops the slip is in the cone; 0: there is none.
+
+    For ships that P_n and this friction together do not move along the normal.
+    """
     x, y, dx, dy = v_1 * W.h_1, v_2 * W.h_2, W.w_1 * W.h_1, W.w_2 * W.h_2
     a, b, c = dx * dx + dy * dy - mu * mu, x * dx + y * dy, x * x + y * y
     square = b * b - a * c
     return c / (sqrt(square) - b) if square >= 0.0 and sqrt(square) > b else 0.0
 
 
-def _slide(W: ContactBlock, v: Row, mu: float, angle: float) -> tuple[Row, float] | None:
-    """Impulse P_n (1, mu cos, mu sin) that stops the approach and leaves a slip straight against it; None if Newton's
+def _solve_slide(W: ContactBlock, v: Row, mu: float, angle: float) -> tuple[Row, float] | None:
+    """Impulse P_n (1, mu cos, mu sin) that stops the approach and leaves a slip opposite to friction; None if Newton's
     method does not find one."""
     W_nn, w_1, w_2, a_1, a_2, _, _ = W
     v_n, v_1, v_2 = v
     for _ in range(15):
         c, s = cos(angle), sin(angle)
-        felt = W_nn + mu * (w_1 * c + w_2 * s)
-        if felt <= 1e-3 * W_nn:
+        W_eff = W_nn + mu * (w_1 * c + w_2 * s)
+        if W_eff <= 1e-3 * W_nn:
             return None
-        P_n = -v_n / felt
+        P_n = -v_n / W_eff
         P_1, P_2 = mu * P_n * c, mu * P_n * s
         slip_1, slip_2 = v_1 + w_1 * P_n + a_1 * P_1, v_2 + w_2 * P_n + a_2 * P_2
         across, along = s * slip_1 - c * slip_2, c * slip_1 + s * slip_2
-        grown = -P_n * mu * (w_2 * c - w_1 * s) / felt  # dP_n / dangle
+        grown = -P_n * mu * (w_2 * c - w_1 * s) / W_eff  # dP_n / dangle
         d_1 = w_1 * grown + a_1 * mu * (grown * c - P_n * s)
         d_2 = w_2 * grown + a_2 * mu * (grown * s + P_n * c)
         slope = along + s * d_1 - c * d_2
@@ -103,12 +111,15 @@ def _slide(W: ContactBlock, v: Row, mu: float, angle: float) -> tuple[Row, float
         if abs(step) <= 1e-14 * max(1.0, abs(angle)) or across == 0.0:
             return ((P_n, P_1, P_2), angle) if along <= 0.0 else None
         angle += min(0.5, max(-0.5, step))
-    # Where rounding does not let the step get smaller, what it would change decides.
+    # Rounding may keep the step from getting smaller: then the slip across friction, which it would change, decides.
     return ((P_n, P_1, P_2), angle) if along < 0.0 and abs(across) <= 1e-12 * hypot(v_n, v_1, v_2) else None
 
 
-def _bracketed(W: ContactBlock, v: Row, mu: float) -> tuple[Row, float | None]:
-    """The same by the zero of f(P_n), bracketed from zero outwards and closed in by halving and by secants."""
+def _solve_bracketed(W: ContactBlock, v: Row, mu: float) -> tuple[Row, float | None]:
+    """Impulse and angle of friction of a sliding contact by the zero of f(P_n).
+
+    The zero is bracketed from P_n = 0 outwards; the bracket is closed by secants and halving.
+    """
 
     def f(P_n: float) -> float:
         P_1, P_2 = solve_friction_in_disc(W, v[1] + W.w_1 * P_n, v[2] + W.w_2 * P_n, mu * P_n)
@@ -123,7 +134,7 @@ def _bracketed(W: ContactBlock, v: Row, mu: float) -> tuple[Row, float | None]:
             break
         low, f_low, high = high, f_high, 2.0 * high
         f_high = f(high)
-    else:  # no impulse in the cone stops them: neither ship can move along any of its directions
+    else:  # no impulse in the cone stops the ships: none moves along any of its directions
         return (-v[0] / W.W_nn, 0.0, 0.0), None
     for k in range(200):
         middle = 0.5 * (low + high) if k % 3 == 2 else low - f_low * (high - low) / (f_high - f_low)

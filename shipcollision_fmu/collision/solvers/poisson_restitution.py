@@ -1,14 +1,14 @@
-"""Restitution of a whole impact: all contacts of a patch spring back together, and never with more than they stored.
+"""Poisson's restitution of a whole patch: all contacts give back the share e of their compression together.
 
-    compression   P_c      plastic impact of all contacts at once (gauss_seidel.py)
-    restitution   P_r      normal impulses e P_c,n; friction held or sliding anew inside the cone mu e P_c,n (Poisson)
+    compression   P_c      plastic impact of all contacts at once (gauss_seidel.py)                       [N s]
+    restitution   P_r      normal impulses e P_c,n; friction in discs of radius mu e P_c,n (Poisson)      [N s]
     impact        P_c + P_r
 
-Newton's rule asks every contact of one rigid patch for its own share of its own approach, which the patch cannot
-satisfy; Poisson's asks the impact as a whole. For one contact that slides one way throughout both rules agree.
+Newton's rule demands of every contact of one rigid patch a share of its own approach, which the patch cannot satisfy.
+Poisson's rule is about the impact as a whole. For one contact that slides one way throughout, both rules agree.
 
-With friction Poisson's rule can create energy, rarely. Then the impact (1 + e) P_c is taken instead, which cannot:
-P_c is plastic, so P_c . (v + W P_c) <= 0, hence P_c . W P_c <= -P_c . v = a, and the energy gained is
+With friction Poisson's rule can create energy, in rare cases. Then the impact (1 + e) P_c is taken instead, which
+cannot. P_c is plastic, so P_c . (v + W P_c) <= 0, hence P_c . W P_c <= -P_c . v = a, and the energy gained is
 
     (1 + e) P_c . v + 1/2 (1 + e)^2 P_c . W P_c  <=  -1/2 (1 + e)(1 - e) a  <=  0
 
@@ -26,31 +26,36 @@ from .gauss_seidel import SWEEP_TOLERANCE, Solution, clear_rounding, principal_a
 __all__ = ["solve_poisson_impact"]
 
 NO_REBOUND = 1e-12
-"""Restitution that counts as none: what springs back is rounding."""
+"""Restitution that counts as none: the rebound is rounding. With none, squares of it underflow and are divided by."""
 
 MAX_SWEEPS = 1000
-"""Bound on the sweeps over the friction of restitution. What they leave is not against any law but in the split: the
-friction stays in its disc."""
+"""Bound on the sweeps over the friction of restitution. An early end leaves slip that friction could have stopped; the
+friction stays in its disc, so no law is broken."""
 
 
 def solve_poisson_impact(W: Array, v: Array, mu: float, e: float, start: Array | None = None) -> Solution:
-    """Impulses of k contacts with restitution e. W (3k, 3k) [1/kg], v (3k,) [m/s] before, in contact axes; start (k,
-    3): impulses like those expected (see solve_gauss_seidel)."""
+    """Impulses of k contacts with restitution e.
+
+    W (3k, 3k) [1/kg] and v (3k,) [m/s] before, in contact axes; start (k, 3): as in solve_gauss_seidel.
+    """
     plastic = solve_gauss_seidel(W, v, mu, start)
     if e <= NO_REBOUND or not plastic.P.any():
         return plastic
     P = plastic.P.ravel()
-    whole = P + _sprung_back(W, v + W @ P, mu, e * P)
+    whole = P + _solve_restitution(W, v + W @ P, mu, e * P)
     if whole @ (v + 0.5 * W @ whole) > 0.0:
         whole = (1.0 + e) * P
-    last = solve_gauss_seidel(W, v + W @ whole, mu)  # contacts that the others' rebound has closed
+    last = solve_gauss_seidel(W, v + W @ whole, mu)  # contacts that the rebound of others has closed
     residual = max(plastic.residual, last.residual)
     return Solution(whole.reshape(-1, 3) + last.P, residual, plastic.sweeps + last.sweeps)
 
 
-def _sprung_back(W: Array, v: Array, mu: float, P: Array) -> Array:
-    """Impulses of restitution (3k,): P's normal parts are given; friction, in discs of mu times them, holds the slip if
-    it can. Projected Gauss-Seidel on the tangential pairs alone: what it minimises is convex, so it gets there."""
+def _solve_restitution(W: Array, v: Array, mu: float, P: Array) -> Array:
+    """Impulses of restitution (3k,) [N s], with the normal parts of P and friction that stops the slip if it can.
+
+    Projected Gauss-Seidel on the tangential pairs alone, in discs of radius mu P_n. The friction minimises a convex
+    energy, so the sweeps converge. v: velocity [m/s] after compression.
+    """
     T = principal_axes(W)
     W, v = T @ W @ T.T, T @ v
     clear_rounding(W, v)

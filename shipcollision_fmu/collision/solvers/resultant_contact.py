@@ -1,13 +1,13 @@
-"""The contacts of one pair as a single contact: what the closed forms of an impact can answer.
+"""The contacts of one pair reduced to a single contact, as the impact process of one contact needs it.
 
-The point and the normal are those of the resultant of a frictionless plastic impact at all the contacts:
+Point and normal are those of the resultant of a frictionless plastic impact at all contacts:
 
     lambda = normal impulses of that impact (gauss_seidel.py, mu = 0)
     point  = sum(lambda_i point_i) / sum(lambda_i)        normal = sum(lambda_i n_i), of length 1
 
-For parallel normals that one impulse does to both ships what all of them do, so no contact is left approaching: it is
-the centre of percussion of the patch, and moves over it with the ships' rotation. A centre weighted by overlap would
-follow the depth of a past moment instead. Contacts that do not approach have no share.
+The point is the centre of percussion of the patch and moves over the patch with the rotation of the ships. For parallel
+normals the resultant does to both ships what all impulses do, so no contact is left approaching. A centre weighted by
+overlap would follow the depth of a past moment instead. Contacts that do not approach have no share.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ __all__ = ["reduce_to_resultant"]
 
 
 def reduce_to_resultant(contacts: Sequence[Contact], states: Sequence[BodyState]) -> Contact | None:
-    """One contact for all of a pair's; None when nothing approaches. Its gap is the deepest."""
+    """One contact in place of all contacts of a pair, with the deepest gap; None when none of them approaches."""
     velocity = approach_velocities(contacts, states)
     if velocity[0::3].min() >= 0.0:
         return None

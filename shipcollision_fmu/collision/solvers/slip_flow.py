@@ -1,18 +1,18 @@
-"""A slip that turns while friction acts, in a time of its own in which nothing is singular.
+"""The slip flow of one contact: how the slip turns and slows down while friction acts against it.
 
-Along the normal impulse p the slip s = sigma (cos phi, sin phi) of a contact obeys, with D = (cos phi, sin phi) and D'
-across it,
+Along the normal impulse p [N s] the slip s = sigma (cos phi, sin phi) [m/s] obeys, with D = (cos phi, sin phi) and the
+unit vector D' across D,
 
     dsigma/dp = g(phi) = D.w - mu D.A D          w (2,), A (2, 2): rows of W for the slip, by normal and by friction
     sigma dphi/dp = h(phi) = D'.w - mu D'.A D
 
-which is singular where the slip stops. With dp = sigma dtau it is not:
+These equations are singular where the slip stops. In the time tau with dp = sigma dtau they are regular:
 
     dphi/dtau = h,    d(ln sigma)/dtau = g,    dp/dtau = sigma,    dP_t/dtau = -mu sigma D,    dN/dtau = sigma v_n
 
-A stop is at tau = infinity, and is met along a direction that no longer turns, h = 0: from there on the path is
-straight. The integration is Gragg's midpoint rule, extrapolated (Bulirsch and Stoer); the direction is an angle in axes
-in which A is diagonal. Speeds are in units of the approach speed, W in units of W_nn.
+The slip stops at tau = infinity, along an invariant direction, h = 0, in which the path is straight. The equations are
+integrated by Gragg's midpoint rule with extrapolation (Bulirsch and Stoer). The direction is an angle in axes in which
+A is diagonal. Speeds are in units of the approach speed, W in units of W_nn.
 
 Sources: Keller (1986), J. Appl. Mech. 53:1-4; Batlle (1996), J. Appl. Mech. 63:168-172 (the flow of the slip); Hairer,
 Norsett and Wanner (1993), Solving Ordinary Differential Equations I, section II.9 (extrapolation).
@@ -27,10 +27,11 @@ from math import cos, exp, hypot, sin
 __all__ = ["SlipFlow", "Stretch"]
 
 TOLERANCE = 1e-13
-"""Local error of a step, absolute in units of the approach speed, relative where a number is larger than 1."""
+"""Local error of a step, absolute in units of the approach speed, relative where a number is larger than 1. Larger: the
+impulse is off by as much per stretch. Smaller: rounding keeps the extrapolation from converging."""
 
-SETTLED = 1e-14
-"""Turning of the slip, as a share of the largest there could be, below which it counts as none: rounding."""
+INVARIANT = 1e-14
+"""Turning of the slip, as a share of its bound, below which the direction is invariant: the turning is rounding."""
 
 COLUMNS = tuple(range(2, 22, 2))
 """Midpoint steps of the columns of the extrapolation: order 20 at most."""
@@ -40,7 +41,8 @@ State = tuple[float, ...]
 
 @dataclass(frozen=True)
 class Stretch:
-    """End of a stretch: angle and ln sigma there; impulses p and P_t = (P_1, P_2), and N = integral of v_n dp."""
+    """A stretch of the path: angle and ln sigma at its end; its impulses p and P_t = (P_1, P_2), and N = integral of
+    v_n dp."""
 
     angle: float
     log_slip: float
@@ -52,7 +54,7 @@ class Stretch:
 
 @dataclass(frozen=True)
 class SlipFlow:
-    """How the slip of one contact turns: w = (w_1, w_2), A = diag(A_1, A_2), friction mu."""
+    """The slip flow of one contact with w = (w_1, w_2), A = diag(A_1, A_2) and friction mu."""
 
     w_1: float
     w_2: float
@@ -75,12 +77,12 @@ class SlipFlow:
         c, s = cos(angle), sin(angle)
         return self.w_2 * c - self.w_1 * s + self.mu * (self.A_1 - self.A_2) * s * c
 
-    def settled(self, angle: float) -> bool:
+    def is_invariant(self, angle: float) -> bool:
         """Whether the slip keeps this direction."""
-        return abs(self.turning(angle)) <= SETTLED * self.rate
+        return abs(self.turning(angle)) <= INVARIANT * self.rate
 
-    def stretch(self, angle: float, log_slip: float, v_n: float, tau: float) -> tuple[Stretch, int | None]:
-        """The path over tau from a slip and a normal velocity; and the columns it took, None if they did not do."""
+    def integrate(self, angle: float, log_slip: float, v_n: float, tau: float) -> tuple[Stretch, int | None]:
+        """The path over tau from a slip and a normal velocity, and the columns that it took; None: too few."""
         w_1, w_2, A_1, A_2, mu = self.w_1, self.w_2, self.A_1, self.A_2, self.mu
         diagonal_1, diagonal_2, across = mu * A_1, mu * A_2, mu * (A_1 - A_2)
 
@@ -96,13 +98,13 @@ class SlipFlow:
                 sigma * (v_n + y[2] + w_1 * y[3] + w_2 * y[4]),
             )
 
-        end, columns = _extrapolated(derivative, (angle, log_slip, 0.0, 0.0, 0.0, 0.0), tau)
+        end, columns = _extrapolate(derivative, (angle, log_slip, 0.0, 0.0, 0.0, 0.0), tau)
         return Stretch(*end), columns
 
-    def restart(self) -> tuple[float, float]:
-        """Direction (cos, sin) in which slip starts from rest when friction cannot hold it.
+    def solve_reslip(self) -> tuple[float, float]:
+        """Direction (cos, sin) in which slip starts from rest when friction cannot hold the contact.
 
-        There h = 0 and g > 0:  (g + mu A) D = w with |D| = 1, one equation for g, and it has one root (Batlle).
+        There h = 0 and g > 0:  (g + mu A) D = w with |D| = 1. It is one equation for g with one root (Batlle).
         """
         mu, w_1, w_2, A_1, A_2 = self.mu, self.w_1, self.w_2, self.A_1, self.A_2
         g = max(abs(w_1) - mu * A_1, abs(w_2) - mu * A_2, 0.0)
@@ -120,8 +122,8 @@ class SlipFlow:
         return x / size, y / size
 
 
-def _extrapolated(f: Callable[[State], State], y: State, H: float) -> tuple[State, int | None]:
-    """y after H: midpoint rules with ever more steps, extrapolated; and the columns it took, None if too few."""
+def _extrapolate(f: Callable[[State], State], y: State, H: float) -> tuple[State, int | None]:
+    """y after H by midpoint rules with ever more steps, extrapolated, and the columns that it took; None: too few."""
     slope = f(y)
     row: list[State] = []
     for column, n in enumerate(COLUMNS):

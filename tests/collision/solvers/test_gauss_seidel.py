@@ -14,7 +14,7 @@ from shipcollision_fmu.collision.dynamics.contact_frame import contact_axes
 from shipcollision_fmu.collision.solvers.aclm_fixed_point import solve_aclm
 from shipcollision_fmu.collision.solvers.contact_law import law_residual
 from shipcollision_fmu.collision.solvers.gauss_seidel import solve_gauss_seidel
-from shipcollision_fmu.collision.solvers.impact_process import FLAT
+from shipcollision_fmu.collision.solvers.impact_process import IMMOBILE
 from shipcollision_fmu.collision.solvers.poisson_restitution import NO_REBOUND, solve_poisson_impact
 from shipcollision_fmu.ship.degrees_of_freedom import FREE, free_inverse, level_axes
 from shipcollision_fmu.ship.frames import rotation
@@ -245,7 +245,7 @@ def springs_back_against_held_friction(impact: Impact) -> bool:
     held in heave, with no roll to lift the contact. Any such friction in the disc leaves the same motion, and which of
     them is given is not decided yet."""
     stiffest = np.linalg.eigvalsh(impact.W[1:, 1:])[0]
-    return impact.e > NO_REBOUND and impact.mu > 0.0 and bool(stiffest <= FLAT * impact.W[0, 0])
+    return impact.e > NO_REBOUND and impact.mu > 0.0 and bool(stiffest <= IMMOBILE * impact.W[0, 0])
 
 
 @given(impacts(mu=MU, slope=STEEP), floats(-np.pi, np.pi), SHIFTS)
