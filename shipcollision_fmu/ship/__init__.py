@@ -1,13 +1,20 @@
-"""What a ship is.
+"""A ship: its file, its hull as a solid, its inertia in water, and the frames in which its state is given.
 
-frames              n, b and Bullet's world, and the one converter
-toml, refusal       reading a user's file, and saying in one line why it is refused
-particulars, hull_table, manoeuvring_tables    the tables of a ship file, key by key
-ship_file           the file, validated
-inertia             M = M_RB + M_A about CO
-hydrostatics, seakeeping    waterplane, metacentres, restoring and damping of heave, roll and pitch
-windage             what the wind finds above the water
-estimate            an MMG set from L, B, T and C_b
-hull                the solid that touches other ships
-ship, assembly, library     a ship, put together from its file, and found by name
+    frames.py                n, b and Bullet's world, and the conversions between them
+    ship_state.py            ShipState: pose and twist of a ship in one value
+    degrees_of_freedom.py    free and held motions, the level axes, and the inverse of the free block of M
+    coasting.py              coast(), coast_pose(): the motion on which nothing acts
+    kinetic_energy.py        kinetic energy of the free motions
+    inertia.py               M = M_RB + M_A about CO
+    hydrostatics.py          waterplane and metacentric heights from L, B, T and C_b
+    seakeeping.py            stiffness and damping in heave, roll and pitch
+    windage.py               areas above the water and Blendermann's coefficients
+    ship.py                  Ship: all numbers of a ship, which cannot be changed
+    file_stamp.py            when a file that was read once must be read again
+    tables/                  every key of a ship file with its description, unit and limits
+    hull/                    the hull: a closed surface and its convex parts
+    loading/                 load_ship(): a name, a file or a dict becomes a Ship
+
+Data flow: TOML -> tables -> ShipFile -> Ship -> build_hull(), compute_seakeeping(), compute_windage().
+Imports from: errors. Used by: collision, manoeuvring and all rooms above them.
 """

@@ -1,11 +1,11 @@
-"""Which motions of a ship may change, and how she answers an impulse in them.
+"""Which motions of a ship are free, and the change of its twist by an impulse in them.
 
     6 degrees of freedom    all, in b
     4                       level surge and sway, along and across the heading; yaw about the vertical; roll about x
     3                       the same without roll
 
-In 3 and 4 degrees of freedom heave and pitch are held, and what is free is *level*, as in the models of the MMG
-literature: a ship that heels goes on sideways, not down along her deck. With nu_l = (u, v, w, phi_dot, theta_dot,
+In 3 and 4 degrees of freedom heave and pitch are held. The free motions are *level*, as in the models of the MMG
+literature: a heeled ship sways horizontally, not down along its deck. With nu_l = (u, v, w, phi_dot, theta_dot,
 psi_dot) of the level axes that turn with the heading,
 
     nu = L nu_l        L = [[R_bl, 0], [0, (e_x, R_bl e_y, R_bl e_z)]]        R_bl = (Ry(theta) Rx(phi))^T
@@ -14,7 +14,7 @@ psi_dot) of the level axes that turn with the heading,
     d(nu)      = L M_free^-1 L^T impulse              impulse (6,) and nu (6,) in b about CO
     T          = 1/2 nu_l' M nu_l                      kinetic energy
 
-so that the level part of an impulse changes the level momentum by itself, at any heel. Upright L is the identity.
+The level part of an impulse alone changes the level momentum, at any heel. L of an upright ship is the identity.
 
 Source: Fossen (2021), section 2.2.1 (zyx Euler angles: the last three columns of L are those of the angle rates).
 """
@@ -40,8 +40,8 @@ Six = tuple[float, float, float, float, float, float]
 def free_inverse(M: Array, degrees_of_freedom: int) -> Array:
     """Inverse of the free block of M, zeros elsewhere, (6, 6): d(nu) = free_inverse @ impulse for an upright ship.
 
-    The rows and columns that are not free are deleted before the inversion, so the ship answers as if those motions
-    were held. Scaled to a unit diagonal first: mass and inertia differ by four orders of magnitude.
+    The rows and columns of held motions are deleted before the inversion. M is scaled to a unit
+    diagonal first: mass and inertia differ by four orders of magnitude.
     Raises ShipError when degrees_of_freedom is not 3, 4 or 6.
     """
     if degrees_of_freedom not in FREE:
@@ -58,9 +58,9 @@ def free_inverse(M: Array, degrees_of_freedom: int) -> Array:
 
 
 def tilted_inverse(upright: Array, degrees_of_freedom: int, attitude: Sequence[float] | Array) -> Array:
-    """The same for a ship at an attitude (phi, theta, psi) [rad]: d(nu) = tilted_inverse @ impulse, both in b; (6, 6).
+    """L free_inverse L^T of a ship at an attitude (phi, theta, psi) [rad]: d(nu) = it @ impulse, both in b; (6, 6).
 
-    upright: her free_inverse. Itself in 6 degrees of freedom, and where she is upright.
+    upright: free_inverse of the ship, which is returned itself in 6 degrees of freedom and for an upright ship.
     """
     if degrees_of_freedom == 6 or not (attitude[0] or attitude[1]):
         return upright
@@ -78,14 +78,14 @@ def level_axes(attitude: Sequence[float] | Array) -> Array:
 
 
 def to_level(nu: Six, phi: float) -> Six:
-    """nu_l of nu for a ship that heels by phi [rad] and does not trim. Also what she feels of a wrench, L' tau."""
+    """nu_l of nu for a ship that heels by phi [rad] and does not trim. Also L^T tau of a wrench tau."""
     u, v, w, p, q, r = nu
     c, s = cos(phi), sin(phi)
     return u, c * v - s * w, s * v + c * w, p, c * q - s * r, s * q + c * r
 
 
 def from_level(nu_l: Six, phi: float) -> Six:
-    """nu of nu_l: to_level the other way."""
+    """nu of nu_l: the inverse of to_level."""
     return to_level(nu_l, -phi)
 
 

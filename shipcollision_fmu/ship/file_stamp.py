@@ -1,4 +1,4 @@
-"""What changes when a file is written: the ground on which a file that was read once need not be read again."""
+"""The stamp of a file, by which a file that has not changed is read once only."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from time import time_ns
 __all__ = ["Stamp", "digest_content", "take_stamp"]
 
 SETTLED_NS = 2_000_000_000
-"""Age [ns] from which a file's times tell it from a later version. File systems count in steps of up to 2 s (FAT): with
-less, a file that is written twice within a step would be taken for unchanged."""
+"""Age [ns] from which a later version of a file has other times. File systems count in steps of up to 2 s (FAT). With a
+smaller age, a file that is written twice within a step would be taken for unchanged."""
 
 Stamp = tuple[str, int, int, int, int]
 

@@ -7,7 +7,7 @@
     eta = (N, E, D, phi, theta, psi)     nu = (u, v, w, p, q, r)
     R_nb = Rz(psi) Ry(theta) Rx(phi)     v_n = R_nb v_b          Fossen (2021), section 2.2.1: zyx Euler angles
 
-n and w, and their body axes, differ by one and the same matrix S, which is its own inverse and a proper rotation:
+n and w differ by a matrix S, and so do their body axes. S is its own inverse and a proper rotation:
 
     S = [[0 1 0] [1 0 0] [0 0 -1]]       v_w = S v_n             R_w = S R_nb S
 
@@ -42,7 +42,7 @@ __all__ = [
 Array = npt.NDArray[np.float64]
 
 SWAP: Array = np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])
-"""S: from n to w and back, for the world and for the body axes alike."""
+"""S: from n to w and back, for the world and for the body axes; with one of them alone, headings are mirrored."""
 
 
 def skew(r: Sequence[float] | Array) -> Array:

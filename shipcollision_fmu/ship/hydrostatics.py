@@ -1,4 +1,4 @@
-"""Hydrostatics of a hull that is known by L, B, T and C_b only.
+"""Hydrostatics of a hull of which L, B, T and C_b are given.
 
     C_w  = (1 + 2 C_b)/3                      A_wp = C_w L B            V = C_b L B T
     KB   = T/3 (5/2 - C_b/C_w)                KG   = T - z_g            z_g: CG below the waterline
@@ -10,8 +10,8 @@ C_w waterplane coefficient, A_wp waterplane area [m2], V displaced volume [m3], 
 gravity above the keel [m], I second moments of the waterplane area [m4], GM metacentric heights [m].
 
 The formulas are those of the vessel osv in Fossen's Marine Systems Simulator; I_L has C_w^2 in the place of its
-constant 0.7, which is the same for C_w = 0.84. A GM that is known replaces the estimate: KG is rarely known, and GM_T
-is the small difference of two large numbers.
+constant 0.7, which is the same for C_w = 0.84. A given GM replaces the estimate: KG is rarely published, and GM_T is
+the small difference of two large numbers.
 """
 
 from __future__ import annotations

@@ -1,16 +1,16 @@
-"""What brings a ship back upright: restoring and damping of heave, roll and pitch.
+"""Restoring and damping of a ship in heave, roll and pitch.
 
     K_33 = rho g A_wp      K_44 = m g GM_T      K_55 = m g GM_L               restoring [N/m, N m/rad]
     D_ii = 2 zeta_i w_i M_ii,   w_i = sqrt(K_ii/M_ii)                         linear damping [N s/m, N m s/rad]
     D_44q = (3 pi/4) zeta_4q M_44                                             of |p| p [N m s2/rad2]
 
-M_ii are the entries of the ship's M, added mass included; zeta_i damping ratios. zeta_4q is what the damping ratio in
-roll gains per radian of amplitude: over a cycle of amplitude phi_a, D_44q |p| p takes the energy that 2 zeta_4q phi_a
-w_4 M_44 p takes.
+M_ii are the entries of the ship's M, added mass included; zeta_i damping ratios. zeta_4q is the increase of the
+damping ratio in roll per radian of amplitude: over a cycle of amplitude phi_a, D_44q |p| p dissipates as much energy
+as 2 zeta_4q phi_a w_4 M_44 p.
 
-What a file does not say: zeta_heave 0.2, zeta_pitch 0.25, zeta_roll 0.05 (bare hull to bilge keels), zeta_roll_per_rad
-0.3: rules of thumb; GM by ship/hydrostatics.py. Forces on the hull act at z_H = T/2, the rudder's at its centroid, the
-rudder's foot and the propeller's tips taken level with the keel.
+Values that a file leaves out: zeta_heave 0.2, zeta_pitch 0.25, zeta_roll 0.05 (bare hull to bilge keels),
+zeta_roll_per_rad 0.3, which are rules of thumb; GM by hydrostatics.py. The sway force on the hull acts at z_H = T/2,
+that on the rudder at its centroid. The rudder's foot and the propeller's tips are taken to be level with the keel.
 """
 
 from __future__ import annotations
@@ -25,13 +25,13 @@ from .ship import Ship
 __all__ = ["Seakeeping", "compute_seakeeping"]
 
 RATIOS = {"zeta_heave": 0.2, "zeta_roll": 0.05, "zeta_pitch": 0.25, "zeta_roll_per_rad": 0.3}
-"""Damping where the file says nothing."""
+"""Damping ratios where the file gives none; with less roll damping, ships roll on for longer after an impact."""
 
 LEAST_GM = 0.002
-"""GM_T over B, 0.1 m for the largest ships: less is a ship that lolls, or a wrong number."""
+"""GM_T over B, 0.1 m for the largest ships. With less, ships that loll or have a wrong CG would be accepted."""
 
 BLOCK = (0.40, 0.90)
-"""C_b for which the formulas of hydrostatics hold."""
+"""C_b for which the formulas of hydrostatics hold; outside, the estimated GM is not to be trusted."""
 
 
 @dataclass(frozen=True)
@@ -61,12 +61,12 @@ class Seakeeping:
 
 
 def compute_seakeeping(ship: Ship) -> Seakeeping:
-    """Heave, roll and pitch of a ship. Raises ShipError for one that does not float upright."""
+    """Stiffness and damping of a ship. Raises ShipError for a ship that does not float upright."""
     C_b = ship.C_b
     if not BLOCK[0] <= C_b <= BLOCK[1]:
         raise ShipError(
             f"ship {ship.name!r}: C_b = mass / (rho L_pp B T) = {C_b:.3f} is outside {BLOCK[0]:.2f} to {BLOCK[1]:.2f}, "
-            "so its heave, roll and pitch cannot be told: take degrees_of_freedom = 3, or give a mass that fits"
+            "so its heave, roll and pitch cannot be estimated: take degrees_of_freedom = 3, or give a mass that fits"
         )
     table, notes = ship.seakeeping, []
     water = compute_hydrostatics(ship.L_pp, ship.B, ship.T, C_b, float(ship.r_bg[2]), GM_T=ship.GM_T, GM_L=ship.GM_L)

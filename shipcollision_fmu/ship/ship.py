@@ -1,4 +1,4 @@
-"""A ship as the models use it: numbers and matrices. assembly.py makes it from a ship file."""
+"""A ship as the models use it: numbers and matrices. loading/assembly.py makes it from a ship file."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ __all__ = ["Ship"]
 class Ship:
     """A ship: main dimensions [m], mass [kg], inertia matrices (6, 6) about CO in b (read-only), and its tables.
 
-    `estimated` lists what the file did not say and the formula used instead.
+    `estimated` lists each value that the file leaves out, with the formula used instead.
     """
 
     name: str

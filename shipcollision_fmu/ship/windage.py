@@ -1,17 +1,17 @@
-"""What the wind finds above the water: areas, their centroid, and the coefficients of Blendermann (1994).
+"""Areas of a ship above the water, their centroid, and the wind coefficients of Blendermann (1994).
 
 Coefficients by type of ship (C_Dt across, C_Dl along with the wind from ahead and from astern, cross-force parameter
 delta, rolling moment factor kappa): Blendermann (1994), J. Wind Eng. Ind. Aerodyn. 51:339-351, as tabulated in Fossen
 (2021), section 10.1, and in his Marine Systems Simulator.
 
-Areas that a file does not say are those of a box of the hull above the water, with a deckhouse of the height h = 0.07
+Areas that a file leaves out are those of a box of the hull above the water, with a deckhouse of the height h = 0.07
 L_pp, 0.6 B broad and 0.12 L_pp long; on a ship with containers, these stand 0.4 B high over the breadth and 0.6 L_pp:
 
     A_Fw = B f + 0.6 B h            A_Lw = L_oa f + 0.12 L_pp h            f = depth - T
          = B (f + 0.4 B)                 = L_oa f + 0.12 L_pp h + 0.6 L_pp 0.4 B         with containers
     s_H  = A_Lw/(2 L_oa)            s_L = 0, with the deckhouse aft: -0.35 L_pp times its share of A_Lw
 
-Estimates of this project, within some 25 % of merchant ships; give the areas of a ship that matters.
+These are estimates of this project, within some 25 % for merchant ships; a ship file can give the areas.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ TYPE_BY_WORD = {
     "fishing": "fishing vessel", "passenger": "passenger liner", "supply": "offshore supply vessel",
     "research": "research vessel",
 }  # fmt: skip
-"""The type for a word in [ship] kind; a cargo vessel if none is there."""
+"""Blendermann's type for a word in [ship] kind; a cargo vessel where no word is found."""
 
 
 @dataclass(frozen=True)

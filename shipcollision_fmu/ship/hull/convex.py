@@ -1,4 +1,4 @@
-"""Convex solids given by a closed triangle mesh: volume, half-spaces, and whether it is convex at all.
+"""Volume, half-spaces and convexity of a solid given by a closed triangle mesh.
 
 Triangles are (m, 3) indices, counter-clockwise seen from outside. Any unit of length.
 """

@@ -14,7 +14,7 @@
 
 The surface must be closed, for only then is there an inside. Contact needs convex parts: a convex mesh is its own part;
 any other is cut along planes by CoACD (Wei et al. 2022, ACM Trans. Graph. 41(4)) into parts whose convex hulls hold the
-whole solid and little more: what is added is measured, and refused above VOLUME_TOLERANCE. The cutting is seeded, so
+whole solid and little more. The added volume is measured, and refused above VOLUME_TOLERANCE. The cutting is seeded, so
 the same file gives the same parts, to the bit, in every run. Nothing is cached on disk.
 
 Not checked: a surface that passes through itself, which end is the bow, and where T is about half the depth, which way
@@ -151,7 +151,7 @@ def _read_mesh(path: Path) -> tuple[Array, Indices]:
 
 
 def _check_whole(path: Path, size: int) -> None:
-    """A binary STL (80 bytes of header, a count, 50 bytes per triangle) is as long as it says."""
+    """Check that a binary STL (80 bytes of header, a count, 50 bytes per triangle) has the length of its count."""
     with path.open("rb") as file:
         head = file.read(1024)
     if b"\0" not in head or len(head) < 84:  # text

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..frames import Array
-from .convex import Indices
+from .convex import Indices, enclosed_volume
 
 __all__ = ["HullMesh"]
 
@@ -17,9 +17,9 @@ class HullMesh:
     """A closed hull surface and its convex parts, in b about CO [m].
 
     vertices (n, 3); triangles (m, 3), counter-clockwise seen from outside; parts: vertex sets (k_i, 3) whose convex
-    hulls together are the solid; planes: of each part, half-spaces (m_i, 4) as convex.half_spaces gives them, which
-    contact needs to tell where parts are joined (without them every part stands for itself). What the parts add to the
-    solid: volume_error, relative, and bulge, how far they stand out where it is hollow [m].
+    hulls together are the solid; planes: of each part, half-spaces (m_i, 4) as convex.half_spaces gives them, by which
+    contact finds where parts are joined (without planes, no parts are joined). Excess of the parts over the solid:
+    volume_error, relative, and bulge, their largest distance from it where it is hollow [m].
     """
 
     vertices: Array
@@ -31,9 +31,8 @@ class HullMesh:
 
     @property
     def volume(self) -> float:
-        """Enclosed volume [m3], by the divergence theorem; positive when the normals point outwards."""
-        p, q, r = (self.vertices[self.triangles[:, k]] for k in range(3))
-        return float(np.einsum("ij,ij->", p, np.cross(q, r)) / 6.0)
+        """Enclosed volume [m3]; positive when the normals point outwards."""
+        return enclosed_volume(self.vertices, self.triangles)
 
     @property
     def reach(self) -> float:

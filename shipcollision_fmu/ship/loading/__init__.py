@@ -1,1 +1,12 @@
-"""loading."""
+"""Loading a ship: from a name, a file or a dict to a Ship.
+
+    library.py         load_ship(): finds and reads the files, lays bases under variants, makes each ship once
+    toml.py            read_toml(), parse_toml(): TOML with a refusal in one line
+    ship_file.py       validate_ship_file(): the tables, one by one and together
+    messages.py        describe_error(): one line from a failed validation
+    mmg_estimate.py    complete_tables(): an MMG set from L, B, T and C_b
+    assembly.py        assemble_ship(): matrices, and estimates of what is missing
+
+Data flow: name -> path -> tables -> ShipFile -> Ship. Imports from: tables, inertia, seakeeping, windage, ship, errors.
+Used by: all rooms that need a ship; read_toml() and describe_error() also by other files' readers.
+"""

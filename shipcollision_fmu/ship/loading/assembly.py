@@ -1,12 +1,12 @@
-"""A ship from its file: matrices put together, what is missing estimated by a named formula.
+"""A ship from its validated file: its matrices, and estimates of missing values by named formulas.
 
     k_xx = 0.37 B      k_yy = k_zz = 0.25 L_pp        radii of gyration about CG
     m_x, m_y, m_z = 0.05, 0.85, 1.0 of the mass       j_x, j_y, j_z = 0.2, 1.0, 0.21 of I_xx, I_yy, I_zz
 
 The fractions in surge, sway and yaw are those of Pedersen & Zhang for impacts; the others are rules of thumb. They
-belong to motions of about a second. Manoeuvring values differ (j_z is three times as large), and a ship has one added
-mass, so where an MMG set brings its own m_x, m_y, J_z, those are it. With them goes z_y = T/2, the depth at which the
-sway added mass acts; the fractions for impacts are used in the literature with z_y = 0.
+belong to motions of about a second. Manoeuvring values differ: j_z is three times as large. A ship has one added mass,
+so an MMG set with its own m_x, m_y, J_z replaces the fractions. The sway added mass then acts at z_y = T/2; the
+fractions for impacts are used in the literature with z_y = 0.
 """
 
 from __future__ import annotations
@@ -26,7 +26,8 @@ from .ship_file import ShipFile
 __all__ = ["assemble_ship"]
 
 FRACTIONS = {"m_x": 0.05, "m_y": 0.85, "m_z": 1.0, "j_x": 0.2, "j_y": 1.0, "j_z": 0.21}
-"""Added mass over mass, added inertia over rigid-body inertia about CG, where the file says nothing."""
+"""Added mass over mass, added inertia over rigid-body inertia about CG, where the file gives none. They scale every
+impulse of a collision."""
 
 
 def assemble_ship(content: ShipFile, file: str) -> Ship:
@@ -74,10 +75,10 @@ def assemble_ship(content: ShipFile, file: str) -> Ship:
 
 
 def _list_sailing_estimates(ship: Ship) -> tuple[str, ...]:
-    """What heave, roll, pitch and wind need and the file does not say; a coasting ship has no use for it."""
+    """Notes on estimated values of heave, roll, pitch and wind, which a coasting ship does not use."""
     try:
         floating = compute_seakeeping(ship).estimated
-    except ShipError:  # said when 4 or 6 degrees of freedom are asked for
+    except ShipError:  # raised again for a run in 4 or 6 degrees of freedom
         floating = ()
     return (*floating, *compute_windage(ship).estimated)
 

@@ -84,7 +84,7 @@ def _make_ship(tables: dict[str, Any], source: str) -> Ship:
     mesh = hull.get("file") if isinstance(hull, dict) else None
     try:
         digest = digest_content(Path(mesh)) if isinstance(mesh, str) else ""
-    except OSError:  # build_hull says so
+    except OSError:  # build_hull refuses the file
         digest = ""
     return _assemble_once(_Content(json.dumps([tables, digest], sort_keys=True, default=repr), tables, source))
 

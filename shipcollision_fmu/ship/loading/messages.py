@@ -1,7 +1,7 @@
 """One clear line from a failed validation.
 
-pydantic reports a tree of problems; a user wants the first one that explains the rest: which key, what was wrong, its
-value, the limit, the remedy. The remedy comes from the field's description, so it is written once, beside the field.
+pydantic reports a tree of problems. A user needs the first problem that explains the rest: which key, what was wrong,
+its value, the limit, the remedy. The remedy is the description of the field, so it is written once.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ _LONGEST_VALUE = 60
 
 
 def describe_error(error: ValidationError, model: type[BaseModel]) -> str:
-    """What to tell the user about `error`, raised while validating data against `model`; without the file's name.
+    """One line for the user about `error`, raised while validating data against `model`; without the file's name.
 
     Unknown keys come first: a misspelt key is usually the cause of a missing one.
     """

@@ -13,8 +13,8 @@ Hull derivatives by the regressions of Yoshimura & Masumoto (2012), MARSIM, with
     t_R = 0.39   a_H = 3.6 c   x_H = -0.40   l_R = -0.9   gamma_R = 2.06 c + 0.14
     epsilon = 2.26 - 1.82 (1 - w_P0)   kappa = 0.55/epsilon   f_alpha = 6.13 Lam/(Lam + 2.25) (Fujii)
 
-The original is written in the drift angle beta = -v', so every term odd in v has the opposite sign there. Taken over
-without that change, a container ship turns within an implausibly small circle.
+The original is written in the drift angle beta = -v', so every term odd in v has the opposite sign there. With the
+original signs a container ship turns within an implausibly small circle.
 
 Added masses by Zhou's regressions of the Motora charts, propeller and rudder by the usual rules, resistance by ITTC-57:
 
@@ -39,7 +39,7 @@ from ..hydrostatics import GRAVITY
 __all__ = ["Dimensions", "complete_tables", "estimate_added_mass", "estimate_hull_derivatives"]
 
 REACH = (0.40, 0.90)
-"""C_b of displacement ships: finer and fuller hulls are none of the regressions' ships."""
+"""C_b of displacement ships; finer and fuller hulls are refused, because the regressions have none of them."""
 
 BAND = {"L/B": (2.6, 7.1), "T/B": (0.25, 0.46), "C_b": (0.51, 0.65)}
 """The hulls behind the regressions, as their authors state it."""
@@ -54,7 +54,7 @@ ROUGHNESS = 0.0004
 """Allowance for the roughness of a ship's hull, added to the friction coefficient."""
 
 K_T = (0.35, -0.30, -0.16)
-"""k_0, k_1, k_2 of a propeller of which nothing is known."""
+"""k_0, k_1, k_2 of a propeller without data."""
 
 FASTEST_FROUDE = 0.26
 """Cap of the estimated service speed: beyond it wave resistance, left out here, is most of the resistance."""
@@ -118,9 +118,9 @@ def estimate_hull_derivatives(d: Dimensions, m_x: float, m_y: float) -> dict[str
 def complete_tables(
     d: Dimensions, given: Mapping[str, Mapping[str, Any]], own_masses: tuple[float, float] | None
 ) -> tuple[dict[str, dict[str, Any]], list[str]]:
-    """The tables manoeuvring, propeller, rudder and engine, with what is not `given` estimated; and what was.
+    """The tables manoeuvring, propeller, rudder and engine, with missing values estimated; and a note on each estimate.
 
-    own_masses: m_x, m_y over 1/2 rho L^2 T of a ship whose [added_mass] says them; else None, and they are estimated.
+    own_masses: m_x, m_y over 1/2 rho L^2 T of a ship whose [added_mass] gives them; else None, and they are estimated.
     Raises ShipError when C_b is out of the regressions' reach.
     """
     if not REACH[0] <= d.C_b <= REACH[1]:
@@ -142,7 +142,7 @@ def complete_tables(
 
 
 class _Tables:
-    """Tables as they are completed, and what was estimated."""
+    """Tables during their completion, and a note on each estimate."""
 
     def __init__(self, given: Mapping[str, Mapping[str, Any]]) -> None:
         self.given = given

@@ -1,7 +1,7 @@
 """A whole ship file, validated: its tables one by one, and that they go together.
 
-A mass, a C_b and an inertia that contradict each other are refused: a ship heavier than the box of water it displaces,
-or a container ship with half its displacement, spoils every number computed from it. Published data do contain such
+A mass, a C_b and an inertia that contradict each other are refused, because they make every result wrong: a ship
+heavier than the box of water it displaces, or a container ship with half its displacement. Published data contain such
 ships (Guan et al. 2014, Table 1, prints dead-weights as mass), hence `allow_inconsistent = "why"`.
 """
 
@@ -47,7 +47,7 @@ class ShipFile(Table):
 
     @property
     def estimated(self) -> tuple[str, ...]:
-        """What `[manoeuvring] estimate = true` has put into the tables, and how."""
+        """A note on each value that `[manoeuvring] estimate = true` has put into the tables."""
         return self._estimated
 
     @model_validator(mode="after")
@@ -56,7 +56,7 @@ class ShipFile(Table):
         box = p.rho * p.L_pp * p.B * p.T
         C_b = p.mass / box
         low, high = C_B_LIMITS
-        remedy = 'give the displacement and its draught, or say why it is kept: allow_inconsistent = "..."'
+        remedy = 'give the displacement and its draught, or give the reason why it is kept: allow_inconsistent = "..."'
         if p.allow_inconsistent is not None:
             return self
         if C_b > 1.0:
@@ -143,7 +143,7 @@ _ESTIMATED = ("manoeuvring", "propeller", "rudder", "engine")
 
 
 def _complete_and_validate(data: Mapping[str, Any], file: str) -> ShipFile:
-    """The content with its MMG set completed. First what is given is checked, then it takes part in the estimate."""
+    """The content with its MMG set completed. Given values are checked first, then take part in the estimate."""
     rest = {key: value for key, value in data.items() if key not in _ESTIMATED}
     content = _validate(rest, file)
     p, added = content.particulars, content.added_mass

@@ -1,4 +1,4 @@
-"""[hull] of a ship file: the shape that touches other ships."""
+"""[hull] of a ship file: the shape for contact and pictures."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ MESH_KEYS = frozenset({"file", "unit", "scale", "forward", "up", "origin", "max_
 
 
 class HullTable(Table):
-    """[hull]: the shape that touches other ships. Its meaning is drawn in ship/hull.py."""
+    """[hull]: the shape that touches other ships. ship/hull/hull.py has a drawing."""
 
     shape: Literal["parametric", "box", "mesh"] = Field(description='"parametric", "box" or "mesh"')
     depth: Positive = Field(description="the depth, keel to deck [m]")
@@ -59,7 +59,7 @@ class HullTable(Table):
                 raise ValueError(f'[hull] shape = "{self.shape}" has no {", ".join(others)}: only "mesh" has')
             return self
         if others := sorted(self.model_fields_set - MESH_KEYS - {"shape", "depth"}):
-            raise ValueError(f'[hull] shape = "mesh" has no {", ".join(others)}: the file says it all')
+            raise ValueError(f'[hull] shape = "mesh" has no {", ".join(others)}: the file has the whole shape')
         if self.file is None:
             raise ValueError('[hull] file is missing: shape = "mesh" needs the name of an .obj or .stl file')
         if self.scale is not None and "unit" in self.model_fields_set:

@@ -16,7 +16,7 @@ class ManoeuvringTable(Table):
 
     Forces over 1/2 rho L d U^2, moments over 1/2 rho L^2 d U^2, velocities v' = v/U, r' = r L/U; m_x, m_y over
     1/2 rho L^2 d and J_z over 1/2 rho L^4 d. Yasukawa & Yoshimura (2015), J. Mar. Sci. Technol. 20:37-52.
-    With estimate = true, what is missing here and in [propeller], [rudder], [engine] is estimated (ship/estimate.py).
+    With estimate = true, missing values here and in [propeller], [rudder], [engine] are estimated (mmg_estimate.py).
     """
 
     estimate: bool = Field(default=False, description="true: estimate what is missing from L_pp, B, T and C_b")

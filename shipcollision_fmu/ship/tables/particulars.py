@@ -1,11 +1,7 @@
-"""What a ship file (models/ships/NAME.toml) may say, table by table; ship_file.py puts them together.
+"""[ship], [particulars], [added_mass], [seakeeping] and [wind] of a ship file (models/ships/NAME.toml).
 
 One class per table, one field per key: name, unit, limits and meaning stand there and nowhere else. SI units, angles in
 radians except keys that end in `_deg`. Unknown keys, NaN and numbers in quotes are refused.
-
-    particulars             [ship], [particulars], [added_mass], [seakeeping], [wind]: here
-    hull_table              [hull]
-    manoeuvring_tables      [manoeuvring], [propeller], [rudder], [engine]
 """
 
 from __future__ import annotations
@@ -23,7 +19,7 @@ RHO_SEA = 1025.0
 
 
 class ShipTable(Table):
-    """[ship]: what it is and where its numbers come from."""
+    """[ship]: name and type of the ship, and the source of its numbers."""
 
     name: str = Field(min_length=1, description="the ship's name")
     kind: str = Field(min_length=1, description='the ship\'s type, e.g. "bulk carrier"')
@@ -71,12 +67,14 @@ class AddedMassTable(Table):
         if self.M_A is not None:
             others = sorted(self.model_fields_set - {"M_A"})
             if others:
-                raise ValueError(f"[added_mass] gives M_A and {', '.join(others)}: M_A says it all, remove the rest")
+                raise ValueError(
+                    f"[added_mass] gives {', '.join(others)} beside M_A, which is the whole matrix: remove them"
+                )
         return self
 
 
 class SeakeepingTable(Table):
-    """[seakeeping]: heave, roll and pitch, in 4 and 6 degrees of freedom. What is missing is estimated."""
+    """[seakeeping]: heave, roll and pitch, in 4 and 6 degrees of freedom. Missing values are estimated."""
 
     zeta_heave: NotNegative | None = Field(default=None, description="the damping ratio in heave")
     zeta_roll: NotNegative | None = Field(default=None, description="the damping ratio in roll at small angles")
@@ -98,7 +96,7 @@ WindType = Literal[
 
 
 class WindTable(Table):
-    """[wind]: what the wind finds above the water. What is missing is estimated (ship/windage.py)."""
+    """[wind]: areas above the water and wind coefficients. Missing values are estimated (ship/windage.py)."""
 
     type: WindType | None = Field(default=None, description='the type of ship in Blendermann (1994), e.g. "ferry"')
     A_Fw: Positive | None = Field(default=None, description="the frontal projected area above the water [m2]")

@@ -312,7 +312,7 @@ def test_file_is_relative_to_the_ship_file_that_names_it(tmp_path: Path, monkeyp
     ("keys", "message"),
     [
         ({}, r'file is missing: shape = "mesh" needs the name'),
-        ({"file": "a.obj", "bow_length": 3.0}, r'shape = "mesh" has no bow_length: the file says it all'),
+        ({"file": "a.obj", "bow_length": 3.0}, r'shape = "mesh" has no bow_length: the file has the whole shape'),
         ({"file": "a.obj", "unit": "mm", "scale": 0.001}, r'unit = "mm" and scale = 0.001 are two units: remove one'),
         ({"file": "a.obj", "forward": "+x", "up": "-x"}, r'forward = "\+x" and up = "-x" lie along one axis'),
         ({"shape": "box", "file": "a.obj"}, r'shape = "box" has no file: only "mesh" has'),

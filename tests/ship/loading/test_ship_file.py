@@ -69,7 +69,7 @@ REFUSED: list[tuple[dict[str, Any], str]] = [
     ),
     (
         ship_tables(added_mass={"m_y": 0.8, "M_A": [[0.0] * 6] * 6}),
-        r"gives M_A and m_y: M_A says it all, remove the rest",
+        r"gives m_y beside M_A, which is the whole matrix: remove",
     ),
     (ship_tables(added_mass={"M_A": [[0.0] * 6] * 5}), r"\[added_mass\] M_A = .*at least 6 items"),
     (ship_tables(hull={"depth": 4.0}), r"\[hull\] depth = 4\.0 m must be greater than the draught T = 5\.0 m"),
