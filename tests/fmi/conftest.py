@@ -74,7 +74,7 @@ def unpacked(dummy_fmu: Path, tmp_path_factory: pytest.TempPathFactory, _tidy_pa
 @pytest.fixture(scope="session")
 def real_fmus(tmp_path_factory: pytest.TempPathFactory) -> dict[tuple[str, int], Path]:
     """Files of both FMUs, by name and version of FMI."""
-    folder = tmp_path_factory.mktemp("real")
+    folder = tmp_path_factory.mktemp("real") / "new" / "folder"
     return {(name, fmi): path for fmi in (2, 3) for name, path in build_fmus(folder, fmi=fmi).items()}
 
 

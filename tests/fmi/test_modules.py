@@ -156,7 +156,8 @@ for folder in folders:
 
 
 LATER = {
-    "ship/kinetic_energy.py": "of the ship, whose room travels whole; summaries and pages ask for it",
+    "ship/kinetic_energy.py": "for summaries and pages; the room ship travels whole",
+    "ship/ship_state.py": "for helms and tracks; the room ship travels whole",
     "ship/hull/mesh.py": "imported with the first ship whose hull is a mesh file",
 }
 """Files that an FMU carries although its first step does not import them, and why."""

@@ -29,14 +29,15 @@ ROOT = Path(shipcollision_fmu.__file__).parent.parent
 
 
 @pytest.fixture(scope="module")
-def built(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
-    return build_fmus(tmp_path_factory.mktemp("built") / "new" / "folder")
+def built(real_fmus: dict[tuple[str, int], Path]) -> dict[str, Path]:
+    """Both FMUs for FMI 2.0."""
+    return {name: path for (name, fmi), path in real_fmus.items() if fmi == 2}
 
 
 @pytest.fixture(scope="module")
-def built_for_fmi3(built: dict[str, Path]) -> dict[str, Path]:
-    """Beside those for FMI 2.0, in the same folder."""
-    return build_fmus(next(iter(built.values())).parent, fmi=3)
+def built_for_fmi3(real_fmus: dict[tuple[str, int], Path]) -> dict[str, Path]:
+    """Those for FMI 3.0, in the same folder."""
+    return {name: path for (name, fmi), path in real_fmus.items() if fmi == 3}
 
 
 def in_a_process(code: str, *arguments: object, **environment: str) -> str:

@@ -11,10 +11,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from fmpy import extract, read_model_description
+from fmpy import read_model_description
 
 from shipcollision_fmu.errors import ShipCollisionError
-from shipcollision_fmu.fmi.builder.package import fmu_bytes, slave_directory
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE
 from shipcollision_fmu.fmi.variable_access import VariableAccess
 
@@ -60,10 +59,8 @@ EXTENSIONS = {("substep", "Real", "parameter", "s")}
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    fmu = tmp_path_factory.mktemp("fmu") / "ShipManoeuvring.fmu"
-    fmu.write_bytes(fmu_bytes(INTERFACE, (slave_directory() / "ShipManoeuvring.py").read_bytes()))
-    return Path(extract(fmu, tmp_path_factory.mktemp("unpacked")))
+def folder(real_unpacked: dict[tuple[str, int], Path]) -> Path:
+    return real_unpacked["ShipManoeuvring", 2]
 
 
 @pytest.fixture
@@ -151,7 +148,7 @@ def test_what_the_outputs_depend_on_at_the_start(folder: Path) -> None:
     assert changes >= 6
 
 
-def test_the_fmu_and_the_ports_give_the_same_bits(ship: Make) -> None:
+def test_the_fmu_and_a_run_in_process_give_the_same_bits(ship: Make) -> None:
     a, access = sailing(ship()), INTERFACE.make_access()
     access.set_boolean(access.references(["hydrodynamics"]), [True])
     access.set_integer(access.references(["degrees_of_freedom"]), [3])
@@ -239,7 +236,7 @@ def test_instances_may_come_and_go(ship: Make) -> None:
         gc.collect()
 
 
-def test_ports_are_those_of_the_interface() -> None:
+def test_access_is_to_the_table_of_the_interface() -> None:
     access = INTERFACE.make_access()
     assert isinstance(access, VariableAccess)
     assert access.name == "ShipManoeuvring"
