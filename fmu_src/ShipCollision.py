@@ -1,4 +1,4 @@
-"""FMU ShipCollision: two or more hulls touch.
+"""FMU ShipCollision: contact between two or more ships.
 
 pythonfmu runs this text twice at the first instantiation and once at each later one: nothing may happen here but
 these definitions.

@@ -1,4 +1,4 @@
-"""FMU ShipManoeuvring: one ship sails.
+"""FMU ShipManoeuvring: the motion of one ship.
 
 pythonfmu runs this text twice at the first instantiation and once at each later one: nothing may happen here but
 these definitions.

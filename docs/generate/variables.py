@@ -10,7 +10,7 @@ import re
 from collections.abc import Sequence
 from itertools import product
 
-from shipcollision_fmu.fmi.arrays import TIME, ArrayVariable, arrays
+from shipcollision_fmu.fmi.arrays import TIME, ArrayVariable, gather_arrays
 from shipcollision_fmu.fmi.builder.model_description import start
 from shipcollision_fmu.fmi.interface import SHIPS, Interface
 from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
@@ -38,7 +38,7 @@ def ship_manoeuvring() -> str:
 
 def _page(interface: Interface) -> str:
     access = interface.make_access(SHIPS)
-    lines, gathered = access.table, arrays(access.table)
+    lines, gathered = access.table, gather_arrays(access.table)
     starts = [
         start(variable, reference, access) if variable.causality != "output" else ""
         for reference, variable in enumerate(lines)

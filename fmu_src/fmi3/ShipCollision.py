@@ -1,7 +1,7 @@
 """FMU ShipCollision in FMI 3.0; the same model and variables as in FMI 2.0.
 
 The word Fmi3Slave in the class line is what pythonfmu3 looks for. Its wrapper crashes the host when this text raises,
-so what is wrong is told when an instance is made.
+so an error of the import is raised when an instance is made.
 """
 
 from pythonfmu3 import Fmi3Slave

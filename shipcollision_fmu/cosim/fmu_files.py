@@ -7,7 +7,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from ..errors import HostError
-from ..fmi.builder.package import FMUS, build_fmus, fmu_file, fmus_current
+from ..fmi.builder.package import FMUS, are_fmus_current, build_fmus, fmu_file
 from ..fmi.interface import SHIPS
 
 __all__ = ["fmu_directory", "ready_fmus", "require_pybullet"]
@@ -37,6 +37,6 @@ def fmu_directory(ships: tuple[str, ...] = SHIPS) -> Path:
 def ready_fmus(ships: tuple[str, ...] = SHIPS, fmi: int = 2) -> dict[str, Path]:
     """Both FMUs by name, up to date, for FMI 2.0 or 3.0. Raises HostError when they cannot be built."""
     directory = fmu_directory(ships)
-    if not fmus_current(directory, ships=ships, fmi=fmi):
+    if not are_fmus_current(directory, ships=ships, fmi=fmi):
         return build_fmus(directory, ships=ships, fmi=fmi)
     return {name: directory / fmu_file(name, fmi) for name in FMUS}

@@ -4,7 +4,7 @@
     contact[1].gap, contact[2].gap, ...                    ->  contact.gap[8]
     contact[1].normal.north, ..., contact[8].normal.down   ->  contact.normal[8, 3], row by row
 
-**The value reference in FMI 3.0 is the position here plus 1; 0 is the time**, which FMI 3.0 wants as a variable.
+**The value reference in FMI 3.0 is the position here plus 1; 0 is the time**, which is a variable in FMI 3.0.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from math import prod
 
 from .variables import Kind, Table, Variable
 
-__all__ = ["TIME", "TYPES", "ArrayVariable", "Layout", "arrays"]
+__all__ = ["TIME", "TYPES", "ArrayVariable", "Layout", "gather_arrays"]
 
 TIME = 0
 """Value reference of the independent variable."""
@@ -41,7 +41,7 @@ class ArrayVariable:
         return len(self.references)
 
 
-def arrays(table: Table) -> tuple[ArrayVariable, ...]:
+def gather_arrays(table: Table) -> tuple[ArrayVariable, ...]:
     """The variables of FMI 3.0, in the order in which the table first mentions them.
 
     Raises ValueError for an array whose elements do not belong together, or are not as many as its shape says.
@@ -56,7 +56,7 @@ class Layout:
     """Where a scalar of the table lies in the arrays of FMI 3.0."""
 
     def __init__(self, table: Table) -> None:
-        self.arrays = arrays(table)
+        self.arrays = gather_arrays(table)
         self._places = {
             table[scalar].name: (reference, index)
             for reference, array in enumerate(self.arrays, TIME + 1)

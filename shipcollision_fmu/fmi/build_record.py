@@ -25,8 +25,17 @@ import shipcollision_fmu
 from ..errors import HostError
 
 __all__ = [
-    "CARRIED", "RECORD", "START", "BuildRecord", "confirmed", "contents", "contents_digest", "digest",
-    "package_directory", "running_build", "start_values",
+    "CARRIED",
+    "RECORD",
+    "START",
+    "BuildRecord",
+    "confirm_build",
+    "digest",
+    "digest_contents",
+    "list_contents",
+    "name_running_build",
+    "package_directory",
+    "read_start_values",
 ]  # fmt: skip
 
 RECORD = "build.json"
@@ -75,7 +84,7 @@ def package_directory() -> Path:
     return Path(shipcollision_fmu.__file__).parent
 
 
-def contents(package: Path) -> dict[str, Path]:
+def list_contents(package: Path) -> dict[str, Path]:
     """Files of the package that an FMU carries, by their name inside its resources, in order.
 
     The ship data lies in package/models when installed and beside the package in a checkout and in an FMU; inside an
@@ -99,17 +108,17 @@ def digest(files: dict[str, bytes]) -> str:
     return total.hexdigest()
 
 
-def contents_digest(package: Path) -> str:
+def digest_contents(package: Path) -> str:
     """Digest of what an FMU of this package carries; a few milliseconds."""
-    return digest({name: path.read_bytes() for name, path in contents(package).items()})
+    return digest({name: path.read_bytes() for name, path in list_contents(package).items()})
 
 
 @cache
-def confirmed(resources: str, wrapper: str) -> BuildRecord:
-    """The record of the FMU unpacked at `resources`, once it is sure that the package which runs is the one it was
-    built from, and `wrapper`, the imported "package version" around the slave, one that it can work with.
+def confirm_build(resources: str, wrapper: str) -> BuildRecord:
+    """The record of the FMU unpacked at `resources`, after a check of the running package and of the wrapper.
 
-    Raises HostError, which says what was imported instead and from where.
+    The running package must be the package that the FMU was built from. `wrapper` is the imported "package version"
+    around the slave; its series must be that of the build. Raises HostError with what was imported and from where.
     """
     here = Path(resources)
     try:
@@ -138,14 +147,14 @@ def _series(wrapper: str) -> str:
     return wrapper.rpartition(".")[0]
 
 
-def start_values(resources: str) -> dict[str, Any]:
+def read_start_values(resources: str) -> dict[str, Any]:
     """Start values by name that replace the model's own in the FMU unpacked at `resources`; most FMUs have none."""
     path = Path(resources) / START
     found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
     return found
 
 
-def running_build() -> str:
+def name_running_build() -> str:
     """The package that runs, for people and for comparison: its version and the first digits of its digest."""
     return f"{shipcollision_fmu.__version__} {_running_digest()[:12]}"
 
@@ -153,7 +162,7 @@ def running_build() -> str:
 @cache
 def _running_digest() -> str:
     """Of the package that runs, when first asked: its folder may be gone later."""
-    return contents_digest(package_directory())
+    return digest_contents(package_directory())
 
 
 def _relocate(resources: Path) -> None:

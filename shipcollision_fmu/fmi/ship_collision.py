@@ -1,4 +1,4 @@
-"""Variables of the FMU ShipCollision: two or more hulls touch.
+"""Variables of the FMU ShipCollision: contact between two or more ships.
 
 Frames: n is north, east, down at the scenario's origin; b is forward, starboard, down at CO. SI units, radians. The
 names are those of the project's contract with other programs; renaming one is a breaking change.

@@ -1,6 +1,6 @@
 """The base of the FMI 2.0 slaves: a model behind pythonfmu.
 
-A slave in fmu_src/ is a name and an Interface, nothing else. What a host sees of it:
+A slave in fmu_src/ is a name and an Interface. A host calls:
 
     get_*, set_*                    straight to the model, a few microseconds for a hundred Reals
     do_step                         fmi2OK, or fmi2Discard and one logged line; the state before the step stays
@@ -18,7 +18,7 @@ import pythonfmu
 from pythonfmu.enums import Fmi2Status
 from pythonfmu.fmi2slave import Fmi2Slave
 
-from .slave_base import SlaveBase, keep
+from .slave_base import SlaveBase, take_reference
 
 __all__ = ["ModelSlave"]
 
@@ -33,47 +33,47 @@ class ModelSlave(SlaveBase, Fmi2Slave):  # type: ignore[misc]  # pythonfmu has n
         its dictionary too many."""
         super().__init_subclass__(**kwargs)
         if cls.__module__ in sys.modules:
-            keep(vars(sys.modules[cls.__module__]))
+            take_reference(vars(sys.modules[cls.__module__]))
 
     def do_step(self, current_time: float, step_size: float) -> bool:
         """One step; False (fmi2Discard) when it could not be made."""
-        return self.stepped(current_time, step_size)
+        return self.try_step(current_time, step_size)
 
     def get_real(self, vrs: list[int]) -> list[float]:
         """Values of Reals; NaN when refused."""
-        values = self.answered(self.access.get_real, vrs)
+        values = self.get_values(self.access.get_real, vrs)
         return [math.nan] * len(vrs) if values is None else values
 
     def get_integer(self, vrs: list[int]) -> list[int]:
         """Values of Integers and Enumerations; 0 when refused."""
-        values = self.answered(self.access.get_integer, vrs)
+        values = self.get_values(self.access.get_integer, vrs)
         return [0] * len(vrs) if values is None else values
 
     def get_boolean(self, vrs: list[int]) -> list[bool]:
         """Values of Booleans; false when refused."""
-        values = self.answered(self.access.get_boolean, vrs)
+        values = self.get_values(self.access.get_boolean, vrs)
         return [False] * len(vrs) if values is None else values
 
     def get_string(self, vrs: list[int]) -> list[str]:
         """Values of Strings; empty when refused."""
-        values = self.answered(self.access.get_string, vrs)
+        values = self.get_values(self.access.get_string, vrs)
         return [""] * len(vrs) if values is None else values
 
     def set_real(self, vrs: list[int], values: list[float]) -> None:
         """Set Reals."""
-        self.given(self.access.set_real, vrs, values)
+        self.set_values(self.access.set_real, vrs, values)
 
     def set_integer(self, vrs: list[int], values: list[int]) -> None:
         """Set Integers and Enumerations."""
-        self.given(self.access.set_integer, vrs, values)
+        self.set_values(self.access.set_integer, vrs, values)
 
     def set_boolean(self, vrs: list[int], values: list[bool]) -> None:
         """Set Booleans."""
-        self.given(self.access.set_boolean, vrs, values)
+        self.set_values(self.access.set_boolean, vrs, values)
 
     def set_string(self, vrs: list[int], values: list[str]) -> None:
         """Set Strings."""
-        self.given(self.access.set_string, vrs, values)
+        self.set_values(self.access.set_string, vrs, values)
 
     def report(self, line: str) -> None:
         """Log a line as an error."""

@@ -11,8 +11,8 @@ afterwards (the host that frees it) works on freed memory.
 
 So nothing raises, with one exception. A refused get or set, or a call in the wrong order, is logged, changes nothing,
 answers NaN, 0 or "" where something must be answered, and makes the next doStep fail. Only initialisation that fails
-must not pass for success: there the references are made good first, then an exception is let through, and the host
-sees fatal with the reason. The instance can still be reset and freed.
+must not pass for success. There the references are made good first, then an exception passes, and the host receives
+fatal with the reason. The instance can still be reset and freed.
 """
 
 from __future__ import annotations
@@ -29,12 +29,12 @@ from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
 from ..errors import InputError, ShipCollisionError, StepError
-from .build_record import confirmed, start_values
+from .build_record import confirm_build, read_start_values
 from .interface import SHIPS, Interface
 from .variable_access import VariableAccess
-from .wrapper_library import let_go
+from .wrapper_library import make_library_safe
 
-__all__ = ["LOG_CATEGORIES", "STDERR", "SlaveBase", "keep", "state_from_bytes", "state_to_bytes"]
+__all__ = ["LOG_CATEGORIES", "STDERR", "SlaveBase", "state_from_bytes", "state_to_bytes", "take_reference"]
 
 STDERR = "SHIPCOLLISION_LOG"
 """Environment variable; with the value "stderr", what an FMU logs is printed as well."""
@@ -60,10 +60,10 @@ class SlaveBase:
     """An Interface as a slave, without what the version of FMI decides. Subclasses set `interface`, or name the module
     that holds it as INTERFACE.
 
-    The module is imported only when it is sure that it comes from the right build, and where from: see build_record.
+    The module is imported only after its build is confirmed: see build_record.
 
-    Raises HostError when it is instantiated on another build of shipcollision_fmu than its own: the host sees the
-    instantiation fail.
+    Raises HostError when it is instantiated on another build of shipcollision_fmu than its own: the instantiation
+    fails in the host.
     """
 
     log_categories = LOG_CATEGORIES
@@ -80,16 +80,16 @@ class SlaveBase:
         self._start: dict[str, Any] = {}
         self.guid = ""
         if self.resources is not None:
-            let_go(str(self.resources))
-            record = confirmed(str(self.resources), self.wrapper)
+            make_library_safe(str(self.resources))
+            record = confirm_build(str(self.resources), self.wrapper)
             self._ships, self.guid = record.ships, record.guid
-            self._start = start_values(str(self.resources))
+            self._start = read_start_values(str(self.resources))
         made_from = self.interface
         self._made_from: Interface = import_module(made_from).INTERFACE if isinstance(made_from, str) else made_from
         files = None if self.resources is None else Path(str(self.resources))
         self.access = self._made_from.make_access(self._ships, self._start, files)
         self._phase = INSTANTIATED
-        self._refused = ""  # a call that was refused and that no status has told yet
+        self._refused = ""  # why a call was refused that no status has reported yet
         self._unanswered = ""  # why the last get was refused
 
     def report(self, line: str) -> None:
@@ -123,7 +123,7 @@ class SlaveBase:
         if self._refused:
             self._print(f"cannot be initialised: {self._refused}")
             for lost in (self, type(self), self.log_queue):
-                keep(lost)
+                take_reference(lost)
             failed = _InitialisationFailed(self._text(f"{self._made_from.name} cannot be initialised: {self._refused}"))
             self._refused = ""
             raise failed
@@ -137,7 +137,7 @@ class SlaveBase:
         """The last values stay readable; there are no more steps."""
         self._phase = TERMINATED
 
-    def stepped(self, t: float, h: float) -> bool:
+    def try_step(self, t: float, h: float) -> bool:
         """One step from t to t + h [s]; whether it could be made. If not, the reason is logged."""
         try:
             if not self._refused:
@@ -150,12 +150,12 @@ class SlaveBase:
         except BaseException as error:
             line = _line(error)
         self._refused = ""
-        self._tell(line)
+        self._log(line)
         return False
 
     # Values. ------------------------------------------------------------------------------
 
-    def answered(self, get: Callable[[Sequence[int]], list[T]], references: Sequence[int]) -> list[T] | None:
+    def get_values(self, get: Callable[[Sequence[int]], list[T]], references: Sequence[int]) -> list[T] | None:
         """What a getter gives; None when it refuses, which is logged.
 
         During initialisation parameters may still be corrected, so it is then only logged, and once: a host asks for
@@ -168,11 +168,11 @@ class SlaveBase:
             if self.access.running:
                 self._refused = line
             if self.access.running or line != self._unanswered:
-                self._tell(line)
+                self._log(line)
             self._unanswered = line
             return None
 
-    def given(self, put: Callable[[Sequence[int], Any], object], references: list[int], values: list[Any]) -> None:
+    def set_values(self, put: Callable[[Sequence[int], Any], object], references: list[int], values: list[Any]) -> None:
         """Give values to a setter; its refusal is logged and discards the next step."""
         try:
             put(references, values)
@@ -216,14 +216,14 @@ class SlaveBase:
 
     def _refuse(self, error: BaseException) -> None:
         self._refused = _line(error)
-        self._tell(self._refused)
+        self._log(self._refused)
 
-    def _tell(self, line: str) -> None:
+    def _log(self, line: str) -> None:
         self.report(line)
         self._print(line)
 
     def _print(self, line: str) -> None:
-        """On stderr, if wanted: some hosts show nothing of an FMU's log, and drop its status."""
+        """On stderr, on request: some hosts show nothing of an FMU's log, and drop its status."""
         if os.environ.get(STDERR) == "stderr":
             sys.stderr.write(f"{self._made_from.name} {self.instance_name}: {line}\n")
 
@@ -253,8 +253,8 @@ def _sealed(text: bytes) -> bytes:
     return b'{"sha256":"%b","state":%b}' % (sha256(text).hexdigest().encode(), text)
 
 
-def keep(lost: object) -> None:
-    """Take a reference that nobody will give back, for the one that the wrapper gives back twice."""
+def take_reference(lost: object) -> None:
+    """Take a reference for good, in place of the reference that the wrapper gives back twice."""
     ctypes.pythonapi.Py_IncRef(ctypes.py_object(lost))
 
 

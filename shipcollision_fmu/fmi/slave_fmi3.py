@@ -1,6 +1,6 @@
 """The base of the FMI 3.0 slaves: a model behind pythonfmu3.
 
-The variables are those of FMI 2.0, gathered into arrays (arrays.py); values and bits are the same. What a host sees:
+The variables are those of FMI 2.0, gathered into arrays (arrays.py); values and bits are the same. A host calls:
 
     get_*, set_*                    arrays, straight to the model
     do_step                         fmi3OK, or fmi3Discard and one logged line; the state before the step stays
@@ -22,7 +22,7 @@ from pythonfmu3.enums import Fmi3Status
 from pythonfmu3.fmi3slave import Fmi3Slave, Fmi3StepResult
 
 from ..errors import InputError
-from .arrays import TIME, TYPES, ArrayVariable, arrays
+from .arrays import TIME, TYPES, ArrayVariable, gather_arrays
 from .slave_base import SlaveBase
 from .variables import Kind
 
@@ -41,13 +41,13 @@ class ModelSlave3(SlaveBase, Fmi3Slave):  # type: ignore[misc]  # pythonfmu3 has
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        self._arrays = arrays(self.access.table)
+        self._arrays = gather_arrays(self.access.table)
         self._plans: dict[tuple[str | int, ...], list[int]] = {}
         self._time = 0.0
 
     def do_step(self, current_time: float, step_size: float) -> Fmi3StepResult:
         """One step; fmi3Discard when it could not be made."""
-        if not self.stepped(current_time, step_size):
+        if not self.try_step(current_time, step_size):
             return Fmi3StepResult(status=Fmi3Status.discard)
         self._time = current_time + step_size
         return Fmi3StepResult(status=Fmi3Status.ok)
@@ -70,42 +70,44 @@ class ModelSlave3(SlaveBase, Fmi3Slave):  # type: ignore[misc]  # pythonfmu3 has
 
     def get_boolean(self, vrs: list[int]) -> list[bool]:
         """Values of Booleans; false when refused."""
-        values = self.answered(lambda vrs: self.access.get_boolean(self._scalars(vrs, "Boolean")), vrs)
+        values = self.get_values(lambda vrs: self.access.get_boolean(self._scalars(vrs, "Boolean")), vrs)
         return (values or []) + [False] * self._spare(values)
 
     def get_string(self, vrs: list[int]) -> list[str]:
         """Values of Strings; empty when refused."""
-        values = self.answered(lambda vrs: self.access.get_string(self._scalars(vrs, "String")), vrs)
+        values = self.get_values(lambda vrs: self.access.get_string(self._scalars(vrs, "String")), vrs)
         return (values or []) + [""] * self._spare(values)
 
     def get_uint64(self, vrs: list[int]) -> list[c_uint64]:
         """There are none."""
-        self.answered(lambda vrs: self._no_uint64(), vrs)
+        self.get_values(lambda vrs: self._no_uint64(), vrs)
         return [c_uint64(0)] * self._spare(None)
 
     def set_float64(self, vrs: list[int], values: list[float]) -> None:
         """Set Float64."""
-        self.given(lambda vrs, values: self.access.set_real(self._scalars(vrs, "Real"), values), vrs, values)
+        self.set_values(lambda vrs, values: self.access.set_real(self._scalars(vrs, "Real"), values), vrs, values)
 
     def set_int32(self, vrs: list[int], values: list[int]) -> None:
         """Set Int32."""
-        self.given(lambda vrs, values: self.access.set_integer(self._scalars(vrs, "Integer"), values), vrs, values)
+        self.set_values(lambda vrs, values: self.access.set_integer(self._scalars(vrs, "Integer"), values), vrs, values)
 
     def set_int64(self, vrs: list[int], values: list[int]) -> None:
         """Set Enumerations."""
-        self.given(lambda vrs, values: self.access.set_integer(self._scalars(vrs, "Enumeration"), values), vrs, values)
+        self.set_values(
+            lambda vrs, values: self.access.set_integer(self._scalars(vrs, "Enumeration"), values), vrs, values
+        )
 
     def set_boolean(self, vrs: list[int], values: list[bool]) -> None:
         """Set Booleans."""
-        self.given(lambda vrs, values: self.access.set_boolean(self._scalars(vrs, "Boolean"), values), vrs, values)
+        self.set_values(lambda vrs, values: self.access.set_boolean(self._scalars(vrs, "Boolean"), values), vrs, values)
 
     def set_string(self, vrs: list[int], values: list[str]) -> None:
         """Set Strings."""
-        self.given(lambda vrs, values: self.access.set_string(self._scalars(vrs, "String"), values), vrs, values)
+        self.set_values(lambda vrs, values: self.access.set_string(self._scalars(vrs, "String"), values), vrs, values)
 
     def set_uint64(self, vrs: list[int], values: list[int]) -> None:
         """There are none."""
-        self.given(lambda vrs, values: self._no_uint64(), vrs, values)
+        self.set_values(lambda vrs, values: self._no_uint64(), vrs, values)
 
     # What only model exchange has. A host that calls it all the same gets an answer, and the next step fails. -------
 
@@ -158,15 +160,15 @@ class ModelSlave3(SlaveBase, Fmi3Slave):  # type: ignore[misc]  # pythonfmu3 has
         self.log(line, Fmi3Status.warning)
 
     def _float64(self, vrs: Sequence[int]) -> list[float]:
-        values = self.answered(lambda vrs: self.access.get_real(self._scalars(vrs, "Real")), vrs)
+        values = self.get_values(lambda vrs: self.access.get_real(self._scalars(vrs, "Real")), vrs)
         return [math.nan] * self._spare(None) if values is None else values
 
     def _numbers(self, vrs: list[int], kind: Kind) -> list[int]:
-        values = self.answered(lambda vrs: self.access.get_integer(self._scalars(vrs, kind)), vrs)
+        values = self.get_values(lambda vrs: self.access.get_integer(self._scalars(vrs, kind)), vrs)
         return [0] * self._spare(None) if values is None else values
 
     def _spare(self, values: Sequence[Any] | None) -> int:
-        """Values to add to an answer; nobody knows how many the host waits for when it is refused."""
+        """Values to add to an answer. After a refusal the number that the host expects is unknown: all of the table."""
         return _SPARE if values is not None else _SPARE + len(self.access.table)
 
     def _scalars(self, vrs: Sequence[int], kind: Kind) -> list[int]:

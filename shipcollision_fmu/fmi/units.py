@@ -1,4 +1,4 @@
-"""Units of the FMUs' variables, as FMI 2.0 wants them: exponents of the SI base units.
+"""Units of the FMUs' variables, as FMI 2.0 has them: exponents of the SI base units.
 
 value in base units = factor * value in the unit            (BaseUnit)
 value in the display unit = factor * value in the unit      (DisplayUnit)

@@ -19,7 +19,7 @@ from hashlib import sha256
 from typing import Any, Protocol
 
 from ..errors import InputError, ShipCollisionError, StepError
-from .build_record import running_build
+from .build_record import name_running_build
 from .variables import Kind, Table, Variable
 
 __all__ = ["Model", "VariableAccess"]
@@ -35,8 +35,7 @@ _PLANS = 1000
 
 
 class Model(Protocol):
-    """A model in time; plain Python that knows nothing of FMI. Its attributes are reached through the paths of the
-    table."""
+    """A model in time: plain Python without FMI. The paths of the table lead to its attributes."""
 
     def initialise(self) -> None:
         """Read parameters and start values, compute the outputs of the start. May be called again; raises
@@ -195,7 +194,7 @@ class VariableAccess:
             self.model.step(t, h)
         except ShipCollisionError:
             raise
-        except BaseException as error:  # a fault of ours: nobody knows how far the step got
+        except BaseException as error:  # a fault of ours: how far the step got is unknown
             self._broken = f"{self.name} failed at t = {t} s: {_described(error)}; reset it or restore a saved state"
             raise StepError(self._broken) from error
 
@@ -206,7 +205,7 @@ class VariableAccess:
         and inf too)."""
         return {
             "of": self._tag,
-            "build": running_build(),
+            "build": name_running_build(),
             "values": [container[key] for container, key in self._cells],
             "model": self.model.get_state(),
             "read": self._initialised_from,
@@ -238,11 +237,11 @@ class VariableAccess:
         """
         of = state.get("of") if isinstance(state, Mapping) else None
         ours = isinstance(of, str) and of.partition(" ")[0] == self.name
-        if ours and state.get("build") != running_build():
+        if ours and state.get("build") != name_running_build():
+            theirs = state.get("build", "an older one, without its name")
             raise InputError(
-                f"{self.name}: this state was saved by another build of shipcollision_fmu "
-                f"({state.get('build', 'an older one, without its name')}; this one is {running_build()}): a state can "
-                "be restored only in the build that saved it"
+                f"{self.name}: this state was saved by another build of shipcollision_fmu ({theirs}; this one is "
+                f"{name_running_build()}): a state can be restored only in the build that saved it"
             )
         if of != self._tag:
             raise InputError(f"{self.name}: this is not a saved state of it (of {of!r}, want {self._tag!r})")

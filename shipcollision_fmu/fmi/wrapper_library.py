@@ -21,10 +21,10 @@ from ctypes import CDLL, c_void_p, cast
 from functools import cache
 from pathlib import Path
 
-__all__ = ["let_go"]
+__all__ = ["make_library_safe"]
 
 
-def let_go(resources: str) -> None:
+def make_library_safe(resources: str) -> None:
     """Make the library of the FMU unpacked around `resources` safe to unload, in a host that is itself Python.
 
     In a native host it is made safe to end the process. On Windows nothing is done: the order is another.

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from shipcollision_fmu.fmi.arrays import Layout, arrays
+from shipcollision_fmu.fmi.arrays import Layout, gather_arrays
 from shipcollision_fmu.fmi.names import ANGLES, AXES, FORCE, HULL, LINEAR, MOMENT, named
 from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
@@ -17,19 +17,19 @@ TABLES = (COLLISION.table(("own", "target", "third")), MANOEUVRING.table(()))
 
 @pytest.mark.parametrize("table", TABLES)
 def test_every_scalar_is_in_one_place(table: tuple[object, ...]) -> None:
-    scalars = sorted(scalar for array in arrays(table) for scalar in array.references)  # type: ignore[arg-type]
+    scalars = sorted(scalar for array in gather_arrays(table) for scalar in array.references)  # type: ignore[arg-type]
     assert scalars == list(range(len(table)))
 
 
 @pytest.mark.parametrize("table", TABLES)
 def test_names_are_unique_and_differ_from_no_scalar_in_meaning(table: tuple[object, ...]) -> None:
-    names = [array.name for array in arrays(table)]  # type: ignore[arg-type]
+    names = [array.name for array in gather_arrays(table)]  # type: ignore[arg-type]
     assert len(set(names)) == len(names)
 
 
 def test_vectors_and_blocks_become_arrays() -> None:
     table = TABLES[0]  # of three ships: twelve contact points
-    found = {array.name: array for array in arrays(table)}
+    found = {array.name: array for array in gather_arrays(table)}
     assert found["own.position"].shape == (3,)
     assert [table[k].name for k in found["own.position"].references] == [
         "own.position.north", "own.position.east", "own.position.down",
@@ -50,7 +50,7 @@ def test_halves_of_a_wrench_are_told_apart() -> None:
         "output", named("dent", (*LINEAR, *ANGLES)), IMPULSE_UNITS, "o", ""
     )
     lines += wrench("input", (*FORCE, *MOMENT), FORCE_UNITS, "i", "")
-    assert [(array.name, array.line.unit) for array in arrays(lines)] == [
+    assert [(array.name, array.line.unit) for array in gather_arrays(lines)] == [
         ("hull.force", "N"), ("hull.moment", "N.m"), ("dent.linear", "N.s"), ("dent.angular", "N.m.s"),
         ("force", "N"), ("moment", "N.m"),
     ]  # fmt: skip
@@ -67,9 +67,9 @@ def test_a_layout_finds_a_scalar() -> None:
 def test_what_does_not_belong_together_is_refused() -> None:
     xyz = vector("input", named("a", AXES), "m", "p", "")
     with pytest.raises(ValueError, match=r"array a: a\.z is not of the same kind as a\.x"):
-        arrays((*xyz[:2], replace(xyz[2], unit="s")))
+        gather_arrays((*xyz[:2], replace(xyz[2], unit="s")))
     with pytest.raises(ValueError, match=r"array a has shape \(3,\) and 2 elements"):
-        arrays(xyz[:2])
+        gather_arrays(xyz[:2])
     twice = real("input", "one", "m", "p", 0, ""), real("input", "b", "m", "p", 0, "", array=Array("one", (1,), ""))
     with pytest.raises(ValueError, match=r"array one has the name of the scalar one"):
-        arrays(twice)
+        gather_arrays(twice)

@@ -18,7 +18,7 @@ import shipcollision_fmu
 from shipcollision_fmu.errors import HostError, InputError
 from shipcollision_fmu.fmi import build_record
 from shipcollision_fmu.fmi.builder import package
-from shipcollision_fmu.fmi.builder.package import FMUS, REQUIREMENTS, build_fmus, fmus_current
+from shipcollision_fmu.fmi.builder.package import FMUS, REQUIREMENTS, are_fmus_current, build_fmus
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -71,8 +71,8 @@ def test_fmi3_files_lie_beside_the_others_and_are_valid(
         assert path == built[name].parent / f"{name}.fmi3.fmu"
         assert validate_fmu(str(path)) == []
         assert read_model_description(str(path)).fmiVersion == "3.0"
-    assert fmus_current(built["ShipCollision"].parent)
-    assert fmus_current(built["ShipCollision"].parent, fmi=3)
+    assert are_fmus_current(built["ShipCollision"].parent)
+    assert are_fmus_current(built["ShipCollision"].parent, fmi=3)
 
 
 def test_what_is_in_an_fmi3_fmu(built_for_fmi3: dict[str, Path]) -> None:
@@ -189,8 +189,8 @@ def test_other_ships_make_another_fmu(built: dict[str, Path], tmp_path: Path) ->
     assert record.ships == ("own", "target", "third")
     with zipfile.ZipFile(built["ShipCollision"]) as archive:
         assert build_record.BuildRecord.from_json(archive.read("resources/build.json")).guid != record.guid
-    assert fmus_current(tmp_path, ships=("own", "target", "third"))
-    assert not fmus_current(tmp_path)
+    assert are_fmus_current(tmp_path, ships=("own", "target", "third"))
+    assert not are_fmus_current(tmp_path)
 
 
 # Stale or current. --------------------------------------------------------------------------------------------------
@@ -198,23 +198,23 @@ def test_other_ships_make_another_fmu(built: dict[str, Path], tmp_path: Path) ->
 
 def test_current_until_the_sources_change(built: dict[str, Path], monkeypatch: pytest.MonkeyPatch) -> None:
     folder = next(iter(built.values())).parent
-    assert fmus_current(folder)
-    monkeypatch.setattr(build_record, "contents_digest", lambda package: "0" * 64)
-    assert not fmus_current(folder)
+    assert are_fmus_current(folder)
+    monkeypatch.setattr(build_record, "digest_contents", lambda package: "0" * 64)
+    assert not are_fmus_current(folder)
 
 
 def test_missing_or_broken_files_are_stale(built: dict[str, Path], tmp_path: Path) -> None:
-    assert not fmus_current(tmp_path / "nowhere")
+    assert not are_fmus_current(tmp_path / "nowhere")
     for path in built.values():
         shutil.copy(path, tmp_path)
-    assert fmus_current(tmp_path)
+    assert are_fmus_current(tmp_path)
     for name in FMUS:
         whole = (tmp_path / f"{name}.fmu").read_bytes()
         (tmp_path / f"{name}.fmu").write_bytes(whole[: len(whole) // 2])
-        assert not fmus_current(tmp_path)
+        assert not are_fmus_current(tmp_path)
         (tmp_path / f"{name}.fmu").write_bytes(whole)
     shutil.copy(tmp_path / "ShipCollision.fmu", tmp_path / "ShipManoeuvring.fmu")
-    assert not fmus_current(tmp_path)
+    assert not are_fmus_current(tmp_path)
 
 
 def test_the_digest_sees_every_file_and_its_name(tmp_path: Path) -> None:
@@ -224,7 +224,7 @@ def test_the_digest_sees_every_file_and_its_name(tmp_path: Path) -> None:
         for path, text in files.items():
             (tmp_path / name / path).parent.mkdir(parents=True, exist_ok=True)
             (tmp_path / name / path).write_text(text)
-        return build_record.contents_digest(package_directory)
+        return build_record.digest_contents(package_directory)
 
     plain = {"shipcollision_fmu/ship/a.py": "1", "models/ships/x.toml": "2"}
     digest = tree("plain", plain)
@@ -363,4 +363,4 @@ print(len(messages), messages[0])
 
 def test_resources_without_a_record_are_refused(tmp_path: Path) -> None:
     with pytest.raises(HostError, match=r"has no record of what the FMU was built from \(FileNotFoundError"):
-        build_record.confirmed(str(tmp_path), "pythonfmu 0.7.0")
+        build_record.confirm_build(str(tmp_path), "pythonfmu 0.7.0")

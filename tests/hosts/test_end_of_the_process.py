@@ -20,7 +20,7 @@ from .encounter import Encounter
 from .masters import MASTERS
 
 HOSTS = [host for host in MASTERS if host not in ("fmpy-simulate", "libcosim-ssp", "ecos-api")]
-WITHOUT = "import shipcollision_fmu.fmi.wrapper_library as w; w.let_go = lambda *given: None; "
+WITHOUT = "import shipcollision_fmu.fmi.wrapper_library as w; w.make_library_safe = lambda *given: None; "
 RUN = "import sys, runpy; sys.argv = sys.argv[1:]; runpy.run_path(sys.argv[0], run_name='__main__')"
 
 

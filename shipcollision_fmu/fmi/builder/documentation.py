@@ -5,11 +5,11 @@ from __future__ import annotations
 from html import escape
 
 from ... import __version__
-from ..arrays import TYPES, ArrayVariable, arrays
+from ..arrays import TYPES, ArrayVariable, gather_arrays
 from ..interface import Interface
 from ..variables import Variable
 
-__all__ = ["page"]
+__all__ = ["make_page"]
 
 _STYLE = (
     "body{font:16px/1.5 sans-serif;max-width:60em;margin:2em auto;padding:0 1em}"
@@ -22,10 +22,10 @@ UInt32, Binary and Clock, and at the functions of clocks, of dependencies and of
 """
 
 
-def page(interface: Interface, ships: tuple[str, ...], fmi: int = 2) -> str:
+def make_page(interface: Interface, ships: tuple[str, ...], fmi: int = 2) -> str:
     """What the FMU does, what it needs, and its variables."""
     table = interface.table(ships)
-    lines = map(_row, table) if fmi == 2 else map(_array_row, arrays(table))
+    lines = map(_row, table) if fmi == 2 else map(_array_row, gather_arrays(table))
     rows = "\n".join(lines)
     return f"""<!DOCTYPE html>
 <html lang="en">

@@ -19,7 +19,16 @@ from ..units import UNITS
 from ..variable_access import VariableAccess
 from ..variables import Table, Variable
 
-__all__ = ["Version", "dependencies", "describe_variable", "limits", "number", "open_document", "start", "to_bytes"]
+__all__ = [
+    "Version",
+    "describe_variable",
+    "find_dependencies",
+    "format_number",
+    "format_start",
+    "list_limits",
+    "open_document",
+    "to_bytes",
+]
 
 
 @dataclass(frozen=True)
@@ -53,7 +62,7 @@ def open_document(
     _add_units(root, access.table, *version.units)
     _add_types(root, access.table, version.enumeration)
     _add_categories(root)
-    SubElement(root, "DefaultExperiment", {"startTime": "0", "stepSize": number(interface.step_size)})
+    SubElement(root, "DefaultExperiment", {"startTime": "0", "stepSize": format_number(interface.step_size)})
     return root, SubElement(root, "ModelVariables")
 
 
@@ -74,9 +83,9 @@ def _add_units(root: Element, table: Table, *others: str) -> None:
         unit = UNITS[name]
         node = SubElement(definitions, "Unit", {"name": name})
         base = {exponent: str(power) for exponent, power in unit.exponents.items()}
-        SubElement(node, "BaseUnit", base if unit.factor == 1.0 else {**base, "factor": number(unit.factor)})
+        SubElement(node, "BaseUnit", base if unit.factor == 1.0 else {**base, "factor": format_number(unit.factor)})
         for display in unit.display:
-            SubElement(node, "DisplayUnit", {"name": display.name, "factor": number(display.factor)})
+            SubElement(node, "DisplayUnit", {"name": display.name, "factor": format_number(display.factor)})
 
 
 def _add_categories(root: Element) -> None:
@@ -117,7 +126,7 @@ def describe_variable(name: str, reference: int, description: str, line: Variabl
     return attributes
 
 
-def limits(variable: Variable) -> dict[str, str]:
+def list_limits(variable: Variable) -> dict[str, str]:
     """Type, unit and limits of a variable as attributes."""
     value: dict[str, str] = {}
     if variable.items:
@@ -128,14 +137,14 @@ def limits(variable: Variable) -> dict[str, str]:
             value["displayUnit"] = UNITS[variable.unit].display[0].name
     for name, limit in (("min", variable.minimum), ("max", variable.maximum), ("nominal", variable.nominal)):
         if limit is not None:
-            value[name] = number(limit) if variable.kind == "Real" else str(int(limit))
+            value[name] = format_number(limit) if variable.kind == "Real" else str(int(limit))
     return value
 
 
-def start(variable: Variable, reference: int, access: VariableAccess) -> str:
+def format_start(variable: Variable, reference: int, access: VariableAccess) -> str:
     """What a fresh model holds there."""
     if variable.kind == "Real":
-        return number(access.get_real([reference])[0])
+        return format_number(access.get_real([reference])[0])
     if variable.kind == "Boolean":
         return str(access.get_boolean([reference])[0]).lower()
     if variable.kind == "String":
@@ -143,7 +152,7 @@ def start(variable: Variable, reference: int, access: VariableAccess) -> str:
     return str(access.get_integer([reference])[0])
 
 
-def dependencies(variable: Variable, table: Table) -> list[int]:
+def find_dependencies(variable: Variable, table: Table) -> list[int]:
     """Value references, in order, of what an output depends on at the start. Raises ValueError for a name that is
     nowhere in the table."""
     found: set[int] = set()
@@ -159,7 +168,7 @@ def dependencies(variable: Variable, table: Table) -> list[int]:
     return sorted(found)
 
 
-def number(value: float) -> str:
+def format_number(value: float) -> str:
     """Shortest text that reads back as the same double, in the spelling of XML Schema."""
     if math.isnan(value):
         return "NaN"

@@ -14,7 +14,7 @@ from xml.etree.ElementTree import Element, SubElement
 from ..interface import Interface
 from ..variable_access import VariableAccess
 from ..variables import Table, Variable
-from .model_description import Version, dependencies, describe_variable, limits, open_document, start
+from .model_description import Version, describe_variable, find_dependencies, format_start, list_limits, open_document
 
 __all__ = ["model_description"]
 
@@ -53,9 +53,9 @@ _VERSION = Version("2.0", "guid", _CAPABILITIES, _enumeration)
 def _variable(variables: Element, reference: int, variable: Variable, access: VariableAccess) -> None:
     attributes = describe_variable(variable.name, reference, variable.description, variable)
     node = SubElement(variables, "ScalarVariable", attributes)
-    value = limits(variable)
+    value = list_limits(variable)
     if variable.causality != "output":
-        value["start"] = start(variable, reference, access)
+        value["start"] = format_start(variable, reference, access)
     SubElement(node, variable.kind, value)
 
 
@@ -71,4 +71,4 @@ def _structure(root: Element, table: Table) -> None:
     for position, variable in unknowns:
         node = SubElement(initial, "Unknown", {"index": str(position)})
         if variable.depends_on is not None:
-            node.set("dependencies", " ".join(str(reference + 1) for reference in dependencies(variable, table)))
+            node.set("dependencies", " ".join(str(reference + 1) for reference in find_dependencies(variable, table)))

@@ -14,11 +14,11 @@ from collections.abc import Mapping
 from typing import Any
 from xml.etree.ElementTree import Element, SubElement
 
-from ..arrays import TIME, TYPES, ArrayVariable, arrays
+from ..arrays import TIME, TYPES, ArrayVariable, gather_arrays
 from ..interface import Interface
 from ..variable_access import VariableAccess
 from ..variables import Table, Variable
-from .model_description import Version, dependencies, describe_variable, limits, open_document, start
+from .model_description import Version, describe_variable, find_dependencies, format_start, list_limits, open_document
 
 __all__ = ["model_description"]
 
@@ -45,7 +45,7 @@ def model_description(
 ) -> Element:
     """The whole document. `starts` are start values in place of the model's own."""
     access = interface.make_access(ships, starts)
-    table, gathered = access.table, arrays(access.table)
+    table, gathered = access.table, gather_arrays(access.table)
     root, variables = open_document(_VERSION, interface, token, access)
     SubElement(variables, "Float64", {
         "name": "time",
@@ -71,11 +71,11 @@ _VERSION = Version("3.0", "instantiationToken", _CAPABILITIES, _enumeration, (_S
 def _variable(variables: Element, reference: int, array: ArrayVariable, access: VariableAccess) -> None:
     line = array.line
     attributes = describe_variable(array.name, reference, array.description, line)
-    starts = [start(access.table[scalar], scalar, access) for scalar in array.references]
+    starts = [format_start(access.table[scalar], scalar, access) for scalar in array.references]
     settable, string = line.causality != "output", line.kind == "String"
     if settable and not string:
         attributes["start"] = " ".join(starts)
-    node = SubElement(variables, TYPES[line.kind], attributes | limits(line))
+    node = SubElement(variables, TYPES[line.kind], attributes | list_limits(line))
     for extent in array.shape:
         SubElement(node, "Dimension", {"start": str(extent)})
     if settable and string:
@@ -92,5 +92,5 @@ def _structure(root: Element, gathered: tuple[ArrayVariable, ...], table: Table)
     for reference, array in outputs:
         node = SubElement(structure, "InitialUnknown", {"valueReference": str(reference)})
         if array.line.depends_on is not None:
-            references = sorted({within[scalar] for scalar in dependencies(array.line, table)})
+            references = sorted({within[scalar] for scalar in find_dependencies(array.line, table)})
             node.set("dependencies", " ".join(map(str, references)))

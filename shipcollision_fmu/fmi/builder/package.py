@@ -35,14 +35,21 @@ from ...files import write_files
 from .. import build_record
 from ..build_record import RECORD, START, BuildRecord, package_directory
 from ..interface import SHIPS, Interface
-from .documentation import page
+from .documentation import make_page
 from .model_description import to_bytes
 from .model_description_fmi2 import model_description as model_description_fmi2
 from .model_description_fmi3 import model_description as model_description_fmi3
 from .zip_archive import LIBRARIES, zip_bytes
 
 __all__ = [
-    "FMUS", "REQUIREMENTS", "VERSIONS", "build_fmus", "fmu_bytes", "fmu_file", "fmus_current", "instance_fmu",
+    "FMUS",
+    "REQUIREMENTS",
+    "VERSIONS",
+    "are_fmus_current",
+    "build_fmus",
+    "fmu_bytes",
+    "fmu_file",
+    "instance_fmu",
     "slave_directory",
 ]  # fmt: skip
 
@@ -91,9 +98,9 @@ def build_fmus(out: str | Path, *, ships: tuple[str, ...] = SHIPS, fmi: int = 2)
     return {name: Path(out) / fmu_file(name, fmi) for name in built}
 
 
-def fmus_current(directory: str | Path, *, ships: tuple[str, ...] = SHIPS, fmi: int = 2) -> bool:
+def are_fmus_current(directory: str | Path, *, ships: tuple[str, ...] = SHIPS, fmi: int = 2) -> bool:
     """Whether both FMUs are in `directory` and made from the sources that run now; some ten milliseconds."""
-    now = build_record.contents_digest(package_directory())
+    now = build_record.digest_contents(package_directory())
     return all(_is_current(Path(directory) / fmu_file(name, fmi), name, now, ships, fmi) for name in FMUS)
 
 
@@ -126,7 +133,7 @@ def fmu_bytes(
     own = {f"resources/{inside}": data for inside, data in (resources or {}).items()}
     if start:
         own[f"resources/{START}"] = (json.dumps(dict(start), indent=1) + "\n").encode()
-    contents = build_record.contents_digest(package_directory())
+    contents = build_record.digest_contents(package_directory())
     inputs = _inputs(contents, slave, ships, version)
     module = f"{name}_{inputs[:12]}"  # of its own: another FMU's module of the same name would run in its place
     files = {
@@ -136,7 +143,7 @@ def fmu_bytes(
         f"resources/{module}.py": slave,
         "resources/slavemodule.txt": module.encode(),
         "resources/requirements.txt": "".join(f"{line}\n" for line in REQUIREMENTS).encode(),
-        "documentation/index.html": page(interface, ships, fmi).encode(),
+        "documentation/index.html": make_page(interface, ships, fmi).encode(),
         **_licences(version.wrapper),
     }
     anonymous = to_bytes(version.description(interface, ships, "", start))
@@ -167,7 +174,9 @@ def _slave(name: str, fmi: int) -> Path:
 
 
 def _sources() -> dict[str, bytes]:
-    return {f"resources/{name}": path.read_bytes() for name, path in build_record.contents(package_directory()).items()}
+    return {
+        f"resources/{name}": path.read_bytes() for name, path in build_record.list_contents(package_directory()).items()
+    }
 
 
 def _home(wrapper: str) -> Path:
