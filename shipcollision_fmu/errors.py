@@ -1,13 +1,13 @@
 """Every exception that this package raises on purpose.
 
     ShipCollisionError
-    ├── InputError          what a user gave is refused: says what, its value, the limit, the remedy
+    ├── InputError          input of a user is refused; the message has the key, its value, the limit and the remedy
     │   ├── ShipError       a ship file or a ship's particulars
     │   └── ScenarioError   a scenario file or an option of a run
-    ├── StepError           a model cannot make this step (its state before the step stays valid)
+    ├── StepError           a model cannot make a step; its state before the step stays valid
     └── HostError           the surroundings fail: a missing package, an unwritable folder, a broken FMU
 
-`exit_status` is what the command line ends with: 2 for a user's input, 1 for everything else.
+`exit_status` is the exit status of the command line: 2 for a user's input, 1 for everything else.
 """
 
 from __future__ import annotations
@@ -40,4 +40,4 @@ class StepError(ShipCollisionError):
 
 
 class HostError(ShipCollisionError):
-    """The machine or an installed package does not do what is needed."""
+    """The machine or an installed package fails: a missing package, an unwritable folder, a broken FMU."""

@@ -1,7 +1,7 @@
-"""Files written whole or not at all.
+"""Atomic writing: a file is written completely or not at all.
 
-They are written into a temporary folder on the same file system and then renamed into place, so that nobody ever reads
-half a file.
+A file is first written into a temporary folder on the same file system and then renamed into place, so that no reader
+finds half a file.
 """
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ from .errors import HostError
 __all__ = ["IN_PLACE", "check_writable", "write_file", "write_files"]
 
 ANOTHER_FOLDER = "give another folder with --out"
-"""Remedy where the caller chose the folder."""
+"""Remedy in messages about a folder that the user chose."""
 IN_PLACE = "make its folder writable, or room on the disk"
-"""Remedy where the folder is given."""
+"""Remedy in messages about a folder that the user did not choose, such as that of a run."""
 
 
 def check_writable(out: Path) -> None:
-    """Raise HostError when `out` could not be written. Tries it, and leaves nothing behind."""
+    """Raise HostError when the folder `out` cannot be written; nothing is left behind."""
     place = out
     while not (place.exists() or place.is_symlink()):
         place = place.parent
@@ -30,20 +30,19 @@ def check_writable(out: Path) -> None:
     try:
         Path(tempfile.mkdtemp(prefix=".shipcollision-", dir=place)).rmdir()
     except OSError as error:
-        raise _refused(out, error) from None
+        raise _describe_failure(out, error) from None
 
 
 def write_files(out: Path, files: Mapping[str, str | bytes], remedy: str = ANOTHER_FOLDER) -> None:
-    """Write files, text or bytes, by name into the folder `out`, making it if need be.
+    """Write files, text or bytes, by name into the folder `out`, which is made when it does not exist.
 
-    Files of the same names are replaced; others in the folder are left alone. Raises HostError, whose message ends with
-    `remedy`, when it cannot be done.
+    Files of the same names are replaced; other files stay. Raises HostError, whose message ends with `remedy`.
     """
     _write(out, files, out, remedy)
 
 
 def write_file(path: Path, content: str | bytes, remedy: str = ANOTHER_FOLDER) -> Path:
-    """Write one file as write_files does, and return its path. Raises HostError."""
+    """Write a file as write_files does; returns its path. Raises HostError."""
     if path.is_dir():
         raise HostError(f"cannot write to {path}: it is a folder; give the name of a file with --out")
     _write(path.parent, {path.name: content}, path, remedy)
@@ -66,8 +65,8 @@ def _write(out: Path, files: Mapping[str, str | bytes], named: Path, remedy: str
         for place in made:
             if place.is_dir() and not any(place.iterdir()):
                 place.rmdir()
-        raise _refused(named, error, remedy) from None
+        raise _describe_failure(named, error, remedy) from None
 
 
-def _refused(out: Path, error: OSError, remedy: str = ANOTHER_FOLDER) -> HostError:
+def _describe_failure(out: Path, error: OSError, remedy: str = ANOTHER_FOLDER) -> HostError:
     return HostError(f"cannot write to {out}: {error.strerror or error}; {remedy}")

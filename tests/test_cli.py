@@ -14,24 +14,12 @@ from shipcollision_fmu import __version__
 from shipcollision_fmu.cli import main
 from shipcollision_fmu.cosim import fmu_files
 from shipcollision_fmu.errors import HostError
+from tests.conftest import ENCOUNTER
 from tests.ship_files import ship_toml
 
 BARGE = ship_toml()
 
-SCENARIO = """
-[scenario]
-name = "encounter"
-duration = 1.5
-[ships.own]
-ship = "./barge.toml"
-position = [5.0, -62.0]
-heading_deg = 90.0
-speed = 4.0
-[ships.target]
-ship = "./barge.toml"
-position = [0.0, 0.0]
-heading_deg = 0.0
-"""
+SCENARIO = ENCOUNTER.replace("duration = 3.0", "duration = 1.5").replace("-64.0", "-62.0").replace("speed = 1.0\n", "")
 
 
 @pytest.fixture
@@ -180,7 +168,7 @@ def edited(old: str, new: str) -> None:
         ("./barge.toml", "kvlc2", [], 2, "unknown ship 'kvlc2': did you mean kvlcc2?"),
         ("8200000.0", "-82e5", [], 2, "[ships.own] ship = './barge.toml': barge.toml: [particulars] mass = -8200000.0"),
         ("8200000.0", "82e6", [], 2, "rho"),
-        ("[scenario]", "[scenario]\nstep = 0.0", [], 2, "encounter.toml: [scenario] step = 0.0 must be greater than 0"),
+        ("step = 0.05", "step = 0.0", [], 2, "encounter.toml: [scenario] step = 0.0 must be greater than 0"),
         ("", "", ["--step", "0"], 2, "encounter.toml with step 0.0: [scenario] step = 0.0 must be greater than 0"),
         ("", "", ["--step", "nan"], 2, "encounter.toml with step nan: [scenario] step = nan must be a finite number"),
         ("", "", ["--step", "0.4"], 2, "duration = 1.5 s is 3.75 steps of 0.4 s, must be a whole number: take"),

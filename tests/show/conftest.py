@@ -8,26 +8,16 @@ from pathlib import Path
 import pytest
 
 from shipcollision_fmu import load_scenario, simulate
+from tests.conftest import ENCOUNTER
 from tests.ship_files import ship_toml
 
 BARGE = ship_toml(particulars={"r_bg": [2.0, 0.0, -1.0]})
 
-MEETING = """
-[scenario]
-name = "meeting"
-description = "own runs into a barge and on towards a quay"
-duration = 3.0
-step = 0.05
-[ships.own]
-ship = "./barge.toml"
-position = [5.0, -64.0]
-heading_deg = 90.0
-speed = 4.0
-[ships.target]
-ship = "./barge.toml"
-position = [0.0, 0.0]
-heading_deg = 0.0
-speed = 1.0
+MEETING = (
+    ENCOUNTER.replace('name = "encounter"', 'name = "meeting"').replace(
+        "target's side", "a barge and on towards a quay"
+    )
+    + """
 [obstacles.quay]
 kind = "quay"
 shape = "box"
@@ -35,6 +25,7 @@ length = 200.0
 breadth = 20.0
 position = [0.0, 60.0]
 """
+)
 
 MakeRun = Callable[..., Path]
 
