@@ -1,15 +1,25 @@
-"""Two hulls touch: who is near, where they touch, the rival responses, the impulse ledger, energy and events.
+"""Collisions of ships: contact detection, contact solvers, and the impulse ledger.
 
-model           a step, readable as its stages; docs/theory/contact.md has the equations
+    model                      ShipCollision: a communication step, readable as its stages
+    interface                  parameters, inputs, outputs
+    checks                     refusals of parameters and inputs
+    bodies, obstacles          the bodies of a model, from ship files and obstacle tables
+    exchange                   states received from the ship models, impulses returned to them
+    proximity                  pairs that could touch within the step; clearance
+    conservative_advancement   which pair is examined at which substep
+    contact_problem            problem and solution of a substep; caches from substep to substep
+    responses                  pgs, closed_form, bullet: how contact is answered
+    collisions                 collisions and scratches in time, and their numbers
+    contact_points             contact points of a communication step
+    fender, fender_ledger      law of a fender; energy in fenders
+    totals                     energy lost, and how well contact was solved
 
-what it is of   ports, checks, bodies, obstacles
-where to        state, ahead, drift, ledger: poses and twists within a step, and what ships were given
-who is near     neighbours, broad_phase
-where           detection: engine (the one module that knows pybullet), level, manifold, clipping, joined, axes, contact
-how much        responses, which chooses: delassus, then
-                pgs         coulomb, extrapolation, newton, sliding_speed, warm_start, restitution
-                closed_form slip_path, slip_curve, resultant; four_dof is its oracle
-                enforce_passivity: no answer adds energy
-besides         fenders, fender_books; energy; damage
-told            slots, collisions
+    dynamics/    states, contacts, impulses, ledger
+    geometry/    contact detection
+    solvers/     impulses from v and W
+
+Data: ShipState -> exchange -> BodyState -> geometry -> Contact -> v, W -> solvers -> impulses P -> dynamics -> outputs.
+
+Imports: ship/ and errors; within the room, model > the other files > solvers > geometry > dynamics. `pybullet` only in
+geometry/bullet.py. Equations: docs/theory/contact.md.
 """

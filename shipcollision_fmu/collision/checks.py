@@ -1,4 +1,4 @@
-"""What the collision model refuses: parameters out of range, and inputs that are broken signals."""
+"""Refusals of the collision model: parameters out of range, and inputs that are broken signals."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .responses import RESPONSES
 __all__ = ["MAXIMUM_FRICTION", "check_parameters", "check_states", "check_step"]
 
 MAXIMUM_FRICTION = 10.0
-"""Coulomb's coefficient that still counts as one: more is a mistake, and sticking is what 10 gives too."""
+"""Largest friction coefficient. More is a mistake, and 10 already sticks."""
 
 ABSURD_SPEED = 1e3
 """Speeds [m/s] from here on are refused: a broken signal, not a ship."""

@@ -1,7 +1,7 @@
 """The exchange with the ship models: states received, impulses and post-impact states returned.
 
-    receive    the ledger tells which impulses are pending (impulse_ledger.py); the received velocity is corrected by
-               them; what other forces will add is estimated (other_forces.py)
+    receive    the received velocity is corrected by the pending impulses (impulse_ledger.py); what other forces will
+               add is estimated (other_forces.py)
     publish    the impulse of the step is entered in the ledger; pose and twist at the end of the step
 
 Most ships in most steps are *quiet*: nothing pending, no open collision. A quiet ship far from all others gets no state

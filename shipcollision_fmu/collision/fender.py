@@ -1,4 +1,4 @@
-"""A fender: a spring and a damper that act before hull and wall touch.
+"""The law of a fender: a spring and a damper that act before hull and wall touch.
 
     delta   = thickness - gap                       compression, from 0 on                     [m]
     F       = k delta + c d(delta)/dt >= 0          along the normal, at the middle of what is compressed
@@ -7,16 +7,16 @@
 It is integrated within the substeps of the collision model and booked as impulses, like any contact:
 
     P  = h (k delta + c rate+)                      rate+ = rate - W_nn P: damper implicit, at any c
-    k <= 1/(W_nn h^2)                               stiffer than a substep can resolve acts as the stiffest that it can
+    k <= 1/(W_nn h^2)                               a stiffer spring cannot be resolved by a substep, and acts as this
 
-Kick at the old place and drift with the new speed, as the ships do, is the leapfrog scheme: it conserves
-1/2 v^2 + 1/2 W_nn k delta_j delta_{j+1} to rounding, so the half-sine of a mass on a spring comes back with its speed
-but for (omega h)^2. A communication step H longer than the substep h adds damping: the ship applies the impulse of a
-whole step at its start, and comes back with exp(-pi omega (H - h)/4) of its speed.
+The impulse acts at the old place, and the ships move with the new speed: the leapfrog scheme. It conserves
+1/2 v^2 + 1/2 W_nn k delta_j delta_{j+1} to rounding. A mass on a spring returns with its speed, except for (omega h)^2.
+A communication step H longer than the substep h adds damping. The ship applies the impulse of a whole step at its
+start, and returns with exp(-pi omega (H - h)/4) of its speed.
 
-No energy is gained, whatever the step, the delay or the ships' other forces: what the ships have put into the spring
-is kept in a book per pair, and the fender never gives back more than stands there; never does more stand there than
-1/2 k delta^2. What is taken and not stored is dissipated.
+No energy is gained, whatever the step, the delay or other forces. The energy that the ships have put into the spring is
+kept per pair (fender_ledger.py). The fender never returns more, and never holds more than 1/2 k delta^2. Energy that is
+taken and not stored is dissipated.
 
 Two fenders that face each other are in series. A fender is one force; a row of fenders along a quay is a row of
 obstacles. PIANC, BS 6349: the energy to absorb is 1/2 M v^2 C_M C_E C_S C_C, of which C_M and C_E are in W_nn here.
@@ -93,7 +93,7 @@ def compress_fender(
     after = rate - W_nn * P
     taken = P * (rate - 0.5 * W_nn * P)
     damped = max(0.0, min(P, h * c * after) * 0.5 * (rate + after))
-    if stored + taken - damped < 0.0:  # the spring is asked for more than was put in: it gives what it has
+    if stored + taken - damped < 0.0:  # more than was put into the spring: it returns what it has
         root = sqrt(rate * rate + 2.0 * W_nn * stored)
         P = 2.0 * stored / (root - rate) if rate < 0.0 else (root + rate) / W_nn
         after = rate - W_nn * P

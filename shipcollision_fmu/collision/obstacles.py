@@ -1,8 +1,8 @@
-"""What does not give way: quay walls, bridge piers, lock chambers, breakwaters.
+"""Fixed obstacles: quay walls, bridge piers, lock chambers, breakwaters.
 
-An obstacle is a prism: a convex plan, a level top and a level foot. To contact it is a body like a ship, with zero
-inverse mass and a pose that never changes; M^-1 = 0 in every equation is the limit of mass to infinity. A lock chamber
-is several of them, one per wall.
+An obstacle is a prism: a convex plan, a horizontal top and foot. In contact it is a body like a ship, with zero inverse
+mass and a pose that never changes: M^-1 = 0 is the limit of infinite mass. A lock chamber is several obstacles, one per
+wall.
 
     [NAME]                      or [obstacles.NAME] in a scenario file
     kind = "quay"               what it is, in words
@@ -39,7 +39,10 @@ from ..ship.tables.table import Pair, Positive, Table
 from .fender import Fender
 from .geometry.clipping import convex_polygon
 
-__all__ = ["CYLINDER_SIDES", "FenderTable", "Obstacle", "ObstacleTable", "obstacle", "obstacles_toml", "read_obstacles"]
+__all__ = [
+    "CYLINDER_SIDES", "FenderTable", "Obstacle", "ObstacleTable", "build_obstacle", "format_obstacles",
+    "read_obstacles",
+]  # fmt: skip
 
 CYLINDER_SIDES = 32
 """Sides of the polygon that stands for a circle: 5 cm inside it on a pier of 20 m."""
@@ -155,7 +158,7 @@ class Obstacle:
     fender: Fender | None
 
 
-def obstacle(name: str, table: ObstacleTable) -> Obstacle:
+def build_obstacle(name: str, table: ObstacleTable) -> Obstacle:
     """The obstacle that a table describes."""
     north, east = table.position
     return Obstacle(
@@ -184,10 +187,10 @@ def read_obstacles(text: str) -> list[Obstacle]:
         tables = _Obstacles.model_validate({"obstacles": content}).obstacles
     except ValidationError as error:
         raise InputError(f"{source}: {describe_error(error, _Obstacles)}") from None
-    return [obstacle(name, table) for name, table in tables.items()]
+    return [build_obstacle(name, table) for name, table in tables.items()]
 
 
-def obstacles_toml(tables: Mapping[str, ObstacleTable]) -> str:
+def format_obstacles(tables: Mapping[str, ObstacleTable]) -> str:
     """TOML text from which read_obstacles makes the same obstacles, to the bit."""
     lines = []
     for name, table in tables.items():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import radians
 
-from ..collision.obstacles import obstacles_toml
+from ..collision.obstacles import format_obstacles
 from ..fmi.names import STATE
 from ..scenario.scenario import Scenario
 from ..scenario.tables.ship_start import ShipStart
@@ -42,5 +42,5 @@ def collision_parameters(scenario: Scenario) -> dict[str, Value]:
             for key, value in ship.fender.model_dump().items():
                 parameters[f"{name}.fender.{key}"] = value
     if scenario.obstacles:
-        parameters["obstacles"] = obstacles_toml(scenario.obstacles)
+        parameters["obstacles"] = format_obstacles(scenario.obstacles)
     return parameters | scenario.collision.model_dump(exclude_none=True, exclude={"damage"})

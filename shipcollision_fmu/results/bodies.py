@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from ..collision.obstacles import ObstacleTable, obstacle
+from ..collision.obstacles import ObstacleTable, build_obstacle
 from ..ship.hull.hull import build_hull
 from ..ship.hull.solid import HullMesh
 from ..ship.ship import Ship
@@ -45,7 +45,7 @@ def _ship(ship: Ship, degrees_of_freedom: int) -> dict[str, Any]:
 
 
 def _obstacle(name: str, table: ObstacleTable) -> dict[str, Any]:
-    body = obstacle(name, table)
+    body = build_obstacle(name, table)
     return {
         "kind": body.kind,
         "position": body.position.tolist(),

@@ -14,7 +14,7 @@ import numpy as np
 from ..collision.dynamics.body_state import BodyState
 from ..collision.geometry.detection import SHALLOW, Detector
 from ..collision.geometry.plan_overlap import least_overlap
-from ..collision.obstacles import ObstacleTable, obstacle
+from ..collision.obstacles import ObstacleTable, build_obstacle
 from ..errors import ScenarioError
 from ..ship.hull.hull import build_hull
 from ..ship.hull.solid import HullMesh
@@ -38,7 +38,7 @@ def refuse_overlap(
         hulls.append(build_hull(ship.L_oa, ship.B, ship.T, ship.hull))
         states.append(BodyState.at(np.array(start.position), np.array(start.attitude), np.zeros(6), np.zeros((6, 6))))
     for name, table in obstacles.items():
-        solid = obstacle(name, table)
+        solid = build_obstacle(name, table)
         hulls.append(solid.solid)
         states.append(BodyState.wall(solid.position, solid.heading))
     labels = [f"[ships.{name}]" for name in ships] + [f"[obstacles.{name}]" for name in obstacles]

@@ -15,8 +15,8 @@ from shipcollision_fmu.collision.model import ShipCollision
 from shipcollision_fmu.collision.obstacles import (
     CYLINDER_SIDES,
     ObstacleTable,
-    obstacle,
-    obstacles_toml,
+    build_obstacle,
+    format_obstacles,
     read_obstacles,
 )
 from shipcollision_fmu.errors import InputError, StepError
@@ -96,7 +96,7 @@ def test_text_and_back_gives_the_same_obstacles(tmp_path: Path) -> None:
     tables = {o.name: ObstacleTable.model_validate(t) for o, t in zip(
         read_obstacles(text), [_content(WALL + "fender = {stiffness = 1e6, thickness = 0.7}"),
                                _content(PIER.replace("9.0", "0.1"))], strict=True)}  # fmt: skip
-    again = read_obstacles(obstacles_toml(tables))
+    again = read_obstacles(format_obstacles(tables))
     path = tmp_path / "walls.toml"
     path.write_text(text)
     for one, two, three in zip(read_obstacles(text), again, read_obstacles(str(path)), strict=True):
@@ -108,8 +108,8 @@ def test_text_and_back_gives_the_same_obstacles(tmp_path: Path) -> None:
 
 def test_names_of_kinds_survive_any_character() -> None:
     table = ObstacleTable(kind='a "quay"\\\n\x7f', shape="cylinder", diameter=1.0, position=[0.0, 0.0])
-    assert read_obstacles(obstacles_toml({"q": table}))[0].kind == table.kind
-    assert obstacle("q", table).kind == table.kind
+    assert read_obstacles(format_obstacles({"q": table}))[0].kind == table.kind
+    assert build_obstacle("q", table).kind == table.kind
 
 
 @pytest.mark.parametrize(

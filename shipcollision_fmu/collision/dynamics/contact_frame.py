@@ -1,4 +1,4 @@
-"""Axes of a contact: the normal and two tangents."""
+"""Axes of a contact, in which velocities, W and impulses are solved: the normal n and two tangents t1, t2."""
 
 from __future__ import annotations
 

@@ -1,28 +1,33 @@
-"""Whose impulse is where: issued by the collision model, applied by the ship, or pending between the two.
+"""The impulse ledger of one ship: what the collision model issued, what the ship model applied, what is pending.
 
-All are cumulative, 6 numbers in b about CO [N s, N m s]. What is issued and not yet applied is pending; it corrects a
-received velocity before contact is looked for, so that no approach is charged twice, whatever the master's order.
+All impulses are cumulative, 6 numbers in b about CO [N s, N m s]. An impulse that is issued and not yet applied is
+*pending*. The received velocity is corrected by M^-1 pending before contact is detected: no approach is charged twice,
+whatever the order in which the master calls the models.
 
-How a ship's answer is known depends on `feedback`:
+`feedback` says how the ship model shows what it has applied:
 
-    ledger   the ship echoes impulse_applied
-    force    the ship takes the mean force: seen in the velocity it sends back
-    state    the ship adopts the post-impact state: seen in the velocity it sends back
-    none     the ship ignores contact: nothing is ever applied, nothing is pending
+    ledger   the ship model returns impulse_applied
+    force    the ship model takes the mean force; the velocity that it returns shows the impulse
+    state    the ship model adopts the post-impact state; the velocity that it returns shows the impulse
+    none     the ship model ignores contact: nothing is ever applied, and nothing is pending
 
-A number in b means an impulse in n only together with a pose. A sequential master applies an impulse at the pose for
-which it was solved; a parallel one a step later, when the ship has turned and moved on. So the books are kept in n as
-well, as wrenches (linear, and angular about n's origin):
+An impulse in b determines an impulse in n only together with a pose. A sequential master applies it at the pose for
+which it was solved. A parallel master applies it one step later, at another pose: the *one-step delay*. The ledger is
+therefore kept in n as well, as wrenches (6,), linear and angular about the origin of n:
 
-    issued_n    what contact gave, at the poses for which it was solved
-    applied_n   what the ship took, at the poses at which it applied it
+    issued_n    issued by contact, at the poses for which it was solved
+    applied_n   applied by the ship, at the poses at which it was applied
     deficit     = issued_n - applied_n - (pending, at the pose received now)
 
-The deficit goes out with the next impulse. After a ship was found to apply impulses one step later, they are solved and
-booked for the pose that it will have by then (body_state.py). Linear and angular momentum are kept to rounding under
-either master, once all is applied. A body that turns, or moves as a share of its size, by more than FAR in a step (a
-log that was run over, a buoy) is an exception. Its deficit is discarded: one step later its direction would no longer
-be right, and it could add energy.
+The deficit is issued with the next impulse. Once a ship has shown a one-step delay, impulses are solved and booked for
+the pose that it will have one step later (body_state.py). Linear and angular momentum are then kept to rounding under
+either master, when all is applied.
+
+Exception: a body whose motion in a step is *out of range* (a buoy, a log that was run over). For such a body the
+deficit is discarded: one step later its direction would no longer be right, and it could add energy.
+
+When nothing is pending and there is no deficit, the ledger is *settled* and the balance is skipped. A far step
+then costs a comparison of six numbers.
 """
 
 from __future__ import annotations
@@ -40,18 +45,20 @@ __all__ = ["FEEDBACKS", "ImpulseLedger", "Reading"]
 _NOTHING = np.zeros(6)
 
 ROUNDING = 1e-12
-"""Deficit, as a share of all that was ever issued, that is rounding."""
+"""Deficit, as a share of all that was ever issued, that is rounding. With zero, no ledger would ever be settled."""
 
-
-FAR = 0.1
-"""Turning in a step [rad], plus way in it as a share of the hull's reach, beyond which nothing is carried over."""
+RANGE = 0.1
+"""Turning in a step [rad] plus distance in it as a share of the reach of the hull. Beyond it the deficit is discarded.
+A larger range adds energy to small bodies; a smaller one loses momentum of fast ships under a parallel master."""
 
 
 class Reading(NamedTuple):
-    """A ship's ledger at the start of a step of H [s]. nu: twist (6,) with what is pending in it; pending: impulse (6,)
-    in b that the ship will still apply, or that its velocity does not show; deficit (6,) in b: what is missing of
-    what was issued; one_step_delay: whether the ship applies an impulse after it has moved on, None
-    where not known yet; out_of_range: the ship moves too far in a step."""
+    """The ledger of a ship at the start of a step, balanced with the state received.
+
+    x, R: pose received; nu: twist (6,) with the pending impulse; applied: impulse_applied as received; applied_n:
+    wrench applied so far; pending, deficit: impulses (6,) in b; one_step_delay: None while unknown; out_of_range: the
+    ship moves too far in a step to carry a deficit over.
+    """
 
     x: Array
     R: Array
@@ -65,48 +72,51 @@ class Reading(NamedTuple):
 
 
 class ImpulseLedger:
-    """The ledger of one ship. Impulses (6,) in b about CO; wrenches (6,) in n, linear and about n's origin."""
+    """The ledger of one ship. Impulses (6,) in b about CO; wrenches (6,) in n, linear and about the origin of n."""
 
     def __init__(self) -> None:
         self.issued = np.zeros(6)
-        self.last = np.zeros(6)  # the part of it that the last step issued
-        self.is_settled = True  # nothing pending, deficit or just issued
-        self._echo = [0.0] * 6  # what a ship that has applied everything sends back
-        self._nu = np.zeros(6)  # the twist of which the last step knew, pending included
+        self.last_issued = np.zeros(6)  # the part of it that the last step issued
+        self.is_settled = True  # nothing pending, no deficit, nothing just issued
+        self._echo = [0.0] * 6  # impulse_applied of a ship that has applied everything
+        self._nu = np.zeros(6)  # twist at the start of the last step, pending included
         self._applied = np.zeros(6)
         self._x, self._R = np.zeros(3), np.eye(3)
         self._issued_n, self._applied_n = np.zeros(6), np.zeros(6)
-        self._size = np.zeros(2)  # of all that was given: linear, angular
-        self.one_step_delay: bool | None = None  # whether the ship was seen to apply impulses a step later
+        self._size = np.zeros(2)  # of all that was issued: linear, angular
+        self.one_step_delay: bool | None = None  # None until an impulse shows it
 
     def is_quiet(self, feedback: str, applied: list[float]) -> bool:
-        """Whether there is nothing to be read; `applied` as received."""
+        """Whether the balance may be skipped. applied: impulse_applied as received."""
         return self.is_settled and (feedback != "ledger" or applied == self._echo)
 
     def read(
         self, feedback: str, x: Array, R: Array, nu: Array, applied: Array, M_inverse: Array, reach: float, H: float
     ) -> Reading:
-        """What the state received says. Changes nothing."""
+        """The balance with the state received at the start of a step of H [s]. The ledger stays as it is.
+
+        x, R, nu (6,): pose and twist received; applied (6,): impulse_applied; reach: of the hull from CO [m].
+        """
         if feedback != "ledger":
             pending = FEEDBACKS[feedback](self, nu, M_inverse)
             if pending.any():
                 nu = nu + M_inverse @ pending
             return Reading(x, R, nu, applied, self._applied_n, pending, _NOTHING, False, False)
         if self.is_quiet(feedback, applied.tolist()):
-            out_of_range = _goes_far(nu, reach, H)
+            out_of_range = _is_out_of_range(nu, reach, H)
             return Reading(x, R, nu, applied, self._applied_n, _NOTHING, _NOTHING, self.one_step_delay, out_of_range)
-        taken, pending = applied - self._applied, self.issued - applied
-        waits = bool(pending.any())
-        if waits:
+        newly_applied, pending = applied - self._applied, self.issued - applied
+        is_pending = bool(pending.any())
+        if is_pending:
             nu = nu + M_inverse @ pending
-        out_of_range = _goes_far(nu, reach, H)
+        out_of_range = _is_out_of_range(nu, reach, H)
         applied_n, one_step_delay = self._applied_n, self.one_step_delay
-        if taken.any():
-            applied_n = applied_n + _wrench_in_n(self._x, self._R, taken)
-        if self.last.any():
-            one_step_delay = waits
+        if newly_applied.any():
+            applied_n = applied_n + _wrench_in_n(self._x, self._R, newly_applied)
+        if self.last_issued.any():
+            one_step_delay = is_pending
         deficit = self._issued_n - applied_n
-        if waits:
+        if is_pending:
             deficit = deficit - _wrench_in_n(x, R, pending)
         small = ROUNDING * self._size
         if out_of_range or (np.abs(deficit[:3]).max() <= small[0] and np.abs(deficit[3:]).max() <= small[1]):
@@ -114,40 +124,38 @@ class ImpulseLedger:
         return Reading(x, R, nu, applied, applied_n, pending, _wrench_in_b(x, R, deficit), one_step_delay, out_of_range)
 
     def close(self, reading: Reading, J: Array, nu: Array, x: Array, R: Array) -> None:
-        """End a step in which contact gave J (6,), at the pose x, R at which the ship will apply what is issued now.
-        nu: twist with which the step began."""
+        """Enter the impulse J (6,) that contact gave in the step. x, R: pose of application; nu: twist at the start."""
         if reading.out_of_range:
             self._issued_n = reading.applied_n + _wrench_in_n(reading.x, reading.R, reading.pending)
-        struck, out = bool(J.any()), _NOTHING
-        if struck:
+        in_contact, out = bool(J.any()), _NOTHING
+        if in_contact:
             w = _wrench_in_n(x, R, J)
             self._issued_n = self._issued_n + w
             linear = hypot(*w[:3].tolist())
             self._size = self._size + [linear, hypot(*J[3:].tolist()) + hypot(*x.tolist()) * linear]
-        if struck or reading.deficit is not _NOTHING:
+        if in_contact or reading.deficit is not _NOTHING:
             deficit = reading.deficit
             if deficit is not _NOTHING and x is not reading.x:
                 deficit = _wrench_in_b(x, R, _wrench_in_n(reading.x, reading.R, deficit))
             out = J + deficit
             self.issued = self.issued + out
             self._echo = self.issued.tolist()
-        self.last, self._nu = out, nu
+        self.last_issued, self._nu = out, nu
         self.is_settled = out is _NOTHING and (reading.pending is _NOTHING or not reading.pending.any())
         self._x, self._R, self._applied = reading.x, reading.R, reading.applied
         self._applied_n, self.one_step_delay = reading.applied_n, reading.one_step_delay
 
-    # How a ship that does not echo shows what it has taken.
+    def infer_pending(self, nu: Array, M_inverse: Array) -> Array:
+        """The pending impulse (6,) of a ship that does not return impulse_applied: that of the last step, or zero.
 
-    def inferred(self, nu: Array, M_inverse: Array) -> Array:
-        """The last step's impulse, unless the received velocity shows it: the nearer of "all" and "nothing" counts.
-
-        Only what the free degrees of freedom take of it can be seen: M_inverse is that of these.
+        The received velocity nu (6,) decides: zero is pending if the velocity shows more than half of the impulse.
+        M_inverse (6, 6): of the free degrees of freedom, since nothing else shows.
         """
-        if not self.last.any():
-            return self.last
-        change = float(self.last @ (nu - self._nu))  # twice the work of the impulse, if applied
-        whole = float(self.last @ M_inverse @ self.last)
-        return np.zeros(6) if change > 0.5 * whole else self.last
+        if not self.last_issued.any():
+            return self.last_issued
+        change = float(self.last_issued @ (nu - self._nu))  # twice the work of the impulse, if applied
+        whole = float(self.last_issued @ M_inverse @ self.last_issued)
+        return np.zeros(6) if change > 0.5 * whole else self.last_issued
 
     # -- state --------------------------------------------------------------------------------------
 
@@ -169,25 +177,25 @@ class ImpulseLedger:
         )
 
 
-_ARRAYS = ("issued", "last", "_nu", "_applied", "_x", "_R", "_issued_n", "_applied_n", "_size")
+_ARRAYS = ("issued", "last_issued", "_nu", "_applied", "_x", "_R", "_issued_n", "_applied_n", "_size")
 
 
-def _nothing(ledger: ImpulseLedger, nu: Array, M_inverse: Array) -> Array:
+def _infer_nothing(ledger: ImpulseLedger, nu: Array, M_inverse: Array) -> Array:
     return np.zeros(6)
 
 
 FEEDBACKS: dict[str, Callable[[ImpulseLedger, Array, Array], Array]] = {
-    "ledger": _nothing,
-    "force": ImpulseLedger.inferred,
-    "state": ImpulseLedger.inferred,
-    "none": _nothing,
+    "ledger": _infer_nothing,
+    "force": ImpulseLedger.infer_pending,
+    "state": ImpulseLedger.infer_pending,
+    "none": _infer_nothing,
 }
-"""By name, how the pending impulse (6,) of a ship is inferred that does not echo; "ledger" reads it."""
+"""By name, how the pending impulse (6,) is inferred. With "ledger" it is received, not inferred."""
 
 
-def _goes_far(nu: Array, reach: float, H: float) -> bool:
+def _is_out_of_range(nu: Array, reach: float, H: float) -> bool:
     u, v, w, p, q, r = nu.tolist()
-    return H * (hypot(p, q, r) + hypot(u, v, w) / reach) > FAR
+    return H * (hypot(p, q, r) + hypot(u, v, w) / reach) > RANGE
 
 
 def _wrench_in_n(x: Array, R: Array, J: Array) -> Array:

@@ -1,11 +1,11 @@
-"""No answer adds kinetic energy: one that would is scaled back to an elastic one.
+"""Passivity: no impulses add kinetic energy. Impulses that would are scaled back to an elastic impact.
 
-    T(s P) - T(0) = s P.v + 1/2 s^2 P' W P        v relative velocities before, W from delassus.py          [J]
+    T(s P) - T(0) = s P.v + 1/2 s^2 P' W P        v: relative velocities before, W: delassus.py             [J]
 
-is zero at s = -2 P.v / P' W P. The solvers do not add energy by themselves but in known corners: Newton's restitution
-with friction, and contact solved with the velocity expected over a step (other_forces.py), when the force that was
-expected is gone. Ships that touch directly or through others are scaled together, so each stays in balance and in its
-friction cone; obstacles, which do not move, connect nobody.
+is zero at s = -2 P.v / P' W P. The solvers do not add energy by themselves, except in two cases: Newton's restitution
+with friction; and contact solved with a velocity bias (other_forces.py) whose force has ended. Bodies that touch
+directly or through others form a group and are scaled together. Each then stays in balance and in its friction cone.
+Obstacles do not move, and connect no groups.
 """
 
 from __future__ import annotations
@@ -19,18 +19,18 @@ from .contact import Impulse, energy_velocities
 __all__ = ["enforce_passivity"]
 
 ROUNDING = 1e-9
-"""Gain, as a share of the work of the impulses, that is rounding."""
+"""Gain, as a share of the work of the impulses, that is rounding. With zero, exact elastic impacts would be scaled."""
 
 
 def enforce_passivity(impulses: Sequence[Impulse], states: Sequence[BodyState]) -> tuple[list[Impulse], bool]:
-    """The impulses, scaled where they would add energy; and whether any were."""
-    answer: list[Impulse] = []
+    """(the impulses, scaled where they would add energy; whether any were)."""
+    passive: list[Impulse] = []
     scaled = False
     for group in _groups(impulses, states) if impulses else ():
         s = _scale(group, states)
         scaled |= s != 1.0
-        answer += group if s == 1.0 else [Impulse(i.contact, s * i.P) for i in group]
-    return answer, scaled
+        passive += group if s == 1.0 else [Impulse(i.contact, s * i.P) for i in group]
+    return passive, scaled
 
 
 def _scale(group: Sequence[Impulse], states: Sequence[BodyState]) -> float:
@@ -49,7 +49,7 @@ def _scale(group: Sequence[Impulse], states: Sequence[BodyState]) -> float:
 
 
 def _groups(impulses: Sequence[Impulse], states: Sequence[BodyState]) -> list[list[Impulse]]:
-    """Impulses by the ships that they connect."""
+    """Impulses by the groups of bodies that they connect."""
     pairs = {(i.contact.a, i.contact.b) for i in impulses}
     if len(pairs) == 1:
         return [list(impulses)]

@@ -1,1 +1,13 @@
-"""geometry."""
+"""Contact detection: where hulls touch, with which normal and gap.
+
+    broad_phase      pairs of bodies whose rectangles in the plane overlap
+    bullet           the adapter of pybullet: closest points of convex parts, and a step of Bullet's own dynamics
+    detection        contacts of two hulls, from Bullet's closest points
+    compound_hull    hulls of several convex parts: inner faces give no contact
+    manifold         contact points of two parts: common corners of the features that face each other
+    clipping         intersection of polygons, edges and points in a plane
+    plan_overlap     normal of least overlap in plan, for hulls that overlap deeply from the start
+
+Data: poses (BodyState) in, lists of Contact out. Imports: ship/, dynamics.body_state, dynamics.contact and
+dynamics.contact_frame. pybullet is imported in bullet.py only.
+"""

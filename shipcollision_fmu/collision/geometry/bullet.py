@@ -1,9 +1,9 @@
-"""The one module that knows pybullet: hulls as Bullet bodies, closest points, and one step of Bullet's own dynamics.
+"""The adapter of pybullet: hulls as Bullet bodies, closest points, and one step of Bullet's own dynamics.
 
-Everything that goes in and comes out is in n and b; the world with z up exists only in here. Bullet is used without
-memory: what a call returns depends on its arguments alone, never on earlier calls, so that a saved and restored FMU
-repeats every bit. For closest points that is so by itself; Bullet's own step keeps contact manifolds and warm-start
-impulses, hence its bodies are made anew for every step.
+Arguments and results are in n and b; the world with z up exists only in this file. Bullet is used without memory: what
+a call returns depends on its arguments alone, so that a restored FMU repeats every bit. For closest points this holds
+by itself. Bullet's own step keeps contact manifolds and warm-start impulses, hence its bodies are made anew for
+every step.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ def bullet_module() -> ModuleType:
 
 @contextmanager
 def _without_banner() -> Iterator[None]:
-    """PyBullet writes its build time to the process's standard error when it is imported; nobody needs that line."""
+    """Suppress the line that PyBullet writes to standard error on import: its build time."""
     try:
         kept, nowhere = os.dup(2), os.open(os.devnull, os.O_WRONLY)
     except OSError:  # a process without a standard error
@@ -79,7 +79,7 @@ class Closest:
 
 @dataclass(frozen=True)
 class BulletBody:
-    """A ship as Bullet's own dynamics knows it: scalar mass [kg], diagonal inertia (3,) [kg m2] in b about CG."""
+    """A ship in Bullet's own dynamics: scalar mass [kg], diagonal inertia (3,) [kg m2] in b about CG."""
 
     mass: float
     inertia: Array
@@ -171,29 +171,29 @@ class BulletAdapter:
         p.setPhysicsEngineParameter(
             fixedTimeStep=h, numSolverIterations=50, erp=0.0, contactERP=0.0, frictionERP=0.0, physicsClientId=client
         )
-        made = [
+        handles = [
             self._dynamic_body(ship, body, friction, restitution, *pose_w(x + R_nb @ body.r_bg, R_nb))
             for ship, body, (x, R_nb) in zip(ships, bodies, poses, strict=True)
         ]
-        # A step at rest, blind to each other: until a body has made one, Bullet solves with the inertia of its shape at
-        # the attitude of its making, whatever it was told since.
-        p.setCollisionFilterPair(made[0], made[1], -1, -1, 0, physicsClientId=client)
+        # A step at rest, without contact: before its first step, Bullet solves a body with the inertia of its shape at
+        # the attitude of its making, whatever inertia was set since.
+        p.setCollisionFilterPair(handles[0], handles[1], -1, -1, 0, physicsClientId=client)
         p.stepSimulation(physicsClientId=client)
-        p.setCollisionFilterPair(made[0], made[1], -1, -1, 1, physicsClientId=client)
-        for handle, body, (_, R_nb), nu in zip(made, bodies, poses, twists, strict=True):
+        p.setCollisionFilterPair(handles[0], handles[1], -1, -1, 1, physicsClientId=client)
+        for handle, body, (_, R_nb), nu in zip(handles, bodies, poses, twists, strict=True):
             velocity = R_nb @ (nu[:3] + np.cross(nu[3:], body.r_bg))
             p.resetBaseVelocity(handle, swap_axes(velocity), swap_axes(R_nb @ nu[3:]), physicsClientId=client)
         p.stepSimulation(physicsClientId=client)
-        rows = p.getContactPoints(made[0], made[1], physicsClientId=client)
-        for handle in made:
+        rows = p.getContactPoints(handles[0], handles[1], physicsClientId=client)
+        for handle in handles:
             p.removeBody(handle, physicsClientId=client)
         return [_contact_row(row, h) for row in rows]
 
     def _shape(self, vertices: Array, r_origin: Array | float = 0.0) -> int:
-        """Collision shape of a vertex set (n, 3) in b, seen from the point r_origin [m] in b."""
-        seen = (vertices - r_origin) @ SWAP
+        """Collision shape of a vertex set (n, 3) in b, relative to the point r_origin [m] in b."""
+        relative = (vertices - r_origin) @ SWAP
         shape: int = self._p.createCollisionShape(
-            self._p.GEOM_MESH, vertices=_listed(seen.tobytes()), physicsClientId=self._client
+            self._p.GEOM_MESH, vertices=_vertices_as_lists(relative.tobytes()), physicsClientId=self._client
         )
         return shape
 
@@ -232,7 +232,7 @@ def _give_back_memory() -> None:
 
 
 @lru_cache(maxsize=512)
-def _listed(vertices: bytes) -> list[list[float]]:
+def _vertices_as_lists(vertices: bytes) -> list[list[float]]:
     """Vertices (n, 3) as lists, the same object for the same hull: pybullet 3.2 never gives back the references that it
     takes to the numbers, and would keep a copy of every hull of every world."""
     listed: list[list[float]] = np.frombuffer(vertices).reshape(-1, 3).tolist()

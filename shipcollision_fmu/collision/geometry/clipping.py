@@ -1,10 +1,10 @@
-"""What two touching features have in common: a point, the ends of a line, or the corners of a polygon.
+"""Common corners of two plane features: a point, the ends of a line, or the corners of a polygon.
 
-Bullet reports one point of a line or area contact, at an arbitrary place along it; the height of a stem on a vertical
-side would be chance. Here the features that face each other (vertices, edges or faces: the extreme points of both
+Bullet reports one point of a line or area of contact, at an arbitrary place. The height of a stem on a vertical side
+would then be chance. Instead, the features that face each other (vertices, edges or faces: the extreme points of both
 convex parts along the normal) are projected on the plane of contact and clipped against each other.
 
-Plane coordinates are pairs [m]; a polygon's corners are counter-clockwise.
+Plane coordinates are pairs [m]; the corners of a polygon are counter-clockwise.
 """
 
 from __future__ import annotations

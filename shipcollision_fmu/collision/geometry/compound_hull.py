@@ -1,17 +1,17 @@
-"""Convex parts that are joined in one hull.
+"""Compound hulls: several convex parts joined in one hull.
 
-Contact detection knows convex parts; a hull with flare or a bulb, or from a user's mesh, has several. Where two parts
-meet there are faces and edges that no one can touch, and a closest-point answer may use them: a stem that slides along
-a side made of five boxes would catch on every joint, and be thrown back along the side. Three steps put this right:
+A hull with flare or a bulb, or from a user's mesh, has several convex parts. Where two parts meet there are inner faces
+and edges, and a closest point may lie on them. A stem that slides along a side of five boxes would then catch on every
+joint. Three steps prevent it:
 
-1. An answer counts if the hull as a whole supports it: the point must lie on the outside, and no part that holds the
-   point may reach farther along the normal (on a face: no other part may cover the face there).
-2. An answer that is not supported is replaced by the outer face of either part with the least overlap, if the parts
-   face each other there; if they do not, the neighbouring part has the contact.
-3. Contacts with one normal in one plane are one contact: the corners of their common outline are kept.
+1. A closest point counts if the hull as a whole supports it. The point must lie on the outside, and no part that holds
+   the point may reach farther along the normal. On a face, no other part may cover the face there.
+2. A closest point without support is replaced by the outer face of either part with the least overlap, if the parts
+   face each other there. If they do not, the neighbouring part has the contact.
+3. Contacts with one normal in one plane are one contact: the corners of their common outline remain.
 
-Hulls of one part, and hulls without planes (ship/hull.py), pass through unchanged, to the bit. Points and directions
-are in b of their hull [m], contacts in n.
+Hulls of one part, and hulls without planes (ship/hull/), pass through unchanged, to the bit. Points and directions are
+in b of their hull [m], contacts in n.
 """
 
 from __future__ import annotations
@@ -33,9 +33,11 @@ from .manifold import FEATURE_DEPTH, contact_manifold, facing_features, spread
 __all__ = ["CompoundHull", "merge_coplanar", "select_supported"]
 
 FLAT = 1e-3
-"""Angle [rad] within which a normal is that of a face, and two normals are one."""
+"""Angle [rad] within which a normal is that of a face, and two normals are one. Far above rounding, far below the angle
+between two faces of a hull."""
 STEP = 0.02
-"""How far [m] a point is moved off a face, and from its rim, to see what lies before the face."""
+"""How far [m] a point is moved off a face, and from its rim, to find what lies before the face. Less than the
+thinnest part, more than JOINT."""
 JOINT = 0.01
 """Distance [m] within which parts are joined; a part that reaches no farther than this along a normal supports it."""
 DEEPEST = 1.0
@@ -45,7 +47,7 @@ _SAME = 1.0 - 0.5 * FLAT**2
 
 
 class CompoundHull:
-    """What the parts of one hull hide of each other."""
+    """The parts of one hull, and which of their faces can be touched. whole: one part, or parts without planes."""
 
     def __init__(self, hull: HullMesh) -> None:
         self.parts = hull.parts
@@ -79,7 +81,7 @@ class CompoundHull:
         return any(self._holds(other, before, -0.1 * STEP) for other in range(len(self.parts)) if other != part)
 
     def outer_normals(self, part: int) -> Array:
-        """Outward normals (k, 3) of the faces of a part that can be touched; none of a whole hull is in question."""
+        """Outward normals (k, 3) of the faces of a part that can be touched; none of a whole hull."""
         return np.zeros((0, 3)) if self.whole else self._outer[part]
 
     def _holds(self, part: int, p: Array, margin: float) -> bool:
@@ -106,20 +108,20 @@ class CompoundHull:
 def select_supported(
     touching: list[Closest], one: CompoundHull, other: CompoundHull, states: tuple[BodyState, BodyState]
 ) -> list[Closest]:
-    """The answers for hulls a (`one`) and b (`other`) that the hulls as a whole support, deepest first.
+    """The closest points of hulls a (`one`) and b (`other`) that the hulls as a whole support, deepest first.
 
-    When none is, all of them as they are: hulls that overlap do touch.
+    Without any support, all of them as they are: hulls that overlap do touch.
     """
     if one.whole and other.whole:
         return touching
-    found = [c for c in (_supported(c, one, other, states) for c in touching) if c is not None]
+    found = [c for c in (_find_supported(c, one, other, states) for c in touching) if c is not None]
     return sorted(found or touching, key=lambda c: c.gap)
 
 
-def _supported(
+def _find_supported(
     closest: Closest, one: CompoundHull, other: CompoundHull, states: tuple[BodyState, BodyState]
 ) -> Closest | None:
-    """The answer itself if both hulls support it, else its replacement, else None."""
+    """The closest point itself if both hulls support it, else its replacement, else None."""
     if _both_support(closest, one, other, states):
         return closest
     a, b = states

@@ -1,12 +1,12 @@
-"""Where two hulls touch: Bullet's answer, cleaned until a solver can trust it.
+"""Contacts of two hulls: Bullet's closest points, corrected for the solver.
 
-1. A closest point at a positive distance is a prediction, not a contact: only gap <= 0 counts.
-2. Bullet gives one point, at an arbitrary place along a line or an area of contact. The contact points are the corners
-   of what the two facing features have in common (manifold.py).
-3. In deep overlap the direction of least overlap jumps, for a ship soon to the vertical: while the overlap is deeper
-   than SHALLOW the last normal from before is kept, turning with the hull whose face it belongs to.
-4. The convex parts of one hull are joined (compound_hull.py): faces and edges inside the hull give no contact, and what
-   the parts of a face have in contact is one contact.
+1. A closest point with a gap above zero is a prediction, not a contact.
+2. Bullet returns one point of a line or an area of contact, at an arbitrary place. The contact points are the corners
+   that the two facing features have in common (manifold.py).
+3. In deep overlap the direction of least overlap jumps, for a ship soon to the vertical. While the overlap is deeper
+   than SHALLOW, the last shallow normal is used. It turns with the hull whose face it belongs to.
+4. The convex parts of one hull are joined (compound_hull.py). Faces and edges inside the hull give no contact, and
+   contacts of several parts on one face are one contact.
 """
 
 from __future__ import annotations
@@ -29,24 +29,26 @@ from .plan_overlap import least_overlap
 __all__ = ["SHALLOW", "Detector", "LastNormals"]
 
 SHALLOW = 0.5
-"""Overlap [m] down to which Bullet's normal is taken: some steps of a fast approach, far below a hull's breadth, beyond
-which least overlap no longer tells the side that was struck."""
+"""Overlap [m] down to which Bullet's normal is taken. Smaller than a step of a fast approach, it would be skipped.
+Beyond half the breadth of a hull, least overlap points to the wrong side."""
 
 SAME_POINT = 0.5
-"""Contact points closer than this [m] are one point: different convex parts give the same one."""
+"""Contact points closer than this [m] are one point, found by several convex parts. With zero, it would count twice."""
 
 FLUSH = 1e-6
-"""Gap [m] at which a corner counts as touching when another one of the same face touches."""
+"""Gap [m] at which a corner counts as touching when another corner of the same face touches. With zero, the last
+bits of the gaps would decide how many corners of a flush face touch."""
 
 SMALL = 15.0
-"""Least extent [m] of a hull below which SAME_POINT and FEATURE_DEPTH shrink with it: a boat is met like a ship."""
+"""Least extent [m] of a hull below which SAME_POINT and FEATURE_DEPTH shrink in proportion. With zero, all contacts of
+a boat would be one point."""
 
 LastNormals = dict[tuple[int, int], tuple[int, list[float]]]
-"""Per pair of ships (a, b): which of them carries the last shallow normal, and that normal in its body frame."""
+"""Per pair (a, b): which body carries the last shallow normal (0: a, 1: b), and the normal in b of that body."""
 
 
 class Detector:
-    """Contacts and clearance between hulls. Holds no state that matters: the last normals belong to the caller."""
+    """Contacts and clearance between hulls. What a call returns depends on its arguments alone."""
 
     def __init__(self, hulls: Sequence[HullMesh]) -> None:
         self._hulls = tuple(hulls)
@@ -69,17 +71,17 @@ class Detector:
             last_normals.pop((a, b), None)
             return []
         one, other, scale = self._compounds[a], self._compounds[b], self._scale(a, b)
-        joined = not (one.whole and other.whole)
-        if joined:
+        compound = not (one.whole and other.whole)
+        if compound:
             touching = select_supported(touching, one, other, (states[a], states[b]))
         shallow = min(c.gap for c in touching) > -SHALLOW
         carried = None if shallow else last_normals.get((a, b))
-        if carried is None and not shallow:  # deep inside each other, and never seen apart
-            carried = last_normals[(a, b)] = self._level(a, b, touching, states)
+        if carried is None and not shallow:  # deep inside each other from the start
+            carried = last_normals[(a, b)] = self._plan_normal(a, b, touching, states)
         found: list[Contact] = []
         hidden: list[Contact] = []
         for closest in touching:
-            normal = closest.normal if carried is None else _turned(carried, states[a], states[b])
+            normal = closest.normal if carried is None else _turn_with_hull(carried, states[a], states[b])
             feature_a, feature_b = self._features(a, b, closest, normal, states, scale * FEATURE_DEPTH)
             if shallow and closest is touching[0]:
                 carrier = 0 if len(feature_a) > len(feature_b) else 1
@@ -93,21 +95,21 @@ class Detector:
             in_touch = [(point, gap) for point, gap in places if gap <= touch]
             for contact in make_contacts(a, b, states, in_touch, normal, axes):
                 # With a last normal, parts that pass each other along it or lie behind others have no contact.
-                inside = joined and not shallow and (not corners or self._is_inside(contact, closest, states))
+                inside = compound and not shallow and (not corners or self._is_inside(contact, closest, states))
                 (hidden if inside else found).append(contact)
-        return _distinct(merge_coplanar(found or hidden) if joined else found, scale * SAME_POINT)
+        return _remove_duplicates(merge_coplanar(found or hidden) if compound else found, scale * SAME_POINT)
 
     def facing(
         self, a: int, b: int, distance: float, states: Sequence[BodyState], last_normals: LastNormals
     ) -> Contact | None:
-        """The middle of what is nearer than `distance` [m] of two hulls, with the least gap; None: nothing."""
+        """One contact at the middle of what is nearer than `distance` [m], with the least gap; None: nothing."""
         near = self.bullet.closest(a, b, states, distance)
         if not near:
             return None
         nearest = min(near, key=lambda c: c.gap)
         gap, normal = nearest.gap, nearest.normal
         if gap <= -SHALLOW and (a, b) in last_normals:
-            normal = _turned(last_normals[a, b], states[a], states[b])
+            normal = _turn_with_hull(last_normals[a, b], states[a], states[b])
         depth = max(self._scale(a, b) * FEATURE_DEPTH, distance - gap)
         feature_a, feature_b = self._features(a, b, nearest, normal, states, depth)
         places = contact_manifold(feature_a, feature_b, contact_axes(normal)) or [
@@ -120,10 +122,10 @@ class Detector:
         middle: Array = sum((w / total * point for (point, _), w in zip(places, weights, strict=True)), np.zeros(3))
         return make_contact(a, b, states, middle, normal, gap)
 
-    def _level(
+    def _plan_normal(
         self, a: int, b: int, touching: Sequence[Closest], states: Sequence[BodyState]
     ) -> tuple[int, list[float]]:
-        """Level normal of least overlap of the two hulls' plans, carried by the ship whose side it belongs to."""
+        """Normal of least overlap of the two hulls in plan, carried by the body whose side it belongs to."""
         in_a = np.vstack([self._placed_part(a, i, states) for i in sorted({c.part_a for c in touching})])
         in_b = np.vstack([self._placed_part(b, i, states) for i in sorted({c.part_b for c in touching})])
         _, normal, carrier = least_overlap(in_a, in_b)
@@ -153,7 +155,7 @@ class Detector:
         return facing_features(in_a, in_b, normal, depth)
 
 
-def _distinct(contacts: list[Contact], apart: float) -> list[Contact]:
+def _remove_duplicates(contacts: list[Contact], apart: float) -> list[Contact]:
     """Contacts more than `apart` [m] from each other, the first of those that are nearer."""
     found: list[Contact] = []
     for contact in contacts:
@@ -162,7 +164,7 @@ def _distinct(contacts: list[Contact], apart: float) -> list[Contact]:
     return found
 
 
-def _turned(carried: tuple[int, list[float]], one: BodyState, other: BodyState) -> Array:
+def _turn_with_hull(carried: tuple[int, list[float]], one: BodyState, other: BodyState) -> Array:
     """The last normal of a pair in n, as it has turned with the hull that carries it."""
     carrier, normal_b = carried
     normal: Array = (one, other)[carrier].R @ np.array(normal_b)

@@ -1,7 +1,8 @@
-"""Two solids seen from above: by how much, and in which level direction, they overlap least.
+"""Overlap of two convex solids in plan: its least size, and the horizontal direction of it.
 
-Where hulls overlap deeply with no normal known from before (a start inside each other, a jump of a ship's position),
-the direction of least overlap in space is soon the vertical: a ship is lower than she is long. Ships part sideways.
+Used where hulls overlap deeply and have no last normal: a start inside each other, or a ship that the host has moved.
+The direction of least overlap in space would soon be the vertical, since a ship is lower than it is long. Ships part
+sideways.
 """
 
 from __future__ import annotations
@@ -17,11 +18,10 @@ __all__ = ["least_overlap"]
 
 
 def least_overlap(points_a: Array, points_b: Array) -> tuple[float, Array, int]:
-    """(overlap [m], level unit normal (3,) from a to b, whose side it is, 0 or 1) of the plans of two convex solids.
+    """(least overlap [m], horizontal unit normal (3,) from a to b, body whose side it is: 0 or 1), in plan.
 
-    Points (n, 3) in n.
-
-    Negative: the plans are apart, by at least so much. Separating axes: the sides of both plans.
+    points (n, 3): corners of either solid in n. A negative overlap is a distance: the plans are at least so far apart.
+    Method of separating axes, which are the sides of both plans.
     """
     plan_a, plan_b = (convex_polygon((float(x), float(y)) for x, y, _ in p) for p in (points_a, points_b))
     best, normal, owner = float("inf"), (1.0, 0.0), 0
