@@ -23,7 +23,7 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
-from shipcollision_fmu.manoeuvring.mmg import CALM, Machines, Mmg, Six
+from shipcollision_fmu.manoeuvring.mmg import CALM, Machines, Mmg, Orders, Six
 from shipcollision_fmu.manoeuvring.mmg_3dof import Mmg3Dof
 from shipcollision_fmu.manoeuvring.mmg_6dof import Mmg6Dof
 from shipcollision_fmu.ship.loading.library import load_ship
@@ -64,7 +64,7 @@ def ours(mmg: Mmg) -> Contender:
 
     def run() -> Measured:
         begin = process_time()
-        mmg.advance(eta, nu, Machines(HELM, REVOLUTIONS, (1.0, 0.0)), (HELM, REVOLUTIONS), CALM, DURATION, steps)
+        mmg.advance(eta, nu, Machines(HELM, REVOLUTIONS, (1.0, 0.0)), Orders(HELM, REVOLUTIONS), CALM, DURATION, steps)
         whole = 4 * steps / (process_time() - begin)
         return alone(lambda: mmg._derivative(x, HELM, REVOLUTIONS, CALM)), whole
 

@@ -21,7 +21,7 @@ from .propeller import Propeller
 from .rudder import Rudder
 from .wind import WindForces
 
-__all__ = ["CALM", "Forces", "Machines", "Mmg", "Six", "Surroundings"]
+__all__ = ["CALM", "Forces", "Machines", "Mmg", "Orders", "Six", "Surroundings"]
 
 
 class Surroundings(NamedTuple):
@@ -41,6 +41,13 @@ class Surroundings(NamedTuple):
 
 
 CALM = Surroundings(*[0.0] * 10)
+
+
+class Orders(NamedTuple):
+    """Ordered rudder angle [rad] and propeller speed [1/s], held over a step."""
+
+    rudder_angle: float
+    propeller_speed: float
 
 
 class Machines(NamedTuple):
@@ -119,18 +126,19 @@ class Mmg(ABC):
         """x + dt k."""
 
     def advance(
-        self, eta: Six, nu: Six, machines: Machines, orders: Sequence[float], around: Surroundings, h: float,
+        self, eta: Six, nu: Six, machines: Machines, orders: Orders, around: Surroundings, h: float,
         substeps: int,
     ) -> tuple[Six, Six, Machines]:  # fmt: skip
         """(eta, nu, machines) after h [s] in equal substeps; nu over ground in b about CO."""
         dt = h / substeps
         delta, n, gear = machines
+        rudder_order, propeller_order = orders
         x, moved, derivative = self._pack(eta, nu), self._add_scaled, self._derivative
         for _ in range(substeps):
-            delta_mid = self.steering.follow(delta, orders[0], 0.5 * dt)
-            delta_end = self.steering.follow(delta, orders[0], dt)
-            n_mid, _half = self.engine.follow(n, gear, orders[1], 0.5 * dt)
-            n_end, gear = self.engine.follow(n, gear, orders[1], dt)
+            delta_mid = self.steering.follow(delta, rudder_order, 0.5 * dt)
+            delta_end = self.steering.follow(delta, rudder_order, dt)
+            n_mid, _half = self.engine.follow(n, gear, propeller_order, 0.5 * dt)
+            n_end, gear = self.engine.follow(n, gear, propeller_order, dt)
             a = derivative(x, delta, n, around)
             b = derivative(moved(x, a, 0.5 * dt), delta_mid, n_mid, around)
             c = derivative(moved(x, b, 0.5 * dt), delta_mid, n_mid, around)

@@ -32,7 +32,7 @@ from ..ship.loading.library import Ship, load_ship
 from .actuators import NEUTRAL, Gear
 from .held_motions import project_start
 from .interface import ShipInputs, ShipOutputs, ShipParameters
-from .mmg import Forces, Machines, Mmg, Six, Surroundings
+from .mmg import Forces, Machines, Mmg, Orders, Six, Surroundings
 from .mmg_3dof import Mmg3Dof
 from .mmg_6dof import Mmg6Dof
 
@@ -223,7 +223,7 @@ class ShipManoeuvring:
         machines = Machines(before.rudder_angle, before.propeller_speed, before.gear)
         try:
             eta, nu, machines = mmg.advance(
-                before.eta, nu, machines, (i.rudder_order, i.propeller_order), self._surroundings(), h, substeps
+                before.eta, nu, machines, Orders(i.rudder_order, i.propeller_order), self._surroundings(), h, substeps
             )  # fmt: skip
         except (OverflowError, ValueError, ZeroDivisionError):  # the cosine of infinity
             raise StepError(

@@ -8,7 +8,7 @@ from math import radians
 
 import pytest
 
-from shipcollision_fmu.manoeuvring.mmg import CALM, Machines, Six
+from shipcollision_fmu.manoeuvring.mmg import CALM, Machines, Orders, Six
 from shipcollision_fmu.manoeuvring.mmg_3dof import Mmg3Dof
 from shipcollision_fmu.ship.loading.library import list_ship_names, load_ship
 
@@ -90,5 +90,5 @@ def _stopped(factor: float) -> float:
     nu: Six = (U, 0.0, 0.0, 0.0, 0.0, 0.0)
     machines = Machines(0.0, n, (1.0, 0.0))
     while nu[0] > 0.0:
-        eta, nu, machines = mmg.advance(eta, nu, machines, [0.0, -1.0], CALM, 5.0, 10)
+        eta, nu, machines = mmg.advance(eta, nu, machines, Orders(0.0, -1.0), CALM, 5.0, 10)
     return eta[0] / ship.L_pp
