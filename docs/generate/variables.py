@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from itertools import product
 
 from shipcollision_fmu.fmi.arrays import TIME, ArrayVariable, gather_arrays
-from shipcollision_fmu.fmi.builder.model_description import start
+from shipcollision_fmu.fmi.builder.model_description import format_start
 from shipcollision_fmu.fmi.interface import SHIPS, Interface
 from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
@@ -40,7 +40,7 @@ def _page(interface: Interface) -> str:
     access = interface.make_access(SHIPS)
     lines, gathered = access.table, gather_arrays(access.table)
     starts = [
-        start(variable, reference, access) if variable.causality != "output" else ""
+        format_start(variable, reference, access) if variable.causality != "output" else ""
         for reference, variable in enumerate(lines)
     ]
     shown = [array for array in gathered if not array.name.startswith(tuple(f"{ship}." for ship in SHIPS[1:]))]
