@@ -7,11 +7,12 @@
       approaching_ship.py    speed, current and helm orders of both ships before the impact
       approach_track.py      poses of a ship at every communication point up to the impact
       targeting.py           corrects the tracks until the collision model finds the impact at the place
-      earlier_contact.py     refuses tracks whose hulls overlap before the impact
+      earlier_overlap.py     refuses tracks whose hulls overlap before the impact
       encounter_file.py      writes the scenario file
     imazu.py               imazu(): the 22 cases of Imazu's problem
     traffic/               traffic_scenario(): a traffic situation in JSON becomes a scenario file
     ship_table.py          the table [ships.NAME] that all three write
+    units.py               knots
 
 Data flow: Request -> PlannedImpact and ApproachingShip -> Approach (two tracks) -> text -> Scenario.
 Imports from: scenario, manoeuvring (trials, model), collision (model), ship. Used by: cli and users of the package.

@@ -5,7 +5,7 @@
     plan_approaching_ships   speeds, current, helm orders                           approaching_ship.py
     make_track               the way to the impact, straight or sailed              approach_track.py
     aim_track                corrected until the collision model agrees             targeting.py
-    check_no_earlier_contact hulls apart until the impact                           earlier_contact.py
+    check_no_earlier_overlap hulls apart until the impact                           earlier_overlap.py
     write_encounter          the scenario file                                      encounter_file.py
 
 An impact that the request rules out is refused: hulls that do not close at the place, or that lie along each other.
@@ -26,7 +26,7 @@ from ..errors import ScenarioError
 from ..scenario.scenario import Scenario, parse_scenario
 from .approach_track import compute_relative_velocity, make_track, sail_as_in_run, shift_track
 from .approaching_ship import ApproachingShip, plan_approaching_ships
-from .earlier_contact import check_no_earlier_contact
+from .earlier_overlap import check_no_earlier_overlap
 from .encounter_file import Approach, write_encounter
 from .plan_contact import find_contacts
 from .planned_impact import PlannedImpact, describe_impact, plan_impact
@@ -92,7 +92,7 @@ def encounter(request: Request | str, directory: str | Path = ".", **options: An
     current, own, target = plan_approaching_ships(request, kind, sailed, steps)
     with closing(ImpactFinder(own, target, steps, request.step)) as finder:
         approach = _aim(request, impact, own, target, current, steps, finder)
-        check_no_earlier_contact(
+        check_no_earlier_overlap(
             approach.own_track, approach.target_track, impact.sections, impact.deck, steps, request.step
         )
         text, scenario = _write_as_run(

@@ -26,11 +26,10 @@ from ..scenario.toml_writer import format_toml
 from .encounter_file import CONTACT_LAW
 from .request import FASTEST, LONGEST, count_steps
 from .ship_table import build_ship_table, refer_to_ship, require_manoeuvring, round_off
+from .units import KNOT
 
-__all__ = ["COURSES", "KNOT", "SLOW", "Imazu", "imazu", "imazu_from_options"]
+__all__ = ["COURSES", "SLOW", "Imazu", "imazu", "imazu_from_options"]
 
-KNOT = 1852.0 / 3600.0
-"""[m/s], exact by definition."""
 COURSES: dict[int, tuple[int, ...]] = {
     1: (180,), 2: (270,), 3: (0,), 4: (45,),
     5: (180, 270), 6: (350, 315), 7: (0, 315), 8: (180, 270), 9: (330, 270), 10: (270, 15), 11: (90, 330),

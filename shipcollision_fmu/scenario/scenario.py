@@ -21,8 +21,8 @@ from ..ship.tables.table import Table
 from .initial_overlap import refuse_overlap
 from .tables.collision import Collision
 from .tables.environment import Environment
+from .tables.header import Algorithm, Header
 from .tables.reference import Reference
-from .tables.run import Algorithm, Header
 from .tables.ship_start import ShipStart
 
 __all__ = ["RESERVED", "Scenario", "list_scenario_names", "load_scenario", "parse_scenario"]

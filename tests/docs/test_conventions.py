@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from docs.generate.frames import FIGURE, GLTF_FROM_N, svg
-from shipcollision_fmu.encounters.imazu import KNOT
+from shipcollision_fmu.encounters.units import KNOT
 from shipcollision_fmu.results.published import paper_quantities
 from shipcollision_fmu.scenario.tables.environment import Environment
 from shipcollision_fmu.scenario.tables.ship_start import ShipStart

@@ -11,8 +11,8 @@ import pytest
 from shipcollision_fmu.errors import ScenarioError
 from shipcollision_fmu.scenario.order_schedule import schedule_orders
 from shipcollision_fmu.scenario.scenario import list_scenario_names, load_scenario
+from shipcollision_fmu.scenario.tables.header import Header
 from shipcollision_fmu.scenario.tables.orders import Order
-from shipcollision_fmu.scenario.tables.run import Header
 from shipcollision_fmu.scenario.tables.ship_start import ShipStart
 from shipcollision_fmu.ship.frames import rotation
 from tests.conftest import Write

@@ -18,7 +18,7 @@ from ...errors import ScenarioError
 from ...scenario.tables.autopilot import SHORTEST_LEG
 from ...scenario.toml_writer import format_toml
 from ...ship.tables.particulars import RHO_SEA
-from ..imazu import KNOT
+from ..units import KNOT
 from .schema import Dimensions, Initial, Position, Static, TrafficShip
 from .tangent_plane import TangentPlane
 

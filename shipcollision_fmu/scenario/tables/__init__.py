@@ -1,6 +1,6 @@
 """The tables of a scenario file, one pydantic model each, with the description, unit and limits of every key.
 
-    [scenario]             run.py           Header: name, duration, step, algorithm
+    [scenario]             header.py        Header: name, duration, step, algorithm
     [ships.NAME]           ship_start.py    ShipStart: ship, position, heading, speed, rates, and the keys below
       orders               orders.py        Order: rudder, heading or revolutions at a time
       autopilot, route     autopilot.py     AutopilotTable, RouteTable

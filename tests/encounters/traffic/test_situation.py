@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 
 from shipcollision_fmu import load_scenario, simulate
-from shipcollision_fmu.encounters.imazu import KNOT
 from shipcollision_fmu.encounters.traffic.situation import TrafficScenario, traffic_scenario
 from shipcollision_fmu.encounters.traffic.tangent_plane import TangentPlane
+from shipcollision_fmu.encounters.units import KNOT
 from shipcollision_fmu.errors import ScenarioError
 from shipcollision_fmu.scenario.scenario import Scenario
 

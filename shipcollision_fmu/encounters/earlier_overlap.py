@@ -16,7 +16,7 @@ from ..ship.ship_state import ShipState
 from .plan_contact import measure_gap, move_polygon
 from .request import FASTEST
 
-__all__ = ["check_no_earlier_contact"]
+__all__ = ["check_no_earlier_overlap"]
 
 DEEPEST = 0.03
 """[m] Overlap of the sections that is not yet a contact of its own. It must exceed the overlap that targeting leaves at
@@ -25,7 +25,7 @@ LAST = 0.01
 """[s] Overlap in the last communication step, and so long before it, belongs to the impact: a default substep."""
 
 
-def check_no_earlier_contact(
+def check_no_earlier_overlap(
     own: Sequence[ShipState],
     target: Sequence[ShipState],
     sections: Mapping[str, Array],
