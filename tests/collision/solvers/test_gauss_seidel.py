@@ -101,6 +101,14 @@ def test_every_patch_is_solved(scatter: float) -> None:
     assert {p: r for p, r in missed.items() if r > 1e-10} == {}
 
 
+@pytest.mark.parametrize("case", [(35, 3, 4, 1.0), (22, 6, 4, 1.0), (26, 6, 4, 1.0), (11, 8, 6, 1.0), (9, 6, 4, 1.0)])
+def test_wedges_are_solved_by_newtons_method_and_aclm_in_turns(case: tuple[int, int, int, float]) -> None:
+    """Patches with normals up to a wedge apart. Newton's method alone leaves the first four unsolved, ACLM alone the
+    fifth."""
+    seed, k, dof, mu = case
+    assert solve_gauss_seidel(*encounter(seed, k, dof, 0.5), mu).residual <= 1e-10
+
+
 @pytest.mark.parametrize("case", [(35, 2, 3, 1.0), (26, 6, 4, 1.0), (22, 6, 6, 1.0), (32, 3, 6, 0.6)])
 def test_the_convex_sequence_alone_gets_there(case: tuple[int, int, int, float]) -> None:
     """From nothing, and to the same motion as the solver's."""
