@@ -113,11 +113,11 @@ class ShipCollision:
             except Exception:
                 self.set_state(saved)
                 raise
+            self.warning = self._totals.describe_unconverged(t, H)
         else:
             points = []
             self._collisions.close_old(t)
             self._advance_others(H, states, ())
-        self.warning = self._totals.describe_unconverged(t, H)
         self._publish(t, H, states, points, candidates)
 
     def _receive(self, t: float, H: float) -> tuple[list[BodyState], list[Pair]]:
