@@ -156,7 +156,7 @@ def _measure_height(axes: Axes) -> float:
 
 
 def _find_outline(ship: Ship, time: float) -> Array:
-    """The ship from above, (k, 2) of north and east: the convex hull of her hull's plan."""
+    """Outline of a ship in plan, (k, 2) north and east [m]: the convex hull of its vertices."""
     position, quaternion = ship.track.at(time)
     return _find_convex_hull((position + ship.hull.vertices @ rotation_from_quaternion(quaternion).T)[:, :2])
 
