@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -51,6 +51,15 @@ class ContactCaches:
 
     last_normals: LastNormals = field(default_factory=dict)
     warm_starts: WarmStarts = field(default_factory=dict)
+
+    def forget_parted(self, near: Container[tuple[int, int]]) -> None:
+        """Drop the impulses of the pairs that are not near each other in this communication step.
+
+        An elastic ship that comes back to a wall would start from its last visit, and solve the impact only to the
+        tolerance of the solver: its energy would be off by 5e-12 instead of 3e-15 of itself.
+        """
+        for pair in [pair for pair in self.warm_starts if pair not in near]:
+            del self.warm_starts[pair]
 
     def get_state(self) -> dict[str, Any]:
         """All of it as plain data."""

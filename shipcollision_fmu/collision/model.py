@@ -117,6 +117,7 @@ class ShipCollision:
         else:
             points = []
             self._collisions.close_old(t)
+            self._caches.forget_parted(())
             self._advance_others(H, states, ())
         self._publish(t, H, states, points, candidates)
 
@@ -124,14 +125,15 @@ class ShipCollision:
         """States of all bodies, and the pairs that may come near each other."""
         active = self._exchange.receive_active(t, H)
         candidates = self._proximity.find_candidates(active, self.inputs.ships, H)
-        wanted = {i for pair in candidates for i in pair}
-        return self._exchange.receive_others(t, H, active, wanted) + self._walls, candidates
+        met = {i for pair in candidates for i in pair}
+        return self._exchange.receive_others(t, H, active, met) + self._walls, candidates
 
     def _take_substeps(
         self, t: float, H: float, near: dict[Pair, float], states: list[BodyState], detector: Detector
     ) -> list[ContactPoint]:
         """Take the states through the step; the contact points of it. near: pairs and their gaps."""
         self._collisions.close_old(t)
+        self._caches.forget_parted(near)
         self._advance_others(H, states, {i for pair in near for i in pair})
         fenders = select_fenders(self._bodies, list(near))
         schedule = ConservativeAdvancement(
