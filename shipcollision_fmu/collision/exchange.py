@@ -58,11 +58,11 @@ class ShipExchange:
         ]
 
     def receive_others(
-        self, t: float, H: float, active: Sequence[BodyState | None], wanted: Container[int]
+        self, t: float, H: float, active: Sequence[BodyState | None], included: Container[int]
     ) -> list[BodyState]:
-        """States of all ships: the active ones, those of the quiet ships that are wanted, ABSENT for the rest."""
+        """States of all ships: the active ones, those of the quiet ships in `included`, ABSENT for the rest."""
         return [
-            state if state is not None else self._receive(i, t, H) if i in wanted else ABSENT
+            state if state is not None else self._receive(i, t, H) if i in included else ABSENT
             for i, state in enumerate(active)
         ]
 

@@ -108,12 +108,12 @@ class ObstacleTable(Table):
 
     @model_validator(mode="after")
     def _fits_its_shape(self) -> ObstacleTable:
-        wanted = {"box": ("length", "breadth"), "cylinder": ("diameter",), "polygon": ("points",)}
-        for shape, keys in wanted.items():
+        required = {"box": ("length", "breadth"), "cylinder": ("diameter",), "polygon": ("points",)}
+        for shape, keys in required.items():
             for key in keys:
                 given = getattr(self, key) is not None
                 if given != (shape == self.shape):
-                    said = f"shape = {self.shape!r} takes {' and '.join(wanted[self.shape])}"
+                    said = f"shape = {self.shape!r} takes {' and '.join(required[self.shape])}"
                     raise ValueError(f"{said}: {'remove' if given else 'give'} {key}")
         return self
 

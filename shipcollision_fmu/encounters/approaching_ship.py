@@ -51,17 +51,21 @@ def plan_approaching_ships(
     """
     own_speed = value_or_default(request.own_speed, kind.own_speed)
     target_speed = value_or_default(request.target_speed, kind.target_speed)
-    drift_speed, drift = value_or_default(request.drift_speed, kind.drift_speed), radians(request.drift_deg)
+    drift_speed, drift_angle = value_or_default(request.drift_speed, kind.drift_speed), radians(request.drift_deg)
     free = request.degrees_of_freedom or 3
     if not sailed:
         return (
             (0.0, 0.0),
             ApproachingShip(request.own, own_speed, 0.0, None, free),
             ApproachingShip(
-                request.target, target_speed + drift_speed * cos(drift), drift_speed * sin(drift), None, free
+                request.target,
+                target_speed + drift_speed * cos(drift_angle),
+                drift_speed * sin(drift_angle),
+                None,
+                free,
             ),
         )
-    towards = radians(request.heading_deg) + drift
+    towards = radians(request.heading_deg) + drift_angle
     current = (round(drift_speed * cos(towards), 9), round(drift_speed * sin(towards), 9))
     own, target = (
         ApproachingShip(file, speed, 0.0, (_order_straight_course(file, speed),), free)

@@ -173,13 +173,13 @@ class ModelSlave3(SlaveBase, Fmi3Slave):  # type: ignore[misc]  # pythonfmu3 has
 
     def _scalars(self, vrs: Sequence[int], kind: Kind) -> list[int]:
         """References in the table of all elements, one after the other. Raises InputError for one of another kind."""
-        wanted = (kind, *vrs)
-        plan = self._plans.get(wanted)
+        request = (kind, *vrs)
+        plan = self._plans.get(request)
         if plan is None:
             plan = [scalar for vr in vrs for scalar in self._array(vr, kind).references]
             if len(self._plans) >= _PLANS:
                 self._plans.clear()
-            self._plans[wanted] = plan
+            self._plans[request] = plan
         return plan
 
     def _array(self, vr: int, kind: Kind) -> ArrayVariable:

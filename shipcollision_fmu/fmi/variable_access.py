@@ -85,13 +85,13 @@ class VariableAccess:
         for name, value in start.items():
             reference = self.references([name])[0]
             variable = self.table[reference]
-            wanted: Any = float(value) if variable.kind == "Real" and type(value) is int else value
-            if type(wanted) is not _TYPES[variable.kind] or (variable.items and wanted not in variable.items):
+            start_value: Any = float(value) if variable.kind == "Real" and type(value) is int else value
+            if type(start_value) is not _TYPES[variable.kind] or (variable.items and start_value not in variable.items):
                 raise InputError(f"{self.name}: {name} = {value!r} is not a value of {variable.kind}")
             if variable.causality == "output":
                 raise self._not_settable(variable.kind, reference)
             container, key = self._cells[reference]
-            container[key] = wanted
+            container[key] = start_value
         self._fresh = self._now(self._cells)
         self._dirty = True
 
@@ -108,10 +108,10 @@ class VariableAccess:
         """Values of Reals."""
         if self._dirty:
             self._refresh(references)
-        wanted = tuple(references)
-        plan = self._reading.get(wanted)
+        request = tuple(references)
+        plan = self._reading.get(request)
         if plan is None:
-            plan = self._plan(self._reading, self._get["Real"], wanted, self._no_such)
+            plan = self._plan(self._reading, self._get["Real"], request, self._no_such)
         return [container[key] for container, key in plan]
 
     def get_integer(self, references: Sequence[int]) -> list[int]:
@@ -130,10 +130,10 @@ class VariableAccess:
 
     def set_real(self, references: Sequence[int], values: Sequence[float]) -> None:
         """Set Reals."""
-        wanted = tuple(references)
-        plan = self._writing.get(wanted)
+        request = tuple(references)
+        plan = self._writing.get(request)
         if plan is None:
-            plan = self._plan(self._writing, self._can_set["Real"], wanted, self._not_settable)
+            plan = self._plan(self._writing, self._can_set["Real"], request, self._not_settable)
         if len(plan) != len(values):
             raise InputError(f"{self.name}: {len(values)} values for {len(plan)} variables")
         for (container, key), value in zip(plan, values, strict=True):
@@ -334,16 +334,16 @@ class VariableAccess:
 
     @staticmethod
     def _plan(
-        plans: Plans, cells: dict[int, Cell], wanted: tuple[int, ...], refuse: Callable[[Kind, int], InputError]
+        plans: Plans, cells: dict[int, Cell], request: tuple[int, ...], refuse: Callable[[Kind, int], InputError]
     ) -> list[Cell]:
-        """Where the values of `wanted` lie. Kept, up to a limit: hosts ask for the same sets again and again."""
-        for reference in wanted:
+        """Where the values of `request` lie. Kept, up to a limit: hosts ask for the same sets again and again."""
+        for reference in request:
             if reference not in cells:
                 raise refuse("Real", reference)
         if len(plans) >= _PLANS:
             plans.clear()
-        plans[wanted] = [cells[reference] for reference in wanted]
-        return plans[wanted]
+        plans[request] = [cells[reference] for reference in request]
+        return plans[request]
 
     def _no_such(self, kind: Kind, reference: int) -> InputError:
         if not 0 <= reference < len(self.table):

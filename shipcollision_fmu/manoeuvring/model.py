@@ -126,8 +126,8 @@ class ShipManoeuvring:
     def _prepare(self) -> _SetUp:
         """The set-up for the parameters, kept while they are unchanged."""
         p = self.parameters
-        wanted = (p.ship, p.degrees_of_freedom, p.hydrodynamics, p.substep)
-        if self._set_up is not None and self._set_up.parameters == wanted:
+        parameters = (p.ship, p.degrees_of_freedom, p.hydrodynamics, p.substep)
+        if self._set_up is not None and self._set_up.parameters == parameters:
             return self._set_up
         substep = p.substep
         if not (isfinite(substep) and substep > 0.0):
@@ -142,7 +142,7 @@ class ShipManoeuvring:
                     f"substep = {substep} s is too long for the heave, roll or pitch of ship {ship.name!r}: must be at "
                     f"most {mmg.shortest_time:.3g} s, a sixth of its shortest period"
                 )
-        return _SetUp(wanted, ship, p.degrees_of_freedom, upright, upright.tolist(), mmg, substep)
+        return _SetUp(parameters, ship, p.degrees_of_freedom, upright, upright.tolist(), mmg, substep)
 
     # -- a step ---------------------------------------------------------------------------------------------------
 

@@ -156,14 +156,14 @@ def find_dependencies(variable: Variable, table: Table) -> list[int]:
     """Value references, in order, of what an output depends on at the start. Raises ValueError for a name that is
     nowhere in the table."""
     found: set[int] = set()
-    for wanted in variable.depends_on or ():
+    for source in variable.depends_on or ():
         named = {
             reference
             for reference, other in enumerate(table)
-            if other.causality != "output" and (other.name == wanted or other.name.startswith(f"{wanted}."))
+            if other.causality != "output" and (other.name == source or other.name.startswith(f"{source}."))
         }
         if not named:
-            raise ValueError(f"variable {variable.name} depends on {wanted!r}, which is no parameter or input")
+            raise ValueError(f"variable {variable.name} depends on {source!r}, which is no parameter or input")
         found |= named
     return sorted(found)
 

@@ -157,9 +157,9 @@ def _check_whole(path: Path, size: int) -> None:
     if b"\0" not in head or len(head) < 84:  # text
         return
     count = int.from_bytes(head[80:84], "little")
-    if size < (wanted := 84 + 50 * count):
+    if size < (whole := 84 + 50 * count):
         raise ShipError(
-            f"{path.name}: is cut short: its {count} triangles take {wanted} bytes, and it has {size}: export it again"
+            f"{path.name}: is cut short: its {count} triangles take {whole} bytes, and it has {size}: export it again"
         )
 
 

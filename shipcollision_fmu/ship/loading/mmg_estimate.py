@@ -254,6 +254,6 @@ def _solve_self_propulsion(d: Dimensions, R_0: float, propeller: Mapping[str, fl
     U, D = propeller["service_speed"], propeller["D_p"]
     k_0, k_1, k_2 = propeller["k_0"], propeller["k_1"], propeller["k_2"]
     u_P = U * (1.0 - propeller["w_P0"])
-    wanted = 0.5 * d.L * d.T * R_0 * U * U / ((1.0 - propeller["t_P"]) * D * D)  # thrust over rho D_p^2
-    b, c = k_1 * u_P, k_2 * u_P * u_P - wanted
+    thrust = 0.5 * d.L * d.T * R_0 * U * U / ((1.0 - propeller["t_P"]) * D * D)  # thrust over rho D_p^2
+    b, c = k_1 * u_P, k_2 * u_P * u_P - thrust
     return (-b + sqrt(max(0.0, b * b - 4.0 * k_0 * c))) / (2.0 * k_0) / D

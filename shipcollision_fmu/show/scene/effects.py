@@ -63,17 +63,17 @@ def make_effects(run: RunFolder, scratches: tuple[Scratch, ...]) -> tuple[Effect
     found = []
     for event in run.events.scratches:
         borne = [scratch for scratch in scratches if scratch.id == event.id]
-        struck = min(borne, key=lambda scratch: scratch.points[0, 0] / lengths[scratch.ship])
+        scratch_on_ship = min(borne, key=lambda scratch: scratch.points[0, 0] / lengths[scratch.ship])
         dissipated = float(energy[number == event.id].sum())
         intensity = float(np.clip(np.cbrt(max(dissipated, 0.0) / E_FULL), FAINTEST, 1.0))
         for k, (kind, (delay, duration)) in enumerate(KINDS.items()):
             found.append(
                 Effect(
                     kind,
-                    struck.ship,
+                    scratch_on_ship.ship,
                     event.id,
-                    struck.points[0],
-                    struck.normals[0],
+                    scratch_on_ship.points[0],
+                    scratch_on_ship.normals[0],
                     event.start + delay * intensity,
                     duration * intensity,
                     intensity,
