@@ -1,4 +1,4 @@
-"""The response "closed_form" in a sailing world: books, energy, invariances; and the reduction to one contact."""
+"""The response "closed_form", the impact process, between ships: ledger, energy, symmetries, resultant contact."""
 
 from __future__ import annotations
 
@@ -29,7 +29,9 @@ HEAD_ON = [
 
 @pytest.mark.parametrize("restitution", [0.0, 0.5])
 @pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
-def test_collision_keeps_the_books(make_ship: MakeShip, world: MakeWorld, algorithm: str, restitution: float) -> None:
+def test_collision_balances_the_ledger(
+    make_ship: MakeShip, world: MakeWorld, algorithm: str, restitution: float
+) -> None:
     """Impulses balance, linear and about n's origin; a sequential master's energy falls by what is reported."""
     ships = [make_ship("one"), make_ship("other", mass=50e6)]
     w = world(ships, CROSSING, response="closed_form", friction=0.3, restitution=restitution, algorithm=algorithm)

@@ -1,4 +1,4 @@
-"""The impulse of one impact in closed form: stick, or slide in the direction of the first slip. Newton's restitution.
+"""Newton's impact of one contact, algebraic: stick, or slide in the direction of the first slip. An oracle.
 
     v      = G_b nu_b - G_a nu_a             relative velocity, (n, t1[, t2]);  v_n < 0 on approach      [m/s]
     v+     = v + W P                         W from delassus.py, P on ship b, -P on ship a               [N s]
@@ -9,10 +9,10 @@
 
     E_n = -P_n (v_n + v_n+)/2       E_t = -P_t.(v_t + v_t+)/2       E_n + E_t = energy lost            [J]
 
-Guan et al. (2014) carry the impulse over to the ships, equations (3)-(4), and print no equation for the impulse itself.
-This completes them, with M the full 6 x 6 mass and added mass of each ship, any contact height and any initial rates.
-Their own four degrees of freedom, angles and symbols, and what had to be corrected, are in guan2014.py. With e = 0 and
-in the plane it is the solution of Pedersen and Zhang (1998): their impulse ratio mu* is |P_t|/P_n at stick.
+Guan et al. (2014) apply the impulse to the ships in equations (3)-(4) and print no equation for the impulse itself. The
+equations above complete theirs, with the 6 x 6 mass and added mass of each ship, and any contact height and rates.
+Their four degrees of freedom, angles and symbols, and the corrections, are in guan2014.py. With e = 0 and in the plane
+the impulse is that of Pedersen and Zhang (1998): their impulse ratio mu* is |P_t|/P_n at stick.
 
 Limits, known and tested:
 
@@ -20,7 +20,8 @@ Limits, known and tested:
 - "Slide in the direction of the first slip" may end in slip the other way.
 - The split E_n, E_t holds for a constant P_t/P_n; at stick E_t may be slightly negative. Only the sum is invariant.
 
-impact_process.py has none of these and answers contact; this file is the reference that the literature uses.
+collision/solvers/impact_process.py has none of these limits and answers contact. The algebraic form is the reference of
+the literature.
 
 Sources: Guan et al. (2014); Pedersen and Zhang (1998), Marine Structures 11:429-449; Brach (1991), Mechanical Impact
 Dynamics.
@@ -39,7 +40,7 @@ from shipcollision_fmu.ship.frames import Array
 __all__ = ["NewtonImpact", "solve_newton_impact", "stick_energy"]
 
 STILL = 1e-12
-"""Slip, as a share of the approach speed, that counts as none: the direction of less is chance, made by rounding."""
+"""Slip, as a share of the approach speed, that counts as none: the direction of a smaller slip is rounding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,7 +75,7 @@ def solve_newton_impact(W: Array, v: Array, mu: float, e: float) -> NewtonImpact
         felt = float(W[0, 0] - mu * W[0, 1:] @ D)
         if felt <= 0.0:
             raise StepError(
-                f"the closed form for sliding has no solution: W_nn - mu W_nt.D = {felt:g} 1/kg at mu = {mu:g} must be "
+                f"sliding has no solution: W_nn - mu W_nt.D = {felt:g} 1/kg at mu = {mu:g} must be "
                 "> 0: take less friction, or follow the slip (solve_impact_process)"
             )
         P = -float(target[0]) / felt * np.concatenate([[1.0], -mu * D])

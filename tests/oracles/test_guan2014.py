@@ -72,7 +72,7 @@ def solved(case: Case, e: float | None = None) -> GuanImpact:
 
 
 @given(cases())
-def test_general_form_is_the_closed_form_in_four_degrees_of_freedom(case: Case) -> None:
+def test_the_general_form_is_guans_in_four_degrees_of_freedom(case: Case) -> None:
     W, v, *_ = general(case)
     r = solved(case)
     size = max(r.W_nn, r.W_tt)

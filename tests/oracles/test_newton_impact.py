@@ -1,4 +1,4 @@
-"""The closed form of one impact: its own identities, and the limits that its docstring states."""
+"""Newton's impact of one contact: its identities, and the limits that its docstring states."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ PLASTIC = st.just(0.0)
 
 
 def solved(impact: Impact) -> NewtonImpact:
-    """The closed form, of an impact to which it applies."""
+    """Newton's solution of an impact that has one."""
     try:
         return solve_newton_impact(impact.W, impact.v, impact.mu, impact.e)
     except StepError:
@@ -101,7 +101,7 @@ def test_newtons_restitution_creates_energy_in_some_random_geometries() -> None:
 def test_sliding_formula_says_where_it_has_no_solution() -> None:
     W = np.array([[0.4, 0.5, 0.0], [0.5, 3.0, 0.0], [0.0, 0.0, 0.6]])
     v = np.array([-1.0, 12.0, -16.0])
-    with pytest.raises(StepError, match=r"for sliding has no solution: W_nn - mu W_nt.D = -0.2 1/kg at mu = 2 must be"):
+    with pytest.raises(StepError, match=r"sliding has no solution: W_nn - mu W_nt.D = -0.2 1/kg at mu = 2 must be"):
         solve_newton_impact(W, v, 2.0, 0.0)
     assert solve_impact_process(W, v, 2.0, 0.0).after[0] == pytest.approx(0.0, abs=1e-12)
 

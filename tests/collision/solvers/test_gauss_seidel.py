@@ -1,4 +1,4 @@
-"""Projected Gauss-Seidel: what any solution must satisfy, over random ships and contacts."""
+"""Block projected Gauss-Seidel: what any solution satisfies, over random ships and contacts."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ MU = st.just(0.0) | floats(0.2, 1.0)
 STEEP = st.just(0.0) | floats(0.01, 0.7) | floats(-0.7, -0.01)
 
 
-def encounter(
+def random_patch(
     seed: int, contacts: int, degrees_of_freedom: int = 6, scatter: float = 0.0
 ) -> tuple[np.ndarray, np.ndarray]:
     """W and v of two random ships with added mass that touch at points within some metres of each other. scatter: how
@@ -73,7 +73,7 @@ def check_solution(W: np.ndarray, v: np.ndarray, mu: float, P: np.ndarray, accur
 
 @given(SEEDS, SHARE, st.sampled_from([3, 4, 6]))
 def test_one_contact_is_solved_exactly(seed: int, mu: float, dof: int) -> None:
-    W, v = encounter(seed, 1, dof)
+    W, v = random_patch(seed, 1, dof)
     assume(v[0] < 0.0)
     solution = solve_gauss_seidel(W, v, mu)
     assert solution.sweeps == 1
@@ -83,7 +83,7 @@ def test_one_contact_is_solved_exactly(seed: int, mu: float, dof: int) -> None:
 
 @given(SEEDS, st.integers(2, 4), SHARE, st.sampled_from([3, 4, 6]))
 def test_several_contacts_obey_the_law(seed: int, contacts: int, mu: float, dof: int) -> None:
-    W, v = encounter(seed, contacts, dof)
+    W, v = random_patch(seed, contacts, dof)
     assume(v[0::3].min() < 0.0)
     solution = solve_gauss_seidel(W, v, mu)
     assert solution.residual == pytest.approx(law_residual(W, v, mu, solution.P) / -v[0::3].min(), abs=1e-12)
@@ -97,7 +97,7 @@ def test_every_patch_is_solved(scatter: float) -> None:
     patches = [
         (seed, k, dof, mu) for dof in (3, 4, 6) for k in (2, 4, 6) for mu in (0.0, 0.3, 1.0) for seed in range(15)
     ]  # fmt: skip
-    missed = {p: solve_gauss_seidel(*encounter(*p[:3], scatter), p[3]).residual for p in patches}
+    missed = {p: solve_gauss_seidel(*random_patch(*p[:3], scatter), p[3]).residual for p in patches}
     assert {p: r for p, r in missed.items() if r > 1e-10} == {}
 
 
@@ -106,14 +106,14 @@ def test_wedges_are_solved_by_newtons_method_and_aclm_in_turns(case: tuple[int, 
     """Patches with normals up to a wedge apart. Newton's method alone leaves the first four unsolved, ACLM alone the
     fifth."""
     seed, k, dof, mu = case
-    assert solve_gauss_seidel(*encounter(seed, k, dof, 0.5), mu).residual <= 1e-10
+    assert solve_gauss_seidel(*random_patch(seed, k, dof, 0.5), mu).residual <= 1e-10
 
 
 @pytest.mark.parametrize("case", [(35, 2, 3, 1.0), (26, 6, 4, 1.0), (22, 6, 6, 1.0), (32, 3, 6, 0.6)])
-def test_the_convex_sequence_alone_gets_there(case: tuple[int, int, int, float]) -> None:
-    """From nothing, and to the same motion as the solver's."""
+def test_aclm_alone_solves_these_patches(case: tuple[int, int, int, float]) -> None:
+    """From zero impulses, to the law of contact."""
     seed, k, dof, mu = case
-    W, v = encounter(seed, k, dof, 0.5)
+    W, v = random_patch(seed, k, dof, 0.5)
     P, wanted = np.zeros((k, 3)), 1e-9 * -v[0::3].min()
     for _ in range(20):
         P = solve_aclm(W, v, mu, P, wanted)
@@ -123,7 +123,7 @@ def test_the_convex_sequence_alone_gets_there(case: tuple[int, int, int, float])
 
 @given(SEEDS, st.integers(2, 4), SHARE)
 def test_a_warm_start_does_not_change_the_motion(seed: int, contacts: int, mu: float) -> None:
-    W, v = encounter(seed, contacts)
+    W, v = random_patch(seed, contacts)
     assume(v[0::3].min() < -1e-3)
     cold = solve_gauss_seidel(W, v, mu)
     warm = solve_gauss_seidel(W, v, mu, 1e-3 * cold.P)
@@ -135,7 +135,7 @@ def test_a_warm_start_saves_sweeps() -> None:
     """In the sum over many patches; in a single one the last sweep may be one more."""
     cold_sweeps = warm_sweeps = 0
     for seed in range(100):
-        W, v = encounter(seed, 2 + seed % 3)
+        W, v = random_patch(seed, 2 + seed % 3)
         cold = solve_gauss_seidel(W, v, 0.3)
         cold_sweeps, warm_sweeps = (
             cold_sweeps + cold.sweeps,
@@ -146,21 +146,21 @@ def test_a_warm_start_saves_sweeps() -> None:
 
 @given(SEEDS, st.integers(1, 4), SHARE)
 def test_plastic_impact_never_creates_energy(seed: int, contacts: int, mu: float) -> None:
-    W, v = encounter(seed, contacts)
+    W, v = random_patch(seed, contacts)
     P = solve_gauss_seidel(W, v, mu).P.ravel()
     gained = P @ (v + 0.5 * W @ P)
     assert gained <= 1e-9 * np.abs(P * v).sum()
 
 
 def test_frictionless_impact_is_the_effective_mass_times_the_approach() -> None:
-    W, v = encounter(7, 1)
+    W, v = random_patch(7, 1)
     v[0] = -3.0
     assert solve_gauss_seidel(W, v, 0.0).P[0] == pytest.approx([3.0 / W[0, 0], 0.0, 0.0])
 
 
 def test_a_row_repeated_shares_the_same_total() -> None:
     """Two contacts at one place are one contact: the split is free, the sum is not."""
-    W, v = encounter(3, 1)
+    W, v = random_patch(3, 1)
     v[0] = -abs(v[0])
     single = solve_gauss_seidel(W, v, 0.3).P.sum(axis=0)
     double = solve_gauss_seidel(np.tile(W, (2, 2)), np.tile(v, 2), 0.3).P.sum(axis=0)
@@ -169,7 +169,7 @@ def test_a_row_repeated_shares_the_same_total() -> None:
 
 @pytest.mark.parametrize("speed", [0.0, 2.0])
 def test_parting_or_resting_contacts_get_nothing(speed: float) -> None:
-    W, v = encounter(1, 2)
+    W, v = random_patch(1, 2)
     v[0::3] = speed
     assert not solve_gauss_seidel(W, v, 0.5).P.any()
 
@@ -177,7 +177,7 @@ def test_parting_or_resting_contacts_get_nothing(speed: float) -> None:
 @given(SEEDS, st.integers(1, 3), st.floats(-np.pi, np.pi))
 def test_turning_the_tangents_turns_the_friction(seed: int, contacts: int, angle: float) -> None:
     """The cone is round: an answer must not depend on which way the tangents happen to point."""
-    W, v = encounter(seed, contacts)
+    W, v = random_patch(seed, contacts)
     c, s = np.cos(angle), np.sin(angle)
     turn = np.kron(np.eye(contacts), np.array([[1, 0, 0], [0, c, -s], [0, s, c]]))
     straight, turned = solve_gauss_seidel(W, v, 0.4), solve_gauss_seidel(turn @ W @ turn.T, turn @ v, 0.4)
