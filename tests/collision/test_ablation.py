@@ -155,7 +155,7 @@ ABLATIONS = {
         two(delay.test_a_ship_springs_between_two_walls_without_losing_or_gaining, 3, "jacobi"),
     ),
     "no deficit for bodies out of range": Ablation(
-        impulse_ledger, "_goes_far", lambda *_: False,
+        impulse_ledger, "_is_out_of_range", lambda *_: False,
         one("world", encounters.test_forty_random_encounters),
     ),
     "conservative advancement": Ablation(
@@ -166,7 +166,7 @@ ABLATIONS = {
     ),
     # -- geometry
     "overlap in plan": Ablation(
-        detection.Detector, "_level", bullets_normal,
+        detection.Detector, "_plan_normal", bullets_normal,
         two(mechanisms.test_a_ship_put_deep_inside_another_is_stopped_sideways, "pgs"),
     ),
     "last normals in deep overlap": Ablation(

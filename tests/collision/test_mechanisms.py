@@ -155,7 +155,7 @@ def test_the_side_that_was_struck_stays_the_side_in_deep_overlap(make_ship: Make
 
 def test_ships_that_meet_flush_touch_with_all_corners(make_ship: Make, world: MakeWorld) -> None:
     """Two sides meet at the very end of a substep, on 60 headings: rounding alone decides whether they touch yet. If
-    they do, they touch with four corners. Without FLUSH: on some headings with one or two, and the ships turn."""
+    they do, they touch with four corners. Without the tolerance: with one or two on some headings."""
     box, rng = make_ship("box", BOX), np.random.default_rng(0)
     points = []
     for psi in rng.uniform(-np.pi, np.pi, 60):
