@@ -124,6 +124,14 @@ def test_an_import_that_goes_up_is_found() -> None:
     assert len(faults(up)) == 2
 
 
+@pytest.mark.parametrize("name", sorted(set().union(*FLOORS) - {"files", "errors", "cli", "ship"}))
+def test_the_map_of_a_room_names_what_it_imports(name: str) -> None:
+    """files and errors are for all, and not named."""
+    text = ast.get_docstring(ast.parse(MODULES[f"{NAME}.{name}"].read_text(encoding="utf-8"))) or ""
+    used = {room(target) for module in GRAPH if room(module) == name for target in GRAPH[module]}
+    assert [other for other in sorted(used - {"", name, "files", "errors"}) if other not in text] == []
+
+
 @pytest.mark.parametrize("depth", [1, 2, 3])
 def test_nothing_imports_in_a_circle(depth: int) -> None:
     assert circle(GRAPH, depth) == []

@@ -18,7 +18,7 @@ __all__ = ["trial"]
 @click.option("--rudder-deg", type=float, metavar="DEG", help="Rudder angle.  [default: 35, in a zigzag 10]")
 @click.option("--heading-deg", type=float, metavar="DEG", help="Of a zigzag.  [default: 10]")
 @click.option("--starboard/--port", default=True, help="Side of the first rudder.  [default: --starboard]")
-@click.option("--speed", type=float, metavar="M/S", help="SteadyCourse speed.  [default: the service speed]")
+@click.option("--speed", type=float, metavar="M/S", help="Approach speed.  [default: the service speed]")
 @click.option(
     "--rev-per-s", type=float, metavar="REV/S", help="Propeller on the approach.  [default: those that keep the speed]"
 )

@@ -55,8 +55,8 @@ class ContactCaches:
     def forget_parted(self, near: Container[tuple[int, int]]) -> None:
         """Drop the impulses of the pairs that are not near each other in this communication step.
 
-        An elastic ship that comes back to a wall would start from its last visit, and solve the impact only to the
-        tolerance of the solver: its energy would be off by 5e-12 instead of 3e-15 of itself.
+        Impulses of an earlier visit are no guess for an elastic impact at the same place. The solver would stop at its
+        tolerance: 5e-12 of the energy a bounce, instead of 3e-15.
         """
         for pair in [pair for pair in self.warm_starts if pair not in near]:
             del self.warm_starts[pair]

@@ -4,7 +4,7 @@ A communication step [t, t + H]:
 
     receive       check the inputs; states of the ships, corrected by pending impulses (exchange.py)
     find pairs    whose hulls could touch within the step (proximity.py)
-    for each substep of fixed length h at which a pair is due (conservative_advancement.py):
+    take substeps of fixed length h, each at which a pair is due (conservative_advancement.py):
         press     compressed fenders, booked one by one (fender_ledger.py)
         advance   the predicted poses of the near bodies
         respond   to the contacts there, by one of the rival responses (responses.py)

@@ -15,6 +15,6 @@
       run_repr.py, run_frames.py, run_page.py     as text and HTML, as data frames, as a page in a notebook
 
 Data flow: Scenario -> instances and wires (System) -> steps -> Record -> events, summary, bodies (results/) -> Run.
-Imports from: results, show (the page of a run only), scenario, fmi, ship. Used by: cli, packaging and users of the
-package.
+Imports from: results, show (the page of a run only), scenario, fmi, collision (interface, obstacles), ship. Used by:
+cli, packaging and users of the package.
 """

@@ -9,7 +9,7 @@ from typing import Any
 import numpy.typing as npt
 
 from ..files import write_files
-from ..results.run_files import csv_text, json_text
+from ..results.run_text import csv_text, json_text
 from .run_frames import RunFrames, data_frames
 from .run_page import RunPage, run_page
 from .run_repr import run_html, run_text

@@ -24,8 +24,8 @@ from ..ship.frames import Array
 from ..ship.hull.solid import HullMesh
 
 __all__ = [
-    "Place", "PlanContact", "Side", "cut_section", "find_common_deck", "find_contacts", "locate_place", "measure_gap",
-    "move_polygon",
+    "Place", "PlanContact", "Side", "cut_section", "find_contact_height", "find_contacts", "locate_place",
+    "measure_gap", "move_polygon",
 ]  # fmt: skip
 
 Side = Literal["port", "starboard"]
@@ -67,8 +67,8 @@ class PlanContact:
     point: Array
 
 
-def find_common_deck(a: HullMesh, b: HullMesh) -> float:
-    """Height z (down) of the lower deck of two hulls [m]."""
+def find_contact_height(a: HullMesh, b: HullMesh) -> float:
+    """Height z (down) at which two upright hulls touch in plan: that of the lower deck [m]."""
     return float(max(a.vertices[:, 2].min(), b.vertices[:, 2].min()))
 
 

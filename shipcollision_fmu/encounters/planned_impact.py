@@ -9,7 +9,7 @@ from ..ship.frames import Array
 from ..ship.hull.hull import build_hull
 from ..ship.loading.library import load_ship
 from ..ship.ship import Ship
-from .plan_contact import Place, cut_section, find_common_deck, locate_place
+from .plan_contact import Place, cut_section, find_contact_height, locate_place
 from .request import Kind, Request, value_or_default
 
 __all__ = ["PlannedImpact", "describe_impact", "plan_impact"]
@@ -35,7 +35,7 @@ def plan_impact(request: Request, kind: Kind) -> PlannedImpact:
     """The impact of a request. Raises ShipError for a ship that cannot be loaded."""
     ships = {"own": load_ship(request.own), "target": load_ship(request.target)}
     hulls = {name: build_hull(ship.L_oa, ship.B, ship.T, ship.hull) for name, ship in ships.items()}
-    deck = find_common_deck(hulls["own"], hulls["target"])
+    deck = find_contact_height(hulls["own"], hulls["target"])
     sections = {name: cut_section(hull, deck) for name, hull in hulls.items()}
     s, angle = value_or_default(request.at, kind.at), radians(value_or_default(request.angle_deg, kind.angle_deg))
     x = ships["target"].hull.trim_x + s * ships["target"].L_oa

@@ -9,7 +9,7 @@
     summary.py            summary.json: ledger, momentum, energy
       published.py        computed states beside published ones
     bodies.py             bodies.json: hulls, inertias and obstacles
-    run_files.py          CSV and JSON text of the files
+    run_text.py           CSV and JSON text of the files
 
 Data flow: Record and Ships -> events -> summary; Ships -> bodies; all -> text. Imports from: scenario, collision, fmi
 (names of variables), ship. Used by: cosim.

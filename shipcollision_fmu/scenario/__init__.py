@@ -7,5 +7,5 @@
     toml_writer.py       writes tables as TOML, for generated scenarios and ship files
 
 Data flow: TOML -> Scenario -> ShipStart.start, load_ships(), schedule_orders(). Imports from: collision (detection of
-overlap, obstacles), ship. Used by: cosim, encounters, packaging, results, cli.
+overlap, obstacles, limits, responses), ship. Used by: cosim, encounters, packaging, results, cli.
 """

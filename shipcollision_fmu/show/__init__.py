@@ -9,6 +9,7 @@
     plots.py     figures by Matplotlib
     extras.py    a clear line where an optional package is missing
 
-Data flow: files of a run -> RunFolder -> Scene -> bytes of a picture. Imports from: ship (frames, convex solids), fmi
-(names of columns), files; drawing libraries only here. Used by: cli, cosim (page of a run).
+Data flow: files of a run -> RunFolder -> Scene -> bytes of a picture. Imports from: ship (frames,
+convex solids, kinetic energy), fmi (names of columns), collision (clipping.py, for figures). Drawing libraries are
+imported only here. Used by: cli, cosim (page of a run).
 """

@@ -26,7 +26,7 @@ class Ship:
     """A ship at impact: CO x (3,) in n, R_nb, M (6, 6) about CO, its free inverse, twist nu (6,) in b.
 
     axes (6, 6): nu = axes nu_m, where M is the inertia of the motions nu_m; axes_n (3, 3): from theirs to n. Those of b
-    in 6 degrees of freedom, else level (ship/free_motions.py).
+    in 6 degrees of freedom, else level (ship/degrees_of_freedom.py).
     """
 
     x: Array

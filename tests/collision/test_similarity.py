@@ -56,7 +56,7 @@ def impulses(world: MakeWorld, folder: Path, case: str, scale: float) -> np.ndar
 @pytest.mark.parametrize("case", list(CASES))
 def test_a_scaled_impact_is_the_impact_scaled(world: MakeWorld, tmp_path: Path, case: str, scale: float) -> None:
     """To a thousandth; of two curved sides that are all but parallel, to a hundredth of the farthest arm: a touching
-    feature is 5 cm deep for every ship (manifold.py), and shrinks with boats only."""
+    feature is 5 cm deep for every ship (contact_place.py), and shrinks with boats only."""
     share = 1e-2 if case == "curved side on side" else 1e-3
     one, other = impulses(world, tmp_path, case, 1.0), impulses(world, tmp_path, case, scale)
     for linear in (slice(0, 3), slice(6, 9)):

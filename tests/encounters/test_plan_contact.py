@@ -11,7 +11,7 @@ import pytest
 from shipcollision_fmu import load_ship
 from shipcollision_fmu.encounters.plan_contact import (
     cut_section,
-    find_common_deck,
+    find_contact_height,
     find_contacts,
     locate_place,
     measure_gap,
@@ -47,8 +47,8 @@ def test_sections_integrate_to_the_volume(name: str) -> None:
     assert area(cut_section(mesh, 0.0)) > 0.0  # corners in the order of rising angle
 
 
-def test_the_common_deck_is_the_lower_one() -> None:
-    assert find_common_deck(hull("kvlcc2"), hull("guan2014_own")) == pytest.approx(20.8 - 30.0)
+def test_the_contact_height_is_the_lower_one() -> None:
+    assert find_contact_height(hull("kvlcc2"), hull("guan2014_own")) == pytest.approx(20.8 - 30.0)
 
 
 @pytest.mark.parametrize(
@@ -88,7 +88,7 @@ def test_a_box_that_touches_with_its_face_is_centred_on_the_place() -> None:
 @pytest.mark.parametrize(("own", "target"), [("kvlcc2", "guan2014_target"), ("guan2014_own", "kvlcc2")])
 def test_hulls_touch_at_the_place_and_nowhere_overlap(own: str, target: str) -> None:
     meshes = hull(own), hull(target)
-    deck = find_common_deck(*meshes)
+    deck = find_contact_height(*meshes)
     a, b = cut_section(meshes[0], deck), cut_section(meshes[1], deck)
     for s, side, degrees in product((-0.5, -0.4, -0.1, 0.3, 0.45, 0.5), ("port", "starboard"), range(0, 360, 15)):
         heading = radians(degrees)

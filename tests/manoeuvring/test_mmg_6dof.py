@@ -191,7 +191,7 @@ def test_sway_coupling_shortens_the_roll_period(start: Start) -> None:
     st.floats(-3.0, 3.0),
 )  # fmt: skip
 def test_an_impulse_changes_M_nu_by_itself_at_any_speed(n: int, P: list[float], u: float, v: float) -> None:
-    """M nu in b; in 4 degrees of freedom of the level axes, which L gives (ship/free_motions.py)."""
+    """M nu in b; in 4 degrees of freedom of the level axes, which L gives (ship/degrees_of_freedom.py)."""
     attitude, given_impulse = [0.05, 0.0, 1.0], np.array(P) * SCALE
     axes = np.eye(6) if n == 6 else level_axes(attitude)
     nu = axes @ [u, v, 0.0, 0.002, 0.0, 0.005]

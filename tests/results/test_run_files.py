@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 
-from shipcollision_fmu.results.run_files import json_text
+from shipcollision_fmu.results.run_text import json_text
 
 
 def test_json_keeps_its_values_when_lists_go_on_one_line() -> None:

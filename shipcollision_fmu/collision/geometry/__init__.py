@@ -4,7 +4,7 @@
     bullet           the adapter of pybullet: closest points of convex parts, and a step of Bullet's own dynamics
     detection        contacts of two hulls, from Bullet's closest points
     compound_hull    hulls of several convex parts: inner faces give no contact
-    manifold         contact points of two parts: common corners of the features that face each other
+    contact_place    places and heights at which two parts touch: common corners of the features that face each other
     clipping         intersection of polygons, edges and points in a plane
     plan_overlap     normal of least overlap in plan, for hulls that overlap deeply from the start
 

@@ -28,7 +28,7 @@ from ..dynamics.contact import Contact
 from ..dynamics.contact_frame import contact_axes
 from .bullet import Closest
 from .clipping import convex_polygon
-from .manifold import FEATURE_DEPTH, contact_manifold, facing_features, spread
+from .contact_place import FEATURE_DEPTH, contact_manifold, facing_features, spread
 
 __all__ = ["CompoundHull", "merge_coplanar", "select_supported"]
 

@@ -2,7 +2,7 @@
 
 1. A closest point with a gap above zero is a prediction, not a contact.
 2. Bullet returns one point of a line or an area of contact, at an arbitrary place. The contact points are the corners
-   that the two facing features have in common (manifold.py).
+   that the two facing features have in common (contact_place.py).
 3. In deep overlap the direction of least overlap jumps, for a ship soon to the vertical. While the overlap is deeper
    than SHALLOW, the last shallow normal is used. It turns with the hull whose face it belongs to.
 4. The convex parts of one hull are joined (compound_hull.py). Faces and edges inside the hull give no contact, and
@@ -23,7 +23,7 @@ from ..dynamics.contact import Contact, make_contact, make_contacts
 from ..dynamics.contact_frame import contact_axes
 from .bullet import MARGIN, BulletAdapter, Closest
 from .compound_hull import CompoundHull, merge_coplanar, select_supported
-from .manifold import FEATURE_DEPTH, contact_manifold, facing_features
+from .contact_place import FEATURE_DEPTH, contact_manifold, facing_features
 from .plan_overlap import least_overlap
 
 __all__ = ["SHALLOW", "Detector", "LastNormals"]

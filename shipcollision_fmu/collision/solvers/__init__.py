@@ -16,5 +16,5 @@ the law of contact. No solver depends on ships or hulls; resultant_contact and w
     impact_process         one contact followed along its normal impulse: the solver of response `closed_form`
         slip_flow          how the slip turns on the way
 
-Imports: dynamics/ (contacts, W), ship/frames, errors. The room is imported by collision/responses.py and model.py.
+Imports: dynamics/ (contacts, W), ship/frames, errors. Used by: collision/responses.py and contact_problem.py.
 """

@@ -6,4 +6,7 @@ model_description_fmi3    and of FMI 3.0
 documentation             the page for people
 zip_archive               an archive that depends on names and contents only
 package                   the .fmu files: what is in them, and whether a file is up to date
+
+Data flow: Interface and the files of build_record -> XML, documentation, sources -> bytes of the .fmu file. Imports
+from: fmi, and pythonfmu and pythonfmu3 for what they bring. Used by: cosim, packaging, cli.
 """

@@ -14,4 +14,7 @@
 Angles are in degrees in keys that end in `_deg`; everything else is in SI units. Positions and velocities are of CO
 (midship, centreline, waterline). Unknown keys, NaN and numbers in quotes are refused. The description of a field ends
 the message that refuses its value, and is the key's text in the reference of the documentation.
+
+Data flow: a parsed TOML file -> Scenario. Imports from: ship (frames, tables), collision (checks, responses,
+obstacles). Used by: scenario, cosim, encounters, results.
 """

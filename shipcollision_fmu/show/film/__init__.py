@@ -7,5 +7,6 @@
     sea.py         sky and sea
     puffs.py       particles of the effects
 
-Data flow: Scene -> Film -> pixels -> file. Imports from: scene. Pillow and imageio-ffmpeg only in animation.py.
+Data flow: Scene -> Film -> pixels -> file. Imports from: scene, ship (frames), extras. Pillow and
+imageio-ffmpeg only in animation.py.
 """

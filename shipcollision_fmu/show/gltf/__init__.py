@@ -4,5 +4,5 @@
     ribbons.py   scratches as ribbons of triangles
     glb.py       the container: JSON and one buffer
 
-Data flow: Scene -> Document -> bytes. Imports from: scene.
+Data flow: Scene -> Document -> bytes. Imports from: scene, ship (frames, convex).
 """

@@ -5,5 +5,5 @@
     osgt.py          OSG's text format
     zup.py           conversion to a world with z up
 
-Data flow: Scene -> Item -> text. Imports from: scene.
+Data flow: Scene -> Item -> text. Imports from: scene, ship (frames).
 """

@@ -7,5 +7,5 @@
     parts.py        surfaces by paint                          palette.py    colours
     camera.py       a camera over time
 
-Data flow: folder -> RunFolder -> Scene. Imports from: ship, fmi (names), collision.geometry (convex polygons).
+Data flow: folder -> RunFolder -> Scene. Imports from: ship, fmi (names).
 """

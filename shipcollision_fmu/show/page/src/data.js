@@ -1,4 +1,4 @@
-// What the page is told: JSON and the .glb, both embedded by page.py.
+// What the page is told: JSON and the .glb, both embedded by show/page/__init__.py.
 
 const text = (id) => document.getElementById(id).textContent;
 

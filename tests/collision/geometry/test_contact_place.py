@@ -6,7 +6,7 @@ from math import cos, pi, sin
 
 import pytest
 
-from shipcollision_fmu.collision.geometry.manifold import spread
+from shipcollision_fmu.collision.geometry.contact_place import spread
 
 Point = tuple[float, float]
 
