@@ -3,8 +3,8 @@
  *     cc -O2 -o host examples/host.c -ldl
  *     ./host FOLDER STEP STEPS SHIP SHIP      FOLDER holds SHIP/ and collision/: FMUs of a package, unpacked
  *
- * The FMUs start from the scenario's values, so that no parameter is set here. The FMUs run Python: README.md says what
- * the process needs. For real use take the headers of the FMI standard; these are the few declarations used below. */
+ * The FMUs start from the scenario's values, so that no parameter is set here. The FMUs run Python: docs/guide/hosts.md
+ * says what the process needs. For real use take the headers of the FMI standard; these are the few declarations used below. */
 
 #include <dlfcn.h>
 #include <stdarg.h>

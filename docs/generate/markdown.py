@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 
-__all__ = ["anchored", "cell", "table"]
+__all__ = ["anchored", "cell", "plain", "table"]
+
+_CODE = re.compile(r"(`[^`]*`)")
 
 
 def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
@@ -15,7 +18,13 @@ def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 
 def cell(text: str) -> str:
     """Text for a cell of a table: a bar would end the cell."""
-    return " ".join(text.split()).replace("|", "\\|")
+    return plain(" ".join(text.split())).replace("|", "\\|")
+
+
+def plain(text: str) -> str:
+    """Text with its braces escaped, but for those in code: attr_list takes `{...}` at an end for attributes."""
+    parts = _CODE.split(text)
+    return "".join(part if part.startswith("`") else re.sub(r"([{}])", r"\\\1", part) for part in parts)
 
 
 def anchored(code: str, anchor: str) -> str:

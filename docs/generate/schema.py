@@ -16,7 +16,8 @@ import shipcollision_fmu
 from shipcollision_fmu.scenario.scenario import Scenario
 from shipcollision_fmu.ship.loading.ship_file import ShipFile
 
-from .markdown import anchored, cell, table
+from .markdown import anchored, cell, plain, table
+from .variables import collision_starts
 
 __all__ = ["events", "scenario_file", "ship_file"]
 
@@ -28,6 +29,8 @@ UNITS = frozenset({
 })  # fmt: skip
 """What is a unit in the brackets of a description; other brackets are lists."""
 
+_START = "start of the FMU"
+"""Beside the words of JSON schema: what the FMU starts with where the file has no value."""
 _BRACKETS = re.compile(r" ?\[([^\[\]]+)\]")
 _DERIVATIVE = re.compile(r"([XYN])_([vr]+)")
 _WORDS = {"number": "number", "integer": "whole number", "string": "text", "boolean": "true or false"}
@@ -39,8 +42,13 @@ def ship_file() -> str:
 
 
 def scenario_file() -> str:
-    """Every key of a scenario file."""
-    return _pages(Scenario.model_json_schema(), "## Tables of the file")
+    """Every key of a scenario file. The default of a key of [collision] is the start value of the FMU's parameter."""
+    root = Scenario.model_json_schema()
+    keys = root["$defs"]["Collision"]["properties"]
+    for name, value in collision_starts().items():
+        if name in keys:
+            keys[name][_START] = value
+    return _pages(root, "## Tables of the file")
 
 
 def events() -> str:
@@ -65,6 +73,9 @@ def _objects(place: str, schema: Schema, root: Schema) -> Iterator[tuple[str, Sc
         for key, value in schema["properties"].items():
             inner = _resolved(value, root)
             yield from _objects(f"{place}.{key}" if place else key, inner, root)
+    elif "anyOf" in schema:
+        for option in schema["anyOf"]:
+            yield from _objects(place, _resolved(option, root), root)
     elif isinstance(schema.get("additionalProperties"), Mapping):
         yield from _objects(f"{place}.NAME", _resolved(schema["additionalProperties"], root), root)
     elif isinstance(schema.get("items"), Mapping):
@@ -74,7 +85,7 @@ def _objects(place: str, schema: Schema, root: Schema) -> Iterator[tuple[str, Sc
 def _section(place: str, schema: Schema, root: Schema) -> str:
     required = schema.get("required", ())
     rows = [_row(place, key, value, key in required, root) for key, value in schema["properties"].items()]
-    return f"{_said(schema)}\n\n{table(('key', 'type', 'unit', 'limits', 'default', 'meaning'), rows)}"
+    return f"{plain(_said(schema))}\n\n{table(('key', 'type', 'unit', 'limits', 'default', 'meaning'), rows)}"
 
 
 def _row(place: str, key: str, value: Schema, required: bool, root: Schema) -> tuple[str, ...]:
@@ -82,6 +93,8 @@ def _row(place: str, key: str, value: Schema, required: bool, root: Schema) -> t
     schema = _resolved(value, root)
     meaning, unit = _meaning(key, value.get("description", ""), schema)
     default = "required" if required else _default(value.get("default"))
+    if _START in value:
+        default = f"`{value[_START]}` (of the FMU)"
     return anchored(key, path), cell(_type(schema, root, path)), unit, cell(_limits(schema)), default, cell(meaning)
 
 
@@ -161,7 +174,8 @@ def _said(schema: Schema) -> str:
     """What the schema says of itself: its first paragraph, without the name of the table that some begin with."""
     first = " ".join(schema.get("description", "").split("\n\n")[0].split())
     said = re.sub(r"^(\[[\w.]+\]|[a-z]+)( = \{.*?\})?: ", "", first)
-    return said[:1].upper() + said[1:]
+    code = re.match(r"\w+ = \{.*?\}", said)
+    return f"`{code[0]}`{said[code.end() :]}" if code else said[:1].upper() + said[1:]
 
 
 def _anchor(place: str) -> str:

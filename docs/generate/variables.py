@@ -19,7 +19,7 @@ from shipcollision_fmu.fmi.variables import Causality, Variable
 
 from .markdown import anchored, cell, table
 
-__all__ = ["ship_collision", "ship_manoeuvring"]
+__all__ = ["collision_starts", "ship_collision", "ship_manoeuvring"]
 
 _HEADER = ("FMI 2.0", "FMI 3.0", "type", "unit", "limits", "start", "meaning")
 _START = _HEADER.index("start")
@@ -34,6 +34,17 @@ def ship_collision() -> str:
 def ship_manoeuvring() -> str:
     """Every variable of ShipManoeuvring."""
     return _page(MANOEUVRING)
+
+
+def collision_starts() -> dict[str, str]:
+    """The start value of every parameter of ShipCollision, as a scenario file has it: an enumeration by its word."""
+    access = COLLISION.make_access(SHIPS)
+    starts = {}
+    for reference, variable in enumerate(access.table):
+        if variable.causality == "parameter":
+            start = format_start(variable, reference, access)
+            starts[variable.name] = f'"{variable.items[int(start) - 1]}"' if variable.items else start
+    return starts
 
 
 def _page(interface: Interface) -> str:

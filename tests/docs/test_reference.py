@@ -28,6 +28,7 @@ from shipcollision_fmu.fmi.interface import SHIPS, Interface
 from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
 from shipcollision_fmu.scenario.scenario import Scenario
+from shipcollision_fmu.scenario.tables.environment import CurrentTable
 from shipcollision_fmu.ship.loading.ship_file import ShipFile
 
 PAGES = Path(__file__).parents[2] / "docs"
@@ -78,7 +79,7 @@ def _inner(annotation: Any, path: str) -> Iterator[str]:
 
 @pytest.mark.parametrize(("name", "model"), [("ship-file.md", ShipFile), ("scenario-file.md", Scenario)])
 def test_every_key_of_a_file_is_on_its_page(name: str, model: type[BaseModel]) -> None:
-    expected = list(keys(model))
+    expected = [*keys(model), *(keys(CurrentTable, "environment.current") if model is Scenario else ())]
     assert len(expected) > 60
     assert re.findall(r"`\{ #(\S+) \}", page(f"reference/{name}")) != []
     assert sorted(re.findall(r"^\| `\w+`\{ #(\S+) \}", page(f"reference/{name}"), re.MULTILINE)) == sorted(expected)
@@ -91,6 +92,21 @@ def test_rows_have_type_unit_limits_default_and_meaning() -> None:
     assert found["rudder.max_angle_deg"][1:5] == ["number", "deg", "> 0, ≤ 90", "`35.0`"]
     assert found["particulars.r_bg"][1:3] == ["list (3) of numbers", "m"]
     assert all(len(row) == 6 for row in found.values())
+
+
+def test_the_start_values_of_the_fmu_are_the_defaults_of_its_parameters() -> None:
+    found = {row[0].partition("{ #")[2].removesuffix(" }"): row for row in rows(page("reference/scenario-file.md"))}
+    assert found["collision.friction"][4] == "`0.3` (of the FMU)"
+    assert found["collision.response"][1] == 'one of `"pgs"`, `"closed_form"`, `"bullet"`'
+    assert found["collision.response"][4] == '`"pgs"` (of the FMU)'
+
+
+@pytest.mark.parametrize("part", [part for part in PARTS if part != "api"])
+def test_braces_of_the_text_are_escaped(part: str) -> None:
+    """attr_list takes `{...}` at the end of a cell or a paragraph for attributes, and the reader misses it."""
+    text = re.sub(r"^```.*?^```", "", PARTS[part](), flags=re.DOTALL | re.MULTILINE)
+    outside = re.sub(r"`[^`]*`", "", re.sub(r"\{ #\S+ \}", "", text))
+    assert re.findall(r"(?<!\\)[{}].*", outside) == []
 
 
 @pytest.mark.parametrize("name", ["ship-file.md", "scenario-file.md"])

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal
 
-from pydantic import Field, field_validator
+from pydantic import Field, WithJsonSchema, field_validator
 
 from ...collision.checks import MAXIMUM_FRICTION
 from ...collision.responses import RESPONSES
@@ -40,12 +40,15 @@ class Collision(Table):
     restitution: float | None = Field(
         default=None, ge=0, le=1, description="the coefficient of restitution [1], 0 for plastic, 1 for elastic"
     )
-    response: str | None = Field(default=None, description='the contact solver: "pgs", "closed_form" or "bullet"')
+    response: Annotated[str, WithJsonSchema({"type": "string", "enum": list(RESPONSES)})] | None = Field(
+        default=None, description="the contact solver"
+    )
     substep: float | None = Field(
         default=None, gt=0, description="the internal step of the collision FMU [s], e.g. 0.01"
     )
     feedback: Literal["ledger", "force", "state", "none"] | None = Field(
-        default=None, description="how the ships take up the impulses: ledger, force or none"
+        default=None,
+        description='how the ships take up the impulses; "state" is refused: ShipManoeuvring has no input for post.*',
     )
     minimum_separation_time: float | None = Field(
         default=None, gt=0, description="the time without contact that ends a collision [s], e.g. 10.0"

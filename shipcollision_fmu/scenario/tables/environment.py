@@ -9,12 +9,31 @@ from pydantic import Field, field_validator
 
 from ...ship.tables.table import Table
 
-__all__ = ["Environment", "WindTable"]
+__all__ = ["CurrentTable", "Environment", "WindTable"]
 
 MAXIMUM_CURRENT = 10.0
 """[m/s] Limit of each component. The strongest tidal streams run 8 m/s; a larger value was meant in another unit."""
 MAXIMUM_WIND = 60.0
 """[m/s] Limit of the wind. Hurricanes of the strongest category begin at 70; a larger value was meant in knots."""
+
+
+class CurrentTable(Table):
+    """current: its speed over ground and the direction to which it flows."""
+
+    speed: float = Field(description="the speed of the water [m/s]")
+    towards_deg: float = Field(description="the direction to which the water flows, clockwise from north [deg]")
+
+    @property
+    def velocity(self) -> list[float]:
+        """[north, east] [m/s]."""
+        towards = radians(self.towards_deg)
+        return [self.speed * cos(towards), self.speed * sin(towards)]
+
+
+def _describe_both_forms(schema: dict[str, Any]) -> None:
+    """Extend the JSON schema of the velocity by the table that may stand in its place."""
+    velocity = {key: schema.pop(key) for key in ("type", "items", "minItems", "maxItems")}
+    schema["anyOf"] = [velocity, CurrentTable.model_json_schema()]
 
 
 class WindTable(Table):
@@ -33,7 +52,8 @@ class Environment(Table):
         default=[0.0, 0.0],
         min_length=2,
         max_length=2,
-        description="the velocity of the water, [north, east] or {speed, towards_deg} [m/s, deg]",
+        description="the velocity of the water, [north, east] or {speed = 1.0, towards_deg = 90.0} [m/s, deg]",
+        json_schema_extra=_describe_both_forms,
     )
     wind: WindTable | None = Field(default=None, description="the wind, {speed = 10.0, from_deg = 270.0} [m/s, deg]")
 
@@ -47,8 +67,7 @@ class Environment(Table):
             raise ValueError(
                 f"[environment] current = {given} must be two finite numbers: {{speed = 1.0, towards_deg = 90.0}}"
             )
-        speed, towards = float(given["speed"]), radians(given["towards_deg"])
-        return [speed * cos(towards), speed * sin(towards)]
+        return CurrentTable(speed=float(given["speed"]), towards_deg=float(given["towards_deg"])).velocity
 
     @field_validator("current")
     @classmethod
