@@ -12,7 +12,17 @@
 
 from __future__ import annotations
 
-__all__ = ["HostError", "InputError", "ScenarioError", "ShipCollisionError", "ShipError", "StepError"]
+import sys
+
+__all__ = [
+    "HostError",
+    "InputError",
+    "ScenarioError",
+    "ShipCollisionError",
+    "ShipError",
+    "StepError",
+    "describe_installation",
+]
 
 
 class ShipCollisionError(Exception):
@@ -41,3 +51,10 @@ class StepError(ShipCollisionError):
 
 class HostError(ShipCollisionError):
     """The machine or an installed package fails: a missing package, an unwritable folder, a broken FMU."""
+
+
+def describe_installation(extra: str = "") -> str:
+    """The remedy for a missing package: the command that installs an extra of this package, or the package alone."""
+    bracket = f"[{extra}]" if extra else ""
+    python = sys.executable or "python"  # a host that embeds Python may have no executable
+    return f"run `{python} -m pip install 'shipcollision-fmu{bracket}'` (in a clone: '.{bracket}')"

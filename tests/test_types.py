@@ -14,6 +14,7 @@ import shipcollision_fmu
 
 PROJECT = Path(__file__).parents[1]
 CONSUMER = """
+from pathlib import Path
 import shipcollision_fmu
 from shipcollision_fmu import (
     Run, Scenario, ScenarioError, Ship, ShipCollision, ShipManoeuvring, build_fmus, encounter, load_scenario, load_ship,
@@ -33,6 +34,7 @@ reveal_type(encounter("t-bone", own="kcs", own_speed=4.0).scenario)
 reveal_type(ShipCollision)
 reveal_type(ShipManoeuvring)
 reveal_type(ScenarioError("no").exit_status)
+simulate(Path("my.toml"))
 
 
 def energy(run: Run, scenario: Scenario, ship: Ship) -> float:
@@ -40,9 +42,9 @@ def energy(run: Run, scenario: Scenario, ship: Ship) -> float:
 
 
 energy(run, scenario, ship)
-energy(run, ship, scenario)  # line 28: two ships mixed up
-simulate(scenario, in_proces=True)  # line 29: a misspelt option
-shipcollision_fmu.load_shp("kvlcc2")  # line 30: a misspelt name
+energy(run, ship, scenario)  # line 30: two ships mixed up
+simulate(scenario, in_proces=True)  # line 31: a misspelt option
+shipcollision_fmu.load_shp("kvlcc2")  # line 32: a misspelt name
 """
 REVEALED = [
     "shipcollision_fmu.scenario.scenario.Scenario",
@@ -94,7 +96,7 @@ def test_the_types_are_the_real_ones(reported: dict[str, list[str]]) -> None:
 def test_a_wrong_use_is_an_error_and_a_right_one_is_none(reported: dict[str, list[str]]) -> None:
     numbers = {int(re.search(r"script.py:(\d+):", line)[1]) for line in reported["error"]}  # type: ignore[index]
     texts = "\n".join(reported["error"])
-    assert numbers == {28, 29, 30}
+    assert numbers == {30, 31, 32}
     assert 'Argument 2 to "energy" has incompatible type "Ship"; expected "Scenario"' in texts
     assert 'Unexpected keyword argument "in_proces" for "simulate"' in texts
     assert 'Module has no attribute "load_shp"' in texts

@@ -3,6 +3,7 @@
     model                      ShipCollision: a communication step, readable as its stages
     interface                  parameters, inputs, outputs
     checks                     refusals of parameters and inputs
+    ship_names                 names that ships may have
     bodies, obstacles          the bodies of a model, from ship files and obstacle tables
     exchange                   states received from the ship models, impulses returned to them
     proximity                  pairs that could touch within the step; clearance

@@ -44,16 +44,23 @@ from .geometry.detection import Detector
 from .interface import CollisionInputs, CollisionOutputs, CollisionParameters, ShipParameters, ShipPost, ShipState
 from .proximity import Proximity
 from .responses import RESPONSES
+from .ship_names import check_ship_names
 from .totals import Totals
 
 __all__ = ["ShipCollision"]
 
+_STATE = ("exchange", "fenders", "caches", "collisions", "totals")
+"""Parts of a saved state."""
+
 
 class ShipCollision:
-    """Collision of two or more ships. Names of ships are those of the FMU's variables."""
+    """Collision of ships with each other and with obstacles. Names of ships are those of the FMU's variables.
+
+    Raises InputError for names that ships cannot have (ship_names.py).
+    """
 
     def __init__(self, ships: Sequence[str] = ("own", "target")) -> None:
-        self.names = tuple(ships)
+        self.names = check_ship_names(ships)
         self.directory: Path | None = None  # where ship files are looked for before the current folder
         self.parameters = CollisionParameters([ShipParameters() for _ in ships])
         self.inputs = CollisionInputs([ShipState() for _ in ships])
@@ -230,10 +237,18 @@ class ShipCollision:
         }
 
     def set_state(self, state: dict[str, Any]) -> None:
-        """Back to a state of get_state, exact to the bit."""
+        """Back to a state of get_state, exact to the bit.
+
+        Raises StepError before initialise(), and for another dict.
+        """
         if not state:
             self.close()
             return
+        if self._detector is None:
+            raise StepError("ShipCollision is not initialised: call initialise() before set_state()")
+        missing = [part for part in _STATE if part not in state]
+        if missing:
+            raise StepError(f"the state has no {missing[0]!r}: give what get_state() returned")
         self._exchange.set_state(state["exchange"])
         self._fenders.set_state(state["fenders"])
         self._caches.set_state(state["caches"])

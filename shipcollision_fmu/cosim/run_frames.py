@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import sys
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy.typing as npt
 
-from ..errors import HostError
+from ..errors import HostError, describe_installation
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -30,8 +29,7 @@ def data_frames(states: npt.NDArray[Any], contacts: npt.NDArray[Any], signals: n
         from pandas import DataFrame
     except ImportError:
         raise HostError(
-            "Run.to_pandas needs pandas, which is not installed: run "
-            f"`{sys.executable} -m pip install 'shipcollision-fmu[pandas]'` (in a clone: '.[pandas]')"
+            f"Run.to_pandas needs pandas, which is not installed: {describe_installation('pandas')}"
         ) from None
     return RunFrames(
         DataFrame(states.copy()).set_index("time"),

@@ -38,7 +38,7 @@ Progress = Callable[[int, int], None]
 
 
 def simulate(
-    scenario: Scenario | str,
+    scenario: Scenario | str | Path,
     *,
     algorithm: str | None = None,
     step: float | None = None,
@@ -54,7 +54,7 @@ def simulate(
     ScenarioError for options that do not fit, StepError when a model refuses a step, HostError when a package is
     missing or a file cannot be used; nothing is written then.
     """
-    if isinstance(scenario, str):
+    if not isinstance(scenario, Scenario):
         scenario = load_scenario(scenario)
     scenario = scenario.changed(algorithm=algorithm, step=step)
     _check_fmi(fmi, in_process)

@@ -12,6 +12,7 @@ from typing import Any
 from pydantic import Field, PrivateAttr, ValidationError, model_validator
 
 from ..collision.obstacles import ObstacleTable
+from ..collision.ship_names import NAME_RULE, is_identifier, is_ship_name
 from ..errors import ScenarioError, ShipError
 from ..ship.loading.library import find_models, load_ship
 from ..ship.loading.messages import describe_error, suggest
@@ -25,13 +26,7 @@ from .tables.header import Algorithm, Header
 from .tables.reference import Reference
 from .tables.ship_start import ShipStart
 
-__all__ = ["RESERVED", "Scenario", "list_scenario_names", "load_scenario", "parse_scenario"]
-
-RESERVED = frozenset({
-    "clearance", "clearance_range", "contact", "energy", "feedback", "fender", "friction", "impact",
-    "minimum_separation_time", "obstacles", "response", "restitution", "scratch", "solver", "substep", "time",
-})  # fmt: skip
-"""Names that no ship may have: the collision FMU's own variables begin so, and states.csv has a column `time`."""
+__all__ = ["Scenario", "list_scenario_names", "load_scenario", "parse_scenario"]
 
 
 class Scenario(Table):
@@ -127,7 +122,7 @@ class Scenario(Table):
     @model_validator(mode="after")
     def _check_obstacle_names(self) -> Scenario:
         for name in self.obstacles:
-            if not (name.isidentifier() and name.isascii()) or name in self.ships:
+            if not is_identifier(name) or name in self.ships:
                 raise ValueError(
                     f"[obstacles.{name}] is no name for an obstacle: take letters, digits and '_', and no ship's name"
                 )
@@ -136,11 +131,8 @@ class Scenario(Table):
     @model_validator(mode="after")
     def _check_ship_names(self) -> Scenario:
         for name in self.ships:
-            if not (name.isidentifier() and name.isascii()) or name in RESERVED:
-                raise ValueError(
-                    f"[ships.{name}] is no name for a ship, its FMI variables begin with it: take letters, digits and "
-                    f"'_', and none of {', '.join(sorted(RESERVED))}"
-                )
+            if not is_ship_name(name):
+                raise ValueError(f"[ships.{name}] {NAME_RULE}")
         return self
 
     @model_validator(mode="after")
@@ -198,7 +190,7 @@ def load_scenario(name_or_path: str | Path) -> Scenario:
     An argument with the suffix .toml or a path separator is a file. Raises ScenarioError, in one line, for a file that
     is missing, is not TOML or cannot be run, for ships that cannot be loaded, and for bodies that overlap at the start.
     """
-    path = _locate(name_or_path)
+    path = _locate(_check_source(name_or_path))
     scenario = _validate(read_toml(path, ScenarioError), path.name, path.parent)
     scenario.check()
     return scenario
@@ -212,6 +204,13 @@ def parse_scenario(text: str, source: str, directory: str | Path = ".") -> Scena
     scenario = _validate(parse_toml(text, source, ScenarioError), source, Path(directory))
     scenario.check()
     return scenario
+
+
+def _check_source(source: str | Path) -> str | Path:
+    """The source of a scenario, which is a name or a path. Raises ScenarioError for anything else, and for no text."""
+    if not isinstance(source, str | Path) or source == "":
+        raise ScenarioError(f"scenario = {source!r} is no scenario: give a name or the path of a TOML file")
+    return source
 
 
 def _locate(name_or_path: str | Path) -> Path:

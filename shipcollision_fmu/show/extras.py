@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
-import sys
 from importlib.util import find_spec
 
-from ..errors import HostError
+from ..errors import HostError, describe_installation
 
 __all__ = ["require"]
 
-_EXTRAS = {"matplotlib": "plots", "PIL": "film", "imageio_ffmpeg": "mp4"}
-"""Extras of the package by the module that each installs."""
+_MODULES = {"plots": ("matplotlib",), "film": ("PIL",), "mp4": ("PIL", "imageio_ffmpeg")}
+"""Modules that each extra of the package installs."""
 
 
-def require(module: str, what: str) -> None:
-    """Raise HostError, with the command that installs it, when `module` is missing. what: its user, in words."""
-    if find_spec(module) is None:
-        extra = _EXTRAS[module]
-        raise HostError(
-            f"{what} needs packages that are not installed: run "
-            f"`{sys.executable} -m pip install 'shipcollision-fmu[{extra}]'` (in a clone: '.[{extra}]')"
-        )
+def require(extra: str, what: str) -> None:
+    """Raise HostError, with the command that installs it, when a module of `extra` is missing. what: its user."""
+    if any(find_spec(module) is None for module in _MODULES[extra]):
+        raise HostError(f"{what} needs packages that are not installed: {describe_installation(extra)}")

@@ -54,7 +54,7 @@ _STYLE: dict[Any, Any] = {
 
 def write_plots(scene: Scene, folder: Path) -> list[Path]:
     """Write the figures into `folder`/plots; returns the paths. Raises HostError, also without Matplotlib."""
-    require("matplotlib", "a figure")
+    require("plots", "a figure")
     paths = []
     for name, figure in draw_figures(scene).items():
         paths += [

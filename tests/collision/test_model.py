@@ -438,3 +438,8 @@ def test_bullets_scalar_mass_refuses_added_mass(make_ship: Make) -> None:
         slot.ship = make_ship("wet")
     with pytest.raises(InputError, match="response 'bullet' knows a scalar mass only, and one = 'wet' has added mass"):
         model.initialise()
+
+
+def test_a_state_of_another_kind_is_refused_in_one_line() -> None:
+    with pytest.raises(StepError, match=r"^ShipCollision is not initialised: call initialise\(\) before set_state"):
+        ShipCollision().set_state({"a": 1})

@@ -44,6 +44,12 @@ def test_fmus_and_models_in_process_give_the_same_files(scenario_file: Write, tm
     assert run.summary["collisions"] == 1
 
 
+def test_a_scenario_may_be_a_path(scenario_file: Write) -> None:
+    path = scenario_file()
+    runs = [simulate(source, in_process=True) for source in (path, str(path), load_scenario(path))]
+    assert [run.summary["scenario"] for run in runs] == ["encounter"] * 3
+
+
 def test_the_published_collision_is_the_same_to_the_bit_through_fmi_2_and_3(tmp_path: Path) -> None:
     """All states, contacts, events and figures of guan2014."""
     for fmi in (2, 3):

@@ -103,7 +103,8 @@ def test_another_version_of_fmi_is_refused(tmp_path: Path) -> None:
 
 def test_without_pythonfmu3_it_says_how_to_get_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(package, "find_spec", lambda name: None)
-    with pytest.raises(HostError, match=r"^pythonfmu3, .* run `python -m pip install 'shipcollision-fmu\[fmi3\]'`"):
+    install = f"run `{sys.executable} -m pip install 'shipcollision-fmu[fmi3]'` (in a clone: '.[fmi3]')"
+    with pytest.raises(HostError, match=rf"^pythonfmu3, .*: {re.escape(install)}$"):
         build_fmus(tmp_path, fmi=3)
     assert list(tmp_path.iterdir()) == []
 

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from math import pi, radians, sqrt
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
+from shipcollision_fmu import simulate
 from shipcollision_fmu.errors import ScenarioError
 from shipcollision_fmu.scenario.order_schedule import schedule_orders
 from shipcollision_fmu.scenario.scenario import list_scenario_names, load_scenario
@@ -243,3 +246,12 @@ def test_an_option_that_does_not_fit_is_named(scenario_file: Write, step: float)
         load_scenario(scenario_file()).changed(step=step)
     with pytest.raises(ScenarioError, match=r"with algorithm gauss: \[scenario\] algorithm = 'gauss' must be"):
         load_scenario(scenario_file()).changed(algorithm="gauss")
+
+
+@pytest.mark.parametrize("source", [None, 5, [1], ""])
+def test_what_is_no_scenario_is_refused_in_one_line(source: Any) -> None:
+    line = rf"^scenario = {re.escape(repr(source))} is no scenario: give a name or the path of a TOML file$"
+    with pytest.raises(ScenarioError, match=line):
+        load_scenario(source)
+    with pytest.raises(ScenarioError, match=line):
+        simulate(source)

@@ -92,6 +92,8 @@ def test_open_without_a_browser(run: Path, monkeypatch: pytest.MonkeyPatch) -> N
     [
         ("--plots", "matplotlib", "plots"),
         ("--gif", "PIL", "film"),
+        ("--still=1", "PIL", "film"),
+        ("--mp4", "PIL", "mp4"),
         ("--mp4", "imageio_ffmpeg", "mp4"),
     ],
 )

@@ -30,7 +30,8 @@ from uuid import UUID
 from xml.etree.ElementTree import Element
 
 from ... import __version__
-from ...errors import HostError, InputError
+from ...collision.ship_names import check_ship_names
+from ...errors import HostError, InputError, describe_installation
 from ...files import write_files
 from .. import build_record
 from ..build_record import RECORD, START, BuildRecord, package_directory
@@ -87,12 +88,13 @@ def fmu_file(name: str, fmi: int = 2) -> str:
 def build_fmus(out: str | Path, *, ships: tuple[str, ...] = SHIPS, fmi: int = 2) -> dict[str, Path]:
     """Write ShipCollision.fmu and ShipManoeuvring.fmu into the folder `out` and return their paths by name.
 
-    `ships` are the names that the collision FMU gives its ships. With fmi = 3 the files are ShipCollision.fmi3.fmu and
-    ShipManoeuvring.fmi3.fmu, for FMI 3.0. Both files are written, or neither. Raises HostError, and InputError for
-    another version.
+    `ships` are the names that the collision FMU gives its ships; one ship is enough where it meets obstacles. With
+    fmi = 3 the files are ShipCollision.fmi3.fmu and ShipManoeuvring.fmi3.fmu, for FMI 3.0. Both files are written, or
+    neither. Raises HostError, and InputError for another version and for names that ships cannot have.
     """
     if fmi not in VERSIONS:
         raise InputError(f"fmi = {fmi!r} is not a version that FMUs can be built for: give one of 2, 3")
+    ships = check_ship_names(ships)
     built = {name: fmu_bytes(_interface(name), _slave(name, fmi).read_bytes(), ships, fmi) for name in FMUS}
     write_files(Path(out), {fmu_file(name, fmi): data for name, data in built.items()})
     return {name: Path(out) / fmu_file(name, fmi) for name in built}
@@ -184,8 +186,8 @@ def _home(wrapper: str) -> Path:
     found = find_spec(wrapper)
     if found is None or found.origin is None:
         raise HostError(
-            f"{wrapper}, which the FMUs are wrapped with, is not installed: run `python -m pip install "
-            f"'shipcollision-fmu{'[fmi3]' if wrapper == 'pythonfmu3' else ''}'`"
+            f"{wrapper}, which the FMUs are wrapped with, is not installed: "
+            f"{describe_installation('fmi3' if wrapper == 'pythonfmu3' else '')}"
         )
     return Path(found.origin).parent
 

@@ -32,7 +32,7 @@ from types import ModuleType
 
 import numpy as np
 
-from ...errors import HostError, ShipError
+from ...errors import HostError, ShipError, describe_installation
 from ..frames import Array
 from ..tables.hull import HullTable
 from .convex import Indices, enclosed_volume, half_spaces, is_convex
@@ -102,8 +102,7 @@ def _import_optional(name: str, purpose: str) -> ModuleType:
         return import_module(name)
     except ImportError as error:
         raise HostError(
-            f"{name} cannot be imported ({error}), and {purpose}: install it with "
-            f"`pip install 'shipcollision-fmu[mesh]'` or `pip install {name}`"
+            f"{name} cannot be imported ({error}), and {purpose}: {describe_installation('mesh')}"
         ) from None
 
 

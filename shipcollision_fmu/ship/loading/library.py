@@ -57,6 +57,7 @@ def load_ship(source: str | Path | Mapping[str, Any], directory: Path | None = N
     """
     if isinstance(source, Mapping):
         return _make_ship(_overlay(_convert_to_toml(source), directory or Path(), DICT, ()), DICT)
+    _check_source(source)
     if directory is not None and _is_path(source) and (directory / source).is_file():
         source = directory / source
     path = _locate(source)
@@ -66,7 +67,14 @@ def load_ship(source: str | Path | Mapping[str, Any], directory: Path | None = N
 def read_ship_tables(name_or_path: str | Path) -> dict[str, Any]:
     """The tables of a ship file as load_ship reads them: those of the files that it extends laid under its own, the
     mesh file of [hull] findable from the current folder."""
+    _check_source(name_or_path)
     return _read_with_base(_locate(name_or_path), ())
+
+
+def _check_source(source: str | Path) -> None:
+    """Raise ShipError for a source that is neither a name nor a path, and for no text."""
+    if not isinstance(source, str | Path) or source == "":
+        raise ShipError(f"ship = {source!r} is no ship: give a name, a path or the tables as a dict")
 
 
 @dataclass(frozen=True)

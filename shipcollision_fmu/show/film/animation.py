@@ -45,14 +45,13 @@ PALETTE_FRAMES = 12
 
 def write_gif(scene: Scene, folder: Path, progress: Progress | None = None) -> Path:
     """Write impact.gif into a folder; returns its path. Raises HostError, also without Pillow."""
-    require("PIL", "a GIF")
+    require("film", "a GIF")
     return write_file(folder / "impact.gif", make_gif(scene, progress=progress), IN_PLACE)
 
 
 def write_mp4(scene: Scene, folder: Path, progress: Progress | None = None) -> Path:
     """Write impact.mp4 into a folder; returns its path. Raises HostError, also without Pillow or imageio-ffmpeg."""
-    require("PIL", "an MP4")
-    require("imageio_ffmpeg", "an MP4")
+    require("mp4", "an MP4")
     return write_file(folder / "impact.mp4", make_mp4(scene, progress=progress), IN_PLACE)
 
 
@@ -61,7 +60,7 @@ def write_still(scene: Scene, folder: Path, time: float) -> Path:
 
     Raises InputError for a time outside the run, HostError, also without Pillow.
     """
-    require("PIL", "a still")
+    require("film", "a still")
     return write_file(folder / "still.png", make_still(scene, time), IN_PLACE)
 
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -188,3 +190,12 @@ def test_extends_in_a_circle(tmp_path: Path) -> None:
 def test_extends_refused(tmp_path: Path, line: str, message: str) -> None:
     with pytest.raises(ShipError, match=message):
         load_ship(written(tmp_path, "mine.toml", line + "\n"))
+
+
+@pytest.mark.parametrize("source", [None, 5, [1], ""])
+def test_what_is_no_ship_is_refused_in_one_line(source: Any) -> None:
+    line = rf"^ship = {re.escape(repr(source))} is no ship: give a name, a path or the tables as a dict$"
+    with pytest.raises(ShipError, match=line):
+        load_ship(source)
+    with pytest.raises(ShipError, match=line):
+        load_ship(source, Path())
