@@ -4,6 +4,7 @@ parts        the names that pages use in `<!-- generate: NAME -->`, and what mak
 markdown     tables and headings
 schema       a JSON schema as tables of keys: files of ships and scenarios, events.json
 variables    the variables of both FMUs
+estimates    what fills a ship file of the fewest numbers
 commands     the command line
 columns      the columns of a run's tables
 api          the names that the package exports

@@ -5,13 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
-from . import api, columns, commands, published, rooms, schema, variables
+from . import api, columns, commands, estimates, published, rooms, schema, variables
 
 __all__ = ["PARTS", "filled"]
 
 PARTS: dict[str, Callable[[], str]] = {
     "ship file": schema.ship_file,
     "scenario file": schema.scenario_file,
+    "estimates": estimates.estimates,
     "events": schema.events,
     "ShipCollision": variables.ship_collision,
     "ShipManoeuvring": variables.ship_manoeuvring,

@@ -18,9 +18,15 @@ __all__ = ["encounter", "import_"]
 @click.option("--target", default="kvlcc2", show_default=True, metavar="SHIP", help="The ship that is struck.")
 @click.option("--angle-deg", type=float, metavar="DEG", help="Between the headings: 0 overtaking, 180 head-on.")
 @click.option("--at", type=float, metavar="S", help="Place on the target: -0.5 stern, 0 amidships, 0.5 stem.")
-@click.option("--side", type=click.Choice(["starboard", "port"]), default="starboard", show_default=True)
-@click.option("--own-speed", type=float, metavar="M/S")
-@click.option("--target-speed", type=float, metavar="M/S")
+@click.option(
+    "--side",
+    type=click.Choice(["starboard", "port"]),
+    default="starboard",
+    show_default=True,
+    help="Side of the target that is struck.",
+)
+@click.option("--own-speed", type=float, metavar="M/S", help="Approach of own through the water.  [default: by TYPE]")
+@click.option("--target-speed", type=float, metavar="M/S", help="Likewise of the target.  [default: by TYPE]")
 @click.option("--time", type=float, metavar="S", help="From the start to the impact.  [default: 60; imazu 1800]")
 @click.option("--after", type=float, metavar="S", help="From the impact to the end.  [default: 60; imazu 120]")
 @click.option("--before", type=float, metavar="S", help="Of the rudder order: late-evasive, loss-of-steering.")
@@ -41,8 +47,18 @@ __all__ = ["encounter", "import_"]
 def encounter(kind: str, out: Path | None, case: int | None, degrees_of_freedom: str | None, **options: Any) -> None:
     """Make a scenario in which two ships collide as requested.
 
-    TYPE is head-on, crossing, overtaking, glancing, t-bone, drifting-target, late-evasive, loss-of-steering, or imazu
-    with --case: one of the 22 cases of Imazu's problem, with one to three targets.
+    TYPE is one of:
+
+    \b
+    head-on           own meets the target stem to stem
+    crossing          own crosses the target's course and strikes its side
+    overtaking        own overtakes the target and strikes its stern
+    glancing          own strikes the target's side at a small angle
+    t-bone            own strikes the side of the target, which lies stopped
+    drifting-target   own strikes the target, which drifts across
+    late-evasive      own puts its rudder over too late
+    loss-of-steering  own's rudder jams before the impact
+    imazu             one of the 22 cases of Imazu's problem, by --case
     """
     from ..encounters.encounter import encounter as make_encounter
     from ..encounters.imazu import imazu_from_options

@@ -22,7 +22,9 @@ __all__ = ["trial"]
 @click.option(
     "--rev-per-s", type=float, metavar="REV/S", help="Propeller on the approach.  [default: those that keep the speed]"
 )
-@click.option("--degrees-of-freedom", type=click.Choice(["3", "4", "6"]), default="3", show_default=True)
+@click.option(
+    "--degrees-of-freedom", type=click.Choice(["3", "4", "6"]), default="3", show_default=True, help="Of the ship."
+)
 @click.option("--out", type=PATH, metavar="FILE.csv", help="Store the track.")
 def trial(
     ship: str,
