@@ -58,8 +58,8 @@ class ContactCaches:
         Impulses of an earlier visit are no guess for an elastic impact at the same place. The solver would stop at its
         tolerance: 5e-12 of the energy a bounce, instead of 3e-15.
         """
-        for pair in [pair for pair in self.warm_starts if pair not in near]:
-            del self.warm_starts[pair]
+        if self.warm_starts:
+            self.warm_starts = {pair: rows for pair, rows in self.warm_starts.items() if pair in near}
 
     def get_state(self) -> dict[str, Any]:
         """All of it as plain data."""

@@ -83,7 +83,8 @@ class ShipExchange:
                 state.expect(forces)
                 if reading.pending.any():  # one-step delay: the impulse meets a ship that has gained velocity
                     nu = nu + forces.velocity_gain
-        state.set_twist(nu)
+        if nu is not state.nu:
+            state.set_twist(nu)
         if self._delay if reading.one_step_delay is None else reading.one_step_delay:
             x_then, R_then = state.pose_after(reading.nu, H)
             state.apply_at(x_then, R_then, body.inverse_at(attitude_from_rotation(R_then).tolist()))

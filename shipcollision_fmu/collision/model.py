@@ -112,7 +112,6 @@ class ShipCollision:
         self.warning = ""
         states, candidates = self._receive(t, H)
         near = self._proximity.find_near(candidates, states, H)
-        self._totals.begin_step()
         if near:
             saved = self.get_state()
             try:

@@ -32,10 +32,6 @@ class Totals:
     sweeps: int = 0
     unconverged_in_step: int = 0
 
-    def begin_step(self) -> None:
-        """Reset what is counted per step."""
-        self.residual, self.sweeps, self.unconverged_in_step = 0.0, 0, 0
-
     def add(self, solution: ContactSolution, scaled: bool, energies: Sequence[tuple[float, float]]) -> None:
         """Count a solved substep. scaled: by passivity.py; energies: lost at each contact [J], along and across the
         normal."""
@@ -60,11 +56,12 @@ class Totals:
         )
 
     def fill(self, out: CollisionOutputs) -> None:
-        """Write the totals to the outputs."""
+        """Write the totals to the outputs, and begin to count the next step."""
         energy, solver = out.energy, out.solver
         energy.dissipated, energy.normal, energy.tangential = self.energy, self.energy_normal, self.energy_tangential
         solver.residual, solver.sweeps = self.residual, self.sweeps
         solver.unconverged, solver.scaled = self.unconverged, self.scaled
+        self.residual, self.sweeps, self.unconverged_in_step = 0.0, 0, 0
 
     def get_state(self) -> dict[str, Any]:
         """The totals as plain data; what belongs to one step is in the outputs."""
@@ -72,4 +69,4 @@ class Totals:
 
     def set_state(self, state: dict[str, Any]) -> None:
         """Back to a state of get_state, exact to the bit."""
-        vars(self).update(state)
+        vars(self).update(state, residual=0.0, sweeps=0, unconverged_in_step=0)

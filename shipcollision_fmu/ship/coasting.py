@@ -68,12 +68,12 @@ def coast(
     return place, (roll, pitch, yaw + 2 * pi * round((expected - yaw) / (2 * pi))), after
 
 
-def coast_pose(x: Array, R: Array, v_g_n: Array, omega_n: Array, r_bg: Array, h: float) -> tuple[Array, Array]:
+def coast_pose(x: Array, R: Array, v_g_n: Array, omega_n: Array | None, r_bg: Array, h: float) -> tuple[Array, Array]:
     """Place of CO [m] (3,) and R_nb (3, 3) after h [s], from x (3,) and R (3, 3).
 
-    v_g_n, omega_n: velocity of CG [m/s] and angular velocity [rad/s] in n. r_bg: CG in b [m].
+    v_g_n, omega_n: velocity of CG [m/s] and angular velocity [rad/s] in n, None for zero. r_bg: CG in b [m].
     """
-    if not omega_n.any():
+    if omega_n is None:
         return x + h * v_g_n, R
     shift, columns = _displace((v_g_n @ R).tolist(), (omega_n @ R).tolist(), r_bg.tolist(), h)
     return x + R @ np.array(shift), R @ np.array(columns).T

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import signal
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -11,6 +12,14 @@ from shipcollision_fmu import load_scenario, simulate
 from shipcollision_fmu.collision.model import ShipCollision
 from shipcollision_fmu.cosim.interrupt import delay_interrupts
 from tests.conftest import Write
+
+
+@pytest.fixture(autouse=True)
+def _interrupts_are_raised() -> Iterator[None]:
+    """As in a terminal. A shell that starts the tests in the background lets them ignore Ctrl-C."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
 
 
 @pytest.mark.parametrize("in_process", [True, False])

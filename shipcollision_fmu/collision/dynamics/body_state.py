@@ -33,6 +33,11 @@ from .other_forces import OtherForces
 
 __all__ = ["BodyState"]
 
+Motion = tuple[Array, Array | None]
+"""Velocity of CG [m/s] and angular velocity [rad/s] (3,), both in n; None for a body that does not turn."""
+
+_NO_TURN = [0.0, 0.0, 0.0]
+
 
 @dataclass
 class BodyState:
@@ -82,7 +87,7 @@ class BodyState:
         self.nu = nu
         self.nu_mean = nu if self.velocity_bias is None else nu + self.velocity_bias
         self.nu_energy = nu if self.scheme_error is None else nu + self.scheme_error
-        self._motion: tuple[Array, Array] | None = None
+        self._motion: Motion | None = None
 
     def expect(self, forces: OtherForces) -> None:
         """Take in what other forces are expected to do in the step."""
@@ -126,11 +131,12 @@ class BodyState:
         self.x_applied, self.R_applied, self.M_inverse = x, R, M_inverse
         self.set_twist(nu)
 
-    def _motion_of(self, nu: Array) -> tuple[Array, Array]:
-        """(velocity of CG [m/s], angular velocity [rad/s]) in n of a twist nu (6,) at the pose of application."""
+    def _motion_of(self, nu: Array) -> Motion:
+        """Velocity of CG [m/s] and angular velocity [rad/s] in n of a twist nu (6,) at the pose of application."""
         v, omega = nu[:3], nu[3:]
-        v_g = self.R_applied @ (v + skew(omega) @ self.r_bg) if omega.any() else self.R_applied @ v
-        return v_g, self.R_applied @ omega
+        if omega.tolist() == _NO_TURN:
+            return self.R_applied @ v, None
+        return self.R_applied @ (v + skew(omega) @ self.r_bg), self.R_applied @ omega
 
     def _carry_twist(self, R: Array, nu: Array) -> Array:
         """The twist nu (6,), in b of the pose of application, in b of a pose with R to which the motion leads."""
