@@ -152,15 +152,18 @@ def check(world: MakeWorld, seed: int) -> bool:
     return touched
 
 
-def test_forty_random_encounters(world: MakeWorld) -> None:
-    assert sum(check(world, seed) for seed in range(40)) > 8
+def test_ten_random_encounters(world: MakeWorld) -> None:
+    assert sum(check(world, seed) for seed in range(10)) > 1
 
 
-def test_a_parallel_master_that_is_known_gains_nothing_and_loses_what_the_model_says(world: MakeWorld) -> None:
+@pytest.mark.parametrize("count", [30, pytest.param(120, marks=pytest.mark.slow)])
+def test_a_parallel_master_that_is_known_gains_nothing_and_loses_what_the_model_says(
+    world: MakeWorld, count: int
+) -> None:
     """After its first impulse a ship is known to be late: as here, from the start. 4 degrees are left out: what holds
     heave and pitch bends the way that is foreseen (2e-4 of the kinetic energy)."""
     touched, rng = 0, random.Random(0)
-    for seed in range(120):
+    for seed in range(count):
         names, starts, parameters = encounter(random.Random(seed))
         duration, H = parameters.pop("time"), rng.choice([0.05, 0.1, 0.2, 0.5])
         if parameters["degrees_of_freedom"] == 4 or "fender" in parameters["obstacles"] or duration > 300.0 * H:
@@ -176,12 +179,12 @@ def test_a_parallel_master_that_is_known_gains_nothing_and_loses_what_the_model_
                 assert abs(w.model.outputs.energy.dissipated + sum(w.work)) <= 1e-9 * kinetic, (seed, w.t)
         touched += w.model.outputs.collision_count > 0
         w.model.close()
-    assert touched > 15
+    assert touched > count // 8
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("block", range(1, 6))
-def test_five_hundred_random_encounters(world: MakeWorld, block: int) -> None:
+@pytest.mark.parametrize("block", range(6))
+def test_six_hundred_random_encounters(world: MakeWorld, block: int) -> None:
     assert sum(check(world, seed) for seed in range(100 * block, 100 * block + 100)) > 20
 
 
