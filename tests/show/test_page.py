@@ -140,6 +140,62 @@ def test_the_sides_are_seen_in_their_ships_colours(page: Page, scene: Scene) -> 
     assert red[0] > 1.8 * red[2]
 
 
+@pytest.mark.parametrize(("before", "after"), [((500, 440), (1400, 900)), ((1400, 600), (500, 900))])
+def test_the_overview_is_fitted_again_when_the_window_changes(
+    browser: Chrome, guan2014: Path, before: tuple[int, int], after: tuple[int, int]
+) -> None:
+    """The ships are where they are after a fresh choice of the overview, until the user has zoomed."""
+    write_page(guan2014)
+    browser.get("about:blank")  # the page is loaded anew, in a window of this size
+    page = Page(browser, guan2014 / "replay.html", "camera=all", size=before)
+    scene = load_scene(guan2014)
+    page.slide(0.0)
+
+    def ends() -> np.ndarray:
+        poses = page.run("return replay.drawn()")["poses"]
+        return np.array(
+            [
+                page.run(
+                    "return replay.project(arguments[0])",
+                    [
+                        float(c)
+                        for c in poses[ship.name]["position"]
+                        + rotation_from_quaternion(poses[ship.name]["quaternion"]) @ [along * ship.L_oa, 0.0, 0.0]
+                    ],
+                )
+                for ship in scene.ships
+                for along in (-0.5, 0.5)
+            ]
+        )
+
+    def resized(size: tuple[int, int]) -> np.ndarray:
+        shape = "JSON.stringify([innerWidth, innerHeight])"
+        old = page.run(f"return {shape}")
+        browser.set_window_size(*size)
+        page.wait(f"return {shape} !== '{old}'")
+        browser.execute_async_script(
+            "const done = arguments[0]; requestAnimationFrame(() => requestAnimationFrame(done))"
+        )
+        return ends()
+
+    fitted = resized(after)
+    page.run("replay.camera('all')")
+    np.testing.assert_allclose(fitted, ends(), atol=1.0)
+    width, height = page.run("const c = document.getElementById('picture'); return [c.clientWidth, c.clientHeight]")
+    assert (fitted >= 0).all()
+    assert (fitted <= [width, height]).all()
+    assert (np.ptp(fitted, axis=0) / [width, height]).max() > 0.6
+
+    page.run(
+        "document.getElementById('picture').dispatchEvent(new WheelEvent('wheel', "
+        "{deltaY: -400, bubbles: true, cancelable: true}))"
+    )
+    page.run("replay.drawn()")
+    zoomed = np.ptp(ends(), axis=0)[1] / height
+    kept = np.ptp(resized(before), axis=0)[1] / page.run("return document.getElementById('picture').clientHeight")
+    assert kept == pytest.approx(zoomed, rel=0.02)
+
+
 def test_scrubbing_back_brings_the_same_picture(page: Page, folder: Path, scene: Scene) -> None:
     during = moments(scene, folder)["during"]
     page.slide(during)

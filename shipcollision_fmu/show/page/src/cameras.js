@@ -16,7 +16,9 @@ export class Cameras {
     this.controls.maxDistance = 15000;
     this.controls.zoomSpeed = 1.4;
     this.controls.addEventListener("change", changed);
+    this.controls.addEventListener("start", () => (this.moved = true));
     this.mode = "all";
+    this.moved = false; // whether the user has turned or zoomed since the choice
   }
 
   /** What can be chosen: [value, label]. */
@@ -46,6 +48,13 @@ export class Cameras {
     return { middle, span };
   }
 
+  /** Bow and stern of every ship, as they lie now. */
+  ends() {
+    return this.ships.flatMap(({ node, info }) =>
+      [-0.5, 0.5].map((along) => node.localToWorld(new THREE.Vector3(along * info.L_oa, 0, 0))),
+    );
+  }
+
   /** The latest explosion, or the first one if there has been none. */
   effectAt(time) {
     const explosions = this.data.effects.filter(({ kind }) => kind === "explosion");
@@ -54,6 +63,7 @@ export class Cameras {
 
   choose(mode, time) {
     this.mode = mode;
+    this.moved = false;
     if (mode === "free") return;
     const at = mode === "all" ? this.overview(time) : this.closeUp(mode, time);
     this.controls.target.copy(at.target);
@@ -90,14 +100,23 @@ export class Cameras {
   resize(width, height) {
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
+    if (this.mode === "all" && this.last && !this.moved) this.fitAgain();
+  }
+
+  /** The overview in a picture of another shape: all ships fill it again, seen from the same direction. */
+  fitAgain() {
+    const { middle, span } = this.fleet();
+    const direction = this.camera.position.clone().sub(this.controls.target).normalize();
+    this.controls.target.copy(middle);
+    this.camera.position.copy(this.backOff(middle, direction, this.ends()));
+    this.last = middle;
+    this.lastSpan = span;
+    this.controls.update();
   }
 
   /** All ships as they lie now, seen from where they will hide each other least when they meet. */
   overview(time) {
     const target = this.fleet().middle;
-    const points = this.ships.flatMap(({ node, info }) =>
-      [-0.5, 0.5].map((along) => node.localToWorld(new THREE.Vector3(along * info.L_oa, 0, 0))),
-    );
     const { start, end, events } = this.data;
     const impact = events.find((event) => event.time >= time) ?? events.at(-1);
     const moment = (impact ? Math.max(impact.time, time) : Math.min(end, time + 30)) - start;
@@ -106,7 +125,7 @@ export class Cameras {
       track.at(moment, position, new THREE.Quaternion());
       return toWorld(position);
     });
-    return { target, position: this.backOff(target, this.bestDirection(centres), points) };
+    return { target, position: this.backOff(target, this.bestDirection(centres), this.ends()) };
   }
 
   /** The horizontal direction, raised by 17 deg, from which ships lie side by side and the struck side shows. */
