@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+import zipfile
 from pathlib import Path
 
 import pytest
@@ -172,7 +173,7 @@ def edited(old: str, new: str) -> None:
         ("", "", ["--step", "0"], 2, "encounter.toml with step 0.0: [scenario] step = 0.0 must be greater than 0"),
         ("", "", ["--step", "nan"], 2, "encounter.toml with step nan: [scenario] step = nan must be a finite number"),
         ("", "", ["--step", "0.4"], 2, "duration = 1.5 s is 3.75 steps of 0.4 s, must be a whole number: take"),
-        ("", "", ["--step", "x"], 2, "Invalid value for '--step': 'x' is not a valid float"),
+        ("", "", ["--step", "x"], 2, "Invalid value for '--step': 'x' is not a number: give one such as 0.5"),
         ("4.0", "nan", [], 2, "encounter.toml: [ships.own] speed = nan must be a finite number"),
         ("", "", ["--algorithm", "gauss"], 2, "Invalid value for '--algorithm': 'gauss' is not one of"),
         ("", "", ["--stp", "1"], 2, "No such option"),
@@ -204,10 +205,22 @@ def test_a_mistake_is_one_line_and_writes_nothing(
         (["validate"], 2, "Missing argument 'FMU'"),
         (["validate", "absent.fmu"], 2, "absent.fmu does not exist: build the FMUs with `shipcollision build`"),
         (["validate", "barge.toml"], 2, "barge.toml is not a zip archive: give the path of a .fmu file"),
+        (
+            ["validate", "other.fmu"],
+            2,
+            "other.fmu is no FMU: it has no modelDescription.xml; give the path of a .fmu file",
+        ),
+        (
+            ["show", "run", "--still", "abc"],
+            2,
+            "Invalid value for '--still': 'abc' is not a number: give one such as 0.5",
+        ),
         (["build", "--out", "barge.toml"], 1, "cannot write to barge.toml: "),
     ],
 )
 def test_bad_usage_is_one_line(folder: Path, arguments: list[str], status: int, line: str) -> None:
+    with zipfile.ZipFile("other.fmu", "w") as archive:
+        archive.writestr("readme.txt", "no FMU")
     result = called(*arguments)
     assert result.exit_code == status
     assert result.stdout == ""
@@ -347,6 +360,11 @@ def test_a_traffic_situation_becomes_a_scenario_with_its_ships(folder: Path) -> 
         (["encounter", "imazu", "--out", "x.toml"], 2, "which of Imazu's cases? give --case 1 to 22"),
         (["encounter", "imazu", "--case", "0", "--out", "x.toml"], 2, "Imazu case 0 does not exist: take 1 to"),
         (["encounter", "imazu", "--case", "1", "--at", "0.1"], 2, "Imazu's cases have no at: take own, target"),
+        (["encounter", "imazu", "--case", "one"], 2, "'--case': 'one' is not a whole number: give one such as 3"),
+        (["encounter", "t-bone", "--out", "x.txt"], 2, "'--out': x.txt does not end in .toml: call it x.toml"),
+        (["import", "bad.json", "--out", "x"], 2, "'--out': x does not end in .toml: call it x.toml"),
+        (["encounter", "head-on", "--angle-deg", "90"], 2, "angle_deg = 90 must be 135 to 180 for this type: take"),
+        (["encounter", "t-bone", "--angle-deg", "0"], 2, "close at 0.00 m/s, at least 0.15 m/s is needed"),
         (["import", "absent.json", "--out", "x.toml"], 2, "absent.json cannot be read: No such file or directory"),
         (["import", "barge.toml", "--out", "x.toml"], 2, "barge.toml: is not valid JSON: "),
         (["import", "bad.json", "--out", "x.toml"], 2, "[ownShip.initial] sog = 1000 must be less than or equal to 60"),

@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from .options import PATH
+from .options import NUMBER, PATH, TOML_PATH, WHOLE_NUMBER
 
 __all__ = ["encounter", "import_"]
 
@@ -16,8 +16,8 @@ __all__ = ["encounter", "import_"]
 @click.argument("kind", metavar="TYPE")
 @click.option("--own", default="kvlcc2", show_default=True, metavar="SHIP", help="The ship that strikes.")
 @click.option("--target", default="kvlcc2", show_default=True, metavar="SHIP", help="The ship that is struck.")
-@click.option("--angle-deg", type=float, metavar="DEG", help="Between the headings: 0 overtaking, 180 head-on.")
-@click.option("--at", type=float, metavar="S", help="Place on the target: -0.5 stern, 0 amidships, 0.5 stem.")
+@click.option("--angle-deg", type=NUMBER, metavar="DEG", help="Between the headings: 0 overtaking, 180 head-on.")
+@click.option("--at", type=NUMBER, metavar="S", help="Place on the target: -0.5 stern, 0 amidships, 0.5 stem.")
 @click.option(
     "--side",
     type=click.Choice(["starboard", "port"]),
@@ -25,25 +25,25 @@ __all__ = ["encounter", "import_"]
     show_default=True,
     help="Side of the target that is struck.",
 )
-@click.option("--own-speed", type=float, metavar="M/S", help="Approach of own through the water.  [default: by TYPE]")
-@click.option("--target-speed", type=float, metavar="M/S", help="Likewise of the target.  [default: by TYPE]")
-@click.option("--time", type=float, metavar="S", help="From the start to the impact.  [default: 60; imazu 1800]")
-@click.option("--after", type=float, metavar="S", help="From the impact to the end.  [default: 60; imazu 120]")
-@click.option("--before", type=float, metavar="S", help="Of the rudder order: late-evasive, loss-of-steering.")
-@click.option("--rudder-deg", type=float, metavar="DEG", help="That order, positive to starboard.")
-@click.option("--drift-speed", type=float, metavar="M/S", help="Of a drifting target.")
+@click.option("--own-speed", type=NUMBER, metavar="M/S", help="Approach of own through the water.  [default: by TYPE]")
+@click.option("--target-speed", type=NUMBER, metavar="M/S", help="Likewise of the target.  [default: by TYPE]")
+@click.option("--time", type=NUMBER, metavar="S", help="From the start to the impact.  [default: 60; imazu 1800]")
+@click.option("--after", type=NUMBER, metavar="S", help="From the impact to the end.  [default: 60; imazu 120]")
+@click.option("--before", type=NUMBER, metavar="S", help="Of the rudder order: late-evasive, loss-of-steering.")
+@click.option("--rudder-deg", type=NUMBER, metavar="DEG", help="That order, positive to starboard.")
+@click.option("--drift-speed", type=NUMBER, metavar="M/S", help="Of a drifting target.")
 @click.option(
     "--drift-deg",
-    type=float,
+    type=NUMBER,
     metavar="DEG",
     help="Its direction, from the bow clockwise.  [default: 90]",
 )
-@click.option("--case", type=int, metavar="N", help="Of imazu: 1 to 22.")
+@click.option("--case", type=WHOLE_NUMBER, metavar="N", help="Of imazu: 1 to 22.")
 @click.option("--hydrodynamics/--coasting", default=None, help="Sail the ships, or let them coast.  [default: by TYPE]")
 @click.option("--degrees-of-freedom", type=click.Choice(["3", "4", "6"]), help="Of all ships.  [default: 3]")
-@click.option("--step", type=float, default=0.05, show_default=True, metavar="S", help="Communication step.")
+@click.option("--step", type=NUMBER, default=0.05, show_default=True, metavar="S", help="Communication step.")
 @click.option("--name", help="Of the scenario.")
-@click.option("--out", type=PATH, metavar="FILE.toml", help="Store it; else it is printed.")
+@click.option("--out", type=TOML_PATH, metavar="FILE.toml", help="Store it; else it is printed.")
 def encounter(kind: str, out: Path | None, case: int | None, degrees_of_freedom: str | None, **options: Any) -> None:
     """Make a scenario in which two ships collide as requested.
 
@@ -84,10 +84,10 @@ def encounter(kind: str, out: Path | None, case: int | None, degrees_of_freedom:
 @click.argument("file", type=PATH)
 @click.option("--ship", metavar="SHIP", help="Plays every ship.  [default: ships made from the file's dimensions]")
 @click.option("--own", metavar="SHIP", help="Plays own ship.")
-@click.option("--duration", type=float, metavar="S", help="[default: the time of own ship's route]")
-@click.option("--step", type=float, default=0.05, show_default=True, metavar="S", help="Communication step.")
+@click.option("--duration", type=NUMBER, metavar="S", help="[default: the time of own ship's route]")
+@click.option("--step", type=NUMBER, default=0.05, show_default=True, metavar="S", help="Communication step.")
 @click.option("--hydrodynamics", is_flag=True, help="Sail the ships along their waypoints; else they coast.")
-@click.option("--out", type=PATH, required=True, metavar="FILE.toml", help="Scenario to write.")
+@click.option("--out", type=TOML_PATH, required=True, metavar="FILE.toml", help="Scenario to write.")
 def import_(
     file: Path, ship: str | None, own: str | None, duration: float | None, step: float, hydrodynamics: bool, out: Path
 ) -> None:

@@ -9,7 +9,7 @@ import click
 from ..errors import ShipCollisionError
 from .console import console, progress
 from .mistakes import fail
-from .options import FMI, PATH
+from .options import FMI, NUMBER, PATH
 
 __all__ = ["run", "show"]
 
@@ -18,7 +18,7 @@ __all__ = ["run", "show"]
 @click.argument("scenario", default="guan2014")
 @click.option("--out", type=PATH, help="Folder of the results.  [default: runs/NAME]")
 @click.option("--algorithm", type=click.Choice(["gauss-seidel", "jacobi"]), help="Instead of the scenario's.")
-@click.option("--step", type=float, metavar="S", help="Communication step in seconds, instead of the scenario's.")
+@click.option("--step", type=NUMBER, metavar="S", help="Communication step in seconds, instead of the scenario's.")
 @click.option("--in-process", is_flag=True, help="Drive the models without FMI; gives the same bits.")
 @click.option("--fmi", type=FMI, default="2", show_default=True, help="Version of the FMUs; gives the same bits.")
 @click.option("--page/--no-page", default=True, help="Write replay.html, which shows the run.  [default: --page]")
@@ -69,7 +69,7 @@ def run(
 @click.option("--plots", is_flag=True, help="Figures for a report, PNG and SVG. Needs Matplotlib.")
 @click.option("--gif", is_flag=True, help="impact.gif, a film of the first contact. Needs Pillow.")
 @click.option("--mp4", is_flag=True, help="impact.mp4, the same. Needs Pillow and imageio-ffmpeg.")
-@click.option("--still", type=float, metavar="S", help="still.png, the picture at S seconds. Needs Pillow.")
+@click.option("--still", type=NUMBER, metavar="S", help="still.png, the picture at S seconds. Needs Pillow.")
 def show(
     folder: Path, in_browser: bool, osg: bool, glb: bool, plots: bool, gif: bool, mp4: bool, still: float | None
 ) -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from .console import console
-from .options import PATH
+from .options import NUMBER, PATH
 
 __all__ = ["trial"]
 
@@ -15,12 +15,12 @@ __all__ = ["trial"]
 @click.command()
 @click.argument("ship")
 @click.argument("manoeuvre", type=click.Choice(["turning-circle", "zigzag", "crash-stop"]))
-@click.option("--rudder-deg", type=float, metavar="DEG", help="Rudder angle.  [default: 35, in a zigzag 10]")
-@click.option("--heading-deg", type=float, metavar="DEG", help="Of a zigzag.  [default: 10]")
+@click.option("--rudder-deg", type=NUMBER, metavar="DEG", help="Rudder angle.  [default: 35, in a zigzag 10]")
+@click.option("--heading-deg", type=NUMBER, metavar="DEG", help="Of a zigzag.  [default: 10]")
 @click.option("--starboard/--port", default=True, help="Side of the first rudder.  [default: --starboard]")
-@click.option("--speed", type=float, metavar="M/S", help="Approach speed.  [default: the service speed]")
+@click.option("--speed", type=NUMBER, metavar="M/S", help="Approach speed.  [default: the service speed]")
 @click.option(
-    "--rev-per-s", type=float, metavar="REV/S", help="Propeller on the approach.  [default: those that keep the speed]"
+    "--rev-per-s", type=NUMBER, metavar="REV/S", help="Propeller on the approach.  [default: those that keep the speed]"
 )
 @click.option(
     "--degrees-of-freedom", type=click.Choice(["3", "4", "6"]), default="3", show_default=True, help="Of the ship."

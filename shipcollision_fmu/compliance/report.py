@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import dataclass
 from pathlib import Path
-from zipfile import is_zipfile
+from zipfile import ZipFile, is_zipfile
 
 from fmpy.validation import validate_fmu
 
@@ -45,6 +45,9 @@ def validate(fmu: Path, *, calls: bool = True, ignore: Collection[str] = ()) -> 
         raise InputError(f"{fmu} does not exist: build the FMUs with `shipcollision build`")
     if not is_zipfile(fmu):
         raise InputError(f"{fmu} is not a zip archive: give the path of a .fmu file")
+    with ZipFile(fmu) as archive:
+        if "modelDescription.xml" not in archive.namelist():
+            raise InputError(f"{fmu} is no FMU: it has no modelDescription.xml; give the path of a .fmu file")
     found = [Finding("fmpy", " ".join(problem.split()), True) for problem in validate_fmu(str(fmu))]
     try:
         subject = Subject(fmu)

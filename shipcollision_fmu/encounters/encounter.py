@@ -163,8 +163,8 @@ def _write_as_run(
 
 def _refuse_grazing(request: Request, impact: PlannedImpact, closing_speed: float, least: float) -> ScenarioError:
     return ScenarioError(
-        f"{describe_impact(request, impact)}: there they close at {closing_speed + 0.0:.2f} m/s, at least {least:.2f} "
-        "is needed; change the angle, the speeds, the side or the place"
+        f"{describe_impact(request, impact)}: there they close at {round(closing_speed, 2) + 0.0:.2f} m/s, at least "
+        f"{least:.2f} m/s is needed; change the angle, the speeds, the side or the place"
     )
 
 

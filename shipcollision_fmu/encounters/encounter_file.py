@@ -41,16 +41,18 @@ def write_encounter(
     where = (
         "target's stem" if s == 0.5 else "target's stern" if s == -0.5 else f"target's {request.side} side, s = {s:g}"
     )
+    predicate = kind.words if s == kind.at or not kind.elsewhere else kind.elsewhere
     comment = [
         f"Made by `shipcollision encounter {request.kind}`, backwards from the impact.",
-        *_describe_approach(kind, request),
+        f"Own {predicate}.",
+        *_describe_order(kind, request),
         f"Impact: at {T:g} s at n's origin, at {where}, {angle} deg between the headings,",
         f"closing at {approach.closing_speed:.3g} m/s along the normal of the target's hull.",
     ]
     tables: dict[str, dict[str, Any]] = {
         "scenario": {
             "name": request.name or f"{request.kind}-{angle}".replace("-", "_").replace(".", "_"),
-            "description": f"own {kind.words}: {angle} deg, at {where}.",
+            "description": f"own {predicate}: {angle} deg, at {where}.",
             "duration": round(end, 9),
             "step": request.step,
         },
@@ -79,10 +81,9 @@ def _ship_table(ship: ApproachingShip, start: ShipState, step: float, sailed: bo
     )  # fmt: skip
 
 
-def _describe_approach(kind: Kind, request: Request) -> list[str]:
-    lines = [f"Own {kind.words}."]
-    if kind.helm:
-        before = value_or_default(request.before, kind.before)
-        rudder_deg = value_or_default(request.rudder_deg, kind.rudder_deg)
-        lines.append(f"Its rudder is ordered to {rudder_deg:g} deg {before:g} s before the impact.")
-    return lines
+def _describe_order(kind: Kind, request: Request) -> list[str]:
+    if not kind.helm:
+        return []
+    before = value_or_default(request.before, kind.before)
+    rudder_deg = value_or_default(request.rudder_deg, kind.rudder_deg)
+    return [f"Its rudder is ordered to {rudder_deg:g} deg {before:g} s before the impact."]

@@ -26,12 +26,21 @@ LONGEST = 7200.0
 FREEDOMS = (3, 4, 6)
 """Degrees of freedom that the manoeuvring model offers."""
 
+HEAD_ON_ANGLES = (135.0, 180.0)
+"""[deg] Nearer to opposite courses than to a right angle."""
+OVERTAKING_ANGLES = (0.0, 67.5)
+"""[deg] From more than 22.5 deg abaft the target's beam (COLREG, rule 13)."""
+GLANCING_ANGLES = (0.0, 45.0)
+"""[deg] Nearer to the same course than to a right angle."""
+
 
 @dataclass(frozen=True)
 class Kind:
     """A kind of encounter: its description and the values used where a request gives none.
 
-    words                     predicate of the sentence "Own ... ." in the scenario file
+    words, elsewhere          predicate of the sentence "Own ... ." in the scenario file, and that for a place s other
+                              than the kind's own; empty where the predicate names no place
+    angles                    least and greatest angle between the headings [deg] that the name of the kind allows
     angle_deg, at             angle between the headings [deg], place s on the target
     own_speed, target_speed   approach speeds through the water [m/s]
     sailed                    whether the kind needs the manoeuvring model
@@ -50,13 +59,31 @@ class Kind:
     before: float = 0.0
     rudder_deg: float = 0.0
     drift_speed: float = 0.0
+    elsewhere: str = ""
+    angles: tuple[float, float] = (0.0, 180.0)
 
 
 KINDS: dict[str, Kind] = {
-    "head-on": Kind("meets target stem to stem", 180.0, 0.5, 5.0, 5.0),
+    "head-on": Kind(
+        "meets target stem to stem",
+        180.0,
+        0.5,
+        5.0,
+        5.0,
+        elsewhere="meets target on a nearly opposite course",
+        angles=HEAD_ON_ANGLES,
+    ),
     "crossing": Kind("crosses target's course and strikes its side", 90.0, 0.0, 5.0, 5.0),
-    "overtaking": Kind("overtakes target and strikes its stern", 0.0, -0.5, 7.0, 3.0),
-    "glancing": Kind("strikes target's side at a small angle", 20.0, 0.1, 6.0, 5.0),
+    "overtaking": Kind(
+        "overtakes target and strikes its stern",
+        0.0,
+        -0.5,
+        7.0,
+        3.0,
+        elsewhere="overtakes target and strikes it",
+        angles=OVERTAKING_ANGLES,
+    ),
+    "glancing": Kind("strikes target's side at a small angle", 20.0, 0.1, 6.0, 5.0, angles=GLANCING_ANGLES),
     "t-bone": Kind("strikes the side of target, which lies stopped", 90.0, 0.0, 5.0, 0.0),
     "drifting-target": Kind("strikes target, which drifts across", 90.0, 0.0, 5.0, 0.0, drift_speed=1.0),
     "late-evasive": Kind(
@@ -173,6 +200,12 @@ def _check_options_of_kind(request: Request, kind: Kind) -> None:
     ):  # fmt: skip
         if value is not None and not has:
             raise ScenarioError(f"encounter {request.kind} has no {name}: leave it out, or take another type")
+    least, most = kind.angles
+    if request.angle_deg is not None and not least <= request.angle_deg <= most:
+        raise ScenarioError(
+            f"encounter {request.kind}: angle_deg = {request.angle_deg:g} must be {least:g} to {most:g} for this type: "
+            "take crossing for another angle"
+        )
     if kind.sailed and request.hydrodynamics is False:
         raise ScenarioError(
             f"encounter {request.kind} needs ships that steer: leave out --coasting, or take another type"

@@ -127,7 +127,7 @@ def test_names_of_kinds_survive_any_character() -> None:
          r"points are not the corners of a convex polygon: 3 of 4 are on its outside"),
         ('[p]\nkind = "x"\nshape = "polygon"\nposition = [0, 0]\npoints = [[0, 0], [1, 0], [2, 0]]',
          r"points lie on one line"),
-        ("wall = 3", r"obstacles: \[obstacles\] wall = 3 must be a valid dictionary"),
+        ("wall = 3", r"obstacles: \[obstacles\] wall = 3 must be a table"),
         ("[wall", r"obstacles: is not valid TOML"),
         ("nowhere.toml", r"obstacles: file nowhere.toml does not exist: give TOML text, or the path"),
     ],

@@ -217,3 +217,20 @@ def test_ships_that_touch_before_are_refused() -> None:
         ScenarioError, match=r"the ships touch elsewhere \d+.\d s before the impact that is wanted: change"
     ):
         encounter(Request("loss-of-steering", target_speed=0.0, before=2400.0, time=2400.0, rudder_deg=35.0, step=0.5))
+
+
+@pytest.mark.parametrize(
+    ("kind", "angle", "limits"),
+    [("head-on", 90.0, "135 to 180"), ("overtaking", 90.0, "0 to 67.5"), ("glancing", 46.0, "0 to 45")],
+)
+def test_an_angle_that_the_kind_does_not_allow_is_refused_with_the_limits(kind: str, angle: float, limits: str) -> None:
+    line = rf"^encounter {kind}: angle_deg = {angle:g} must be {limits} for this type: take crossing for another angle$"
+    with pytest.raises(ScenarioError, match=line):
+        encounter(kind, angle_deg=angle)
+
+
+def test_the_description_names_the_place_that_is_struck() -> None:
+    assert "strikes its stern" in encounter("overtaking", step=0.5).text
+    amidships = encounter("overtaking", at=0.3, angle_deg=30.0, step=0.5).text
+    assert "Own overtakes target and strikes it." in amidships
+    assert "stern" not in amidships

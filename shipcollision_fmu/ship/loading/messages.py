@@ -51,8 +51,36 @@ def _describe(problem: Any, model: type[BaseModel]) -> str:
         if isinstance(value, dict) and len(loc) > 1 and not message.startswith("["):  # a check of a whole table
             return f"[{'.'.join(map(str, loc))}] {message}"
         return f"{_name_place(loc)}: {message}" if loc and not message.startswith("[") else message
+    said = _say_plainly(kind, message, problem.get("ctx", {}))
+    return f"{_name_place(loc)} = {_shorten(value)} {said}" + (f": it is {what}" if what else "")
+
+
+_PLAIN = {
+    "model_type": "must be a table", "model_attributes_type": "must be a table", "dict_type": "must be a table",
+    "mapping_type": "must be a table",
+    "float_type": "must be a number", "float_parsing": "must be a number",
+    "int_type": "must be a whole number", "int_parsing": "must be a whole number",
+    "int_from_float": "must be a whole number",
+    "bool_type": "must be true or false", "bool_parsing": "must be true or false",
+    "string_type": "must be text in quotes",
+    "list_type": "must be a list in brackets", "tuple_type": "must be a list in brackets",
+}  # fmt: skip
+"""What a message says for pydantic's kinds of problem, in the words of a TOML file."""
+
+
+def _say_plainly(kind: str, message: str, context: dict[str, Any]) -> str:
+    """The rest of the sentence that begins with a key and its value; pydantic's own words where they are plain."""
+    if kind in _PLAIN:
+        return _PLAIN[kind]
+    if kind in ("too_short", "too_long"):
+        least = kind == "too_short"
+        limit, given = context["min_length" if least else "max_length"], context["actual_length"]
+        bound = f"at {'least' if least else 'most'} {limit} value{'' if limit == 1 else 's'}"
+        return f"must have {bound}, it has {given}"
+    if kind == "string_too_short":
+        return "must not be empty"
     said = message.replace("Input should", "should").replace("should be", "must be").replace("should have", "must have")
-    return f"{_name_place(loc)} = {_shorten(value)} {said[0].lower()}{said[1:]}" + (f": it is {what}" if what else "")
+    return f"{said[0].lower()}{said[1:]}"
 
 
 def _shorten(value: object) -> str:
