@@ -267,10 +267,15 @@ class ShipManoeuvring:
         return {key: list(value) if isinstance(value, tuple) else value for key, value in self._state._asdict().items()}
 
     def set_state(self, state: dict[str, Any]) -> None:
-        """Restore what get_state gave, and the outputs, to the bit. The parameters must be those it was taken with."""
+        """Restore what get_state gave, and the outputs, to the bit. The parameters must be those it was taken with.
+
+        Raises StepError for another dict.
+        """
         if not state:
             self._state = None
             return
+        if set(state) != set(State._fields):
+            raise StepError("the state is not of ShipManoeuvring: give what get_state() returned")
         self._set_up = self._prepare()
         values: dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in state.items()}
         self._publish(State(**values))

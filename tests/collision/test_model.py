@@ -443,3 +443,8 @@ def test_bullets_scalar_mass_refuses_added_mass(make_ship: Make) -> None:
 def test_a_state_of_another_kind_is_refused_in_one_line() -> None:
     with pytest.raises(StepError, match=r"^ShipCollision is not initialised: call initialise\(\) before set_state"):
         ShipCollision().set_state({"a": 1})
+    model = ShipCollision()
+    model.initialise()
+    with pytest.raises(StepError, match=r"^the state has no 'exchange': give what get_state\(\) returned$"):
+        model.set_state({"a": 1})
+    model.close()

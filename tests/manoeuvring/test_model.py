@@ -219,3 +219,9 @@ def test_lists_keep_their_identity(start: Start, mode: dict[str, Any]) -> None:
         part, name = path.split(".")
         assert getattr(getattr(ship, part), name) is value
         assert all(type(x) is float for x in value)
+
+
+@pytest.mark.parametrize("state", [{"a": 1}, {"t": 0.0}])
+def test_a_state_of_another_kind_is_refused_in_one_line(state: dict[str, Any]) -> None:
+    with pytest.raises(StepError, match=r"^the state is not of ShipManoeuvring: give what get_state\(\) returned$"):
+        ShipManoeuvring().set_state(state)
