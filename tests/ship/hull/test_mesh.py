@@ -259,7 +259,7 @@ def test_parts_that_hold_too_much_are_refused(read: Read, monkeypatch: pytest.Mo
 
 PARTS_DIGEST = """
 import hashlib
-from shipcollision_fmu.ship.hull import build_hull
+from shipcollision_fmu.ship.hull.hull import build_hull
 from shipcollision_fmu.ship.loading.library import load_ship
 ship = load_ship("mesh_example")
 hull = build_hull(ship.L_oa, ship.B, ship.T, ship.hull)

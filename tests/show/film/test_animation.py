@@ -88,9 +88,9 @@ def test_hundred_collisions_and_odd_names(guan2014: Path, tmp_path: Path) -> Non
 
 @pytest.mark.slow
 def test_the_picture_of_the_readme_is_the_still_that_its_command_makes(scene: Scene) -> None:
-    """docs/guan2014.png, by `shipcollision show runs/guan2014 --still 1.4`; other versions of numpy and Pillow may
-    round otherwise."""
-    path = Path(__file__).parents[3] / "docs" / "guan2014.png"
+    """docs/images/guan2014.png, by `shipcollision show runs/guan2014 --still 1.4`; other versions of numpy and Pillow
+    may round otherwise."""
+    path = Path(__file__).parents[3] / "docs" / "images" / "guan2014.png"
     assert path.stat().st_size < 300_000
     there = np.asarray(Image.open(path).convert("RGB")).astype(int)
     made = np.asarray(Image.open(io.BytesIO(make_still(scene, 1.4))).convert("RGB")).astype(int)
