@@ -140,9 +140,7 @@ class ShipCollision:
         """Take the states through the step; the contact points of it. near: pairs and their gaps."""
         self._collisions.close_old(t)
         self._caches.forget_parted(near)
-        met = {i for pair in near for i in pair}
-        self._caches.work.renew(sum(not states[i].fixed for i in met), H)
-        self._advance_others(H, states, met)
+        self._advance_others(H, states, {i for pair in near for i in pair})
         fenders = select_fenders(self._bodies, list(near))
         schedule = ConservativeAdvancement(
             H, self.parameters.substep, self._bodies, states, detector, self._caches, near, fenders

@@ -41,12 +41,10 @@ def respond_pgs(problem: ContactProblem, caches: ContactCaches) -> ContactSoluti
     velocity = approach_velocities(contacts, states)
     if velocity[0::3].min() >= -AT_REST:  # touching, but parting, or stopped in the substep before
         return ContactSolution([Impulse(c, np.zeros(3)) for c in contacts])
-    work = caches.work.lend()
     solution = solve_poisson_impact(
         delassus(contacts, states), velocity, problem.friction, problem.restitution,
-        guess_impulses(contacts, [c.axes for c in contacts], caches.warm_starts), work,
+        guess_impulses(contacts, [c.axes for c in contacts], caches.warm_starts),
     )  # fmt: skip
-    caches.work.settle(work)
     impulses = [Impulse(c, c.axes.T @ P) for c, P in zip(contacts, solution.P, strict=True)]
     keep_impulses(impulses, caches.warm_starts)
     return ContactSolution(impulses, solution.residual, solution.sweeps)

@@ -11,7 +11,6 @@ the law of contact. No solver depends on ships or hulls; resultant_contact and w
         aitken             extrapolation between sweeps
         alart_curnier      after MAX_SWEEPS: Newton's method on all contacts together
         aclm_fixed_point   where Newton's method cycles: a sequence of convex problems (ACLM)
-    work_limit             the bound on the work of a communication step
     poisson_restitution    all contacts of an impact with restitution: the solver of response `pgs`
     resultant_contact      the contacts of a pair reduced to one
     impact_process         one contact followed along its normal impulse: the solver of response `closed_form`

@@ -22,7 +22,6 @@ import numpy as np
 
 from ...ship.frames import Array
 from .contact_law import law_residual
-from .work_limit import WorkLimit
 
 __all__ = ["solve_aclm"]
 
@@ -38,27 +37,23 @@ CLOSER = 1e-3
 smaller share costs gradient steps."""
 
 
-def solve_aclm(W: Array, v: Array, mu: float, P: Array, tolerance: float, work: WorkLimit | None = None) -> Array:
+def solve_aclm(W: Array, v: Array, mu: float, P: Array, tolerance: float) -> Array:
     """Impulses (k, 3) [N s] after some updates from P (k, 3): mostly with a smaller residual (law_residual) than P.
 
-    W (3k, 3k) [1/kg], v (3k,) [m/s] in contact axes; tolerance [m/s]: the residual at which the updates end;
-    work: the bound on what the solver may do.
+    W (3k, 3k) [1/kg], v (3k,) [m/s] in contact axes; tolerance [m/s]: the residual at which the updates end.
     """
-    work = work or WorkLimit()
     steepest = float(np.linalg.eigvalsh(W)[-1])
     for _ in range(MAX_FIXED_POINTS):
         residual = law_residual(W, v, mu, P)
-        if residual <= tolerance or work.is_spent:
+        if residual <= tolerance:
             break
         after = (v + W @ P.ravel()).reshape(-1, 3)
         sliding_speed = np.hypot(after[:, 1], after[:, 2])
-        P = _solve_convex(W, v, mu, sliding_speed, P, steepest, max(CLOSER * residual, 0.1 * tolerance), work)
+        P = _solve_convex(W, v, mu, sliding_speed, P, steepest, max(CLOSER * residual, 0.1 * tolerance))
     return P
 
 
-def _solve_convex(
-    W: Array, v: Array, mu: float, s: Array, P: Array, steepest: float, tolerance: float, work: WorkLimit
-) -> Array:
+def _solve_convex(W: Array, v: Array, mu: float, s: Array, P: Array, steepest: float, tolerance: float) -> Array:
     """Impulses (k, 3) of the convex problem with sliding speeds s (k,) [m/s].
 
     steepest: largest eigenvalue of W [1/kg]; tolerance [m/s]: change of velocity in a step at which the steps end.
@@ -75,8 +70,7 @@ def _solve_convex(
         t_new = 0.5 * (1.0 + (1.0 + 4.0 * t * t) ** 0.5)
         ahead = new + (t - 1.0) / t_new * step
         P, t = new, t_new
-        work.spend_gradient_step(len(P))
-        if float(np.abs(step).max()) * steepest <= tolerance or work.is_spent:
+        if float(np.abs(step).max()) * steepest <= tolerance:
             break
     return P
 

@@ -25,39 +25,30 @@ import numpy as np
 
 from ...ship.frames import Array
 from .contact_law import law_residual
-from .work_limit import WorkLimit
 
 __all__ = ["solve_alart_curnier"]
 
 PROXIMAL_WEIGHTS = tuple(10.0**-k for k in range(2, 14))
 """Weights w, one after the other. Without any, all patches tried are solved as well, with twice the calls of ACLM."""
 
-REGULAR_WEIGHT = 1e-9
-"""Weight from which elimination solves Newton's equations: it takes a tenth of the time of least squares. With less
-weight nearly dependent contacts make the equations singular, and elimination leads astray."""
-
 MAX_STEPS = 15
 """Bound on Newton's steps for one weight. Fewer than ten cost time: 5 twice as much, on 1 080 patches of two ships."""
 
 
-def solve_alart_curnier(
-    W: Array, v: Array, mu: float, P: Array, tolerance: float, work: WorkLimit | None = None
-) -> Array:
+def solve_alart_curnier(W: Array, v: Array, mu: float, P: Array, tolerance: float) -> Array:
     """Impulses (k, 3) [N s] with a residual (law_residual) of at most `tolerance` [m/s], or the best that were found.
 
-    W (3k, 3k) [1/kg], v (3k,) [m/s] in contact axes; P (k, 3): first guess; work: the bound on what the
-    solver may do.
+    W (3k, 3k) [1/kg], v (3k,) [m/s] in contact axes; P (k, 3): first guess.
     """
-    work = work or WorkLimit()
     D = np.diag(W)
     best, least = P, law_residual(W, v, mu, P)
     for w in PROXIMAL_WEIGHTS:
-        P = _solve_newton(W + np.diag(w * D), v - w * D * P.ravel(), mu, P, 0.3 * tolerance, work, w >= REGULAR_WEIGHT)
+        P = _solve_newton(W + np.diag(w * D), v - w * D * P.ravel(), mu, P, 0.3 * tolerance)
         inside = _clip_to_cones(P, mu)
         residual = law_residual(W, v, mu, inside)
         if residual < least:
             best, least = inside, residual
-        if least <= tolerance or work.is_spent:
+        if least <= tolerance:
             break
     return best
 
@@ -70,8 +61,8 @@ def _clip_to_cones(P: Array, mu: float) -> Array:
     return np.column_stack([normal, P[:, 1:] * share[:, None]])
 
 
-def _solve_newton(W: Array, v: Array, mu: float, P: Array, tolerance: float, work: WorkLimit, regular: bool) -> Array:
-    """Impulses (k, 3) at which every equation holds to `tolerance` [m/s], or the best on the way. regular: W is."""
+def _solve_newton(W: Array, v: Array, mu: float, P: Array, tolerance: float) -> Array:
+    """Impulses (k, 3) at which every equation holds to `tolerance` [m/s], or the best on the way."""
     stiff = np.diag(W).reshape(-1, 3)
     rho = 1.0 / np.column_stack([stiff[:, 0], *[np.maximum(stiff[:, 1:].max(axis=1), 1e-300)] * 2])
     best, least = P, np.inf
@@ -80,28 +71,13 @@ def _solve_newton(W: Array, v: Array, mu: float, P: Array, tolerance: float, wor
         size = float(np.abs(error).max())
         if size < least:
             best, least = P, size
-        if size <= tolerance or work.is_spent:
+        if size <= tolerance:
             break
-        work.spend_newton_step(len(P), regular)
         try:
-            P = P - _solve_linear(slope, error, regular).reshape(-1, 3)
+            P = P - np.linalg.lstsq(slope, error, rcond=1e-13)[0].reshape(-1, 3)
         except np.linalg.LinAlgError:  # the step before led to infinity
             break
     return best
-
-
-def _solve_linear(slope: Array, error: Array, regular: bool) -> Array:
-    """Newton's step (3k,): by elimination where the slope is regular, else the least of those that miss least."""
-    if regular:
-        try:
-            step: Array = np.asarray(np.linalg.solve(slope, error), dtype=np.float64)
-        except np.linalg.LinAlgError:
-            pass
-        else:
-            if np.isfinite(step).all():
-                return step
-    least: Array = np.asarray(np.linalg.lstsq(slope, error, rcond=1e-13)[0], dtype=np.float64)
-    return least
 
 
 def _evaluate_equations(W: Array, v: Array, mu: float, P: Array, rho: Array) -> tuple[Array, Array]:
@@ -109,25 +85,28 @@ def _evaluate_equations(W: Array, v: Array, mu: float, P: Array, rho: Array) -> 
     k = len(P)
     after = (v + W @ P.ravel()).reshape(k, 3)
     s, t = P[:, 0] - rho[:, 0] * after[:, 0], P[:, 1:] - rho[:, 1:] * after[:, 1:]
-    size, radius = np.hypot(t[:, 0], t[:, 1]), mu * s
-    closed, W = s > 0.0, W.reshape(k, 3, 3 * k)
-    error, slope = P / rho, np.diag(1.0 / rho.ravel()).reshape(k, 3, 3 * k)  # of contacts that are apart
-    error[closed, 0], slope[closed, 0] = after[closed, 0], W[closed, 0]
-    stick = closed & (size <= radius)
-    error[stick, 1:], slope[stick, 1:] = after[stick, 1:], W[stick, 1:]
-    slide = np.flatnonzero(closed & (size > radius))
-    if len(slide):
-        size, radius, rho_t = size[slide], radius[slide], rho[slide, 1:]
-        unit, each = t[slide] / size[:, None], np.arange(len(slide))
-        error[slide, 1:] = (P[slide, 1:] - radius[:, None] * unit) / rho_t
-        ds, dt = -rho[slide, 0, None] * W[slide, 0], -rho_t[:, :, None] * W[slide, 1:]
-        ds[each, 3 * slide] += 1.0
-        dt[each, 0, 3 * slide + 1] += 1.0
-        dt[each, 1, 3 * slide + 2] += 1.0
-        across = unit[:, :, None]
-        turned = (radius / size)[:, None, None] * (dt - across * (across * dt).sum(axis=1)[:, None, :])
-        own = -(mu * across * ds[:, None, :] + turned)
-        own[each, 0, 3 * slide + 1] += 1.0
-        own[each, 1, 3 * slide + 2] += 1.0
-        slope[slide, 1:] = own / rho_t[:, :, None]
-    return error.ravel(), slope.reshape(3 * k, 3 * k)
+    error, slope = np.empty((k, 3)), np.empty((3 * k, 3 * k))
+    for i in range(k):
+        n, across = 3 * i, slice(3 * i + 1, 3 * i + 3)
+        if s[i] <= 0.0:  # apart
+            error[i] = P[i] / rho[i]
+            slope[n : n + 3] = 0.0
+            slope[n, n], slope[n + 1, n + 1], slope[n + 2, n + 2] = 1.0 / rho[i]
+            continue
+        error[i, 0], slope[n] = after[i, 0], W[n]
+        size, radius = float(np.hypot(*t[i])), mu * float(s[i])
+        if size <= radius:  # stick
+            error[i, 1:], slope[across] = after[i, 1:], W[across]
+            continue
+        unit = t[i] / size  # slide
+        error[i, 1:] = (P[i, 1:] - radius * unit) / rho[i, 1:]
+        ds, dt = -rho[i, 0] * W[n], -rho[i, 1:, None] * W[across]
+        ds[n] += 1.0
+        dt[0, n + 1] += 1.0
+        dt[1, n + 2] += 1.0
+        turned = radius / size * (dt - np.outer(unit, unit @ dt))
+        own = -(mu * np.outer(unit, ds) + turned)
+        own[0, n + 1] += 1.0
+        own[1, n + 2] += 1.0
+        slope[across] = own / rho[i, 1:, None]
+    return error.ravel(), slope
