@@ -23,6 +23,7 @@ def drawn() -> list[str]:
     return seen
 
 
+@pytest.mark.slow
 def test_a_new_module_with_odd_constants_does_not_change_them(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     before = drawn()
     (tmp_path / "odd.py").write_text('numbers = [271828, 314159, 1414.25, 1732.75]\nword = "abracadabra"\n')

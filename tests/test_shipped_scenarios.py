@@ -19,6 +19,10 @@ from shipcollision_fmu.ship.frames import rotation
 from shipcollision_fmu.ship.loading.library import load_ship
 
 ALGORITHMS = ("gauss-seidel", "jacobi")
+SCENARIOS_IN_FMUS = [
+    pytest.param(name, marks=pytest.mark.slow if name == "kvlcc2_crossing" else ()) for name in list_scenario_names()
+]
+"""kvlcc2_crossing is the longest run: seconds through FMUs."""
 
 
 @dataclass
@@ -188,7 +192,7 @@ def test_linear_momentum_without_added_mass_is_the_same_after_as_before(runs: Ru
         assert not runs[name, algorithm].run.summary["momentum"]["closed"]
 
 
-@pytest.mark.parametrize("name", list_scenario_names())
+@pytest.mark.parametrize("name", SCENARIOS_IN_FMUS)
 def test_fmus_and_models_in_process_give_identical_states(name: str, tmp_path: Path) -> None:
     scenario = load_scenario(name)
     simulate(scenario, out=tmp_path / "fmu")

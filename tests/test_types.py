@@ -85,6 +85,7 @@ def reported(tmp_path_factory: pytest.TempPathFactory) -> dict[str, list[str]]:
     return {kind: [line for line in lines if f": {kind}: " in line] for kind in ("note", "error")}
 
 
+@pytest.mark.slow
 def test_the_types_are_the_real_ones(reported: dict[str, list[str]]) -> None:
     revealed = [line for line in reported["note"] if "Revealed type" in line]
     assert len(revealed) == len(REVEALED)
@@ -93,6 +94,7 @@ def test_the_types_are_the_real_ones(reported: dict[str, list[str]]) -> None:
         assert "Any" not in line or "RunFrames" in line  # pandas has its types in a package of its own
 
 
+@pytest.mark.slow
 def test_a_wrong_use_is_an_error_and_a_right_one_is_none(reported: dict[str, list[str]]) -> None:
     numbers = {int(re.search(r"script.py:(\d+):", line)[1]) for line in reported["error"]}  # type: ignore[index]
     texts = "\n".join(reported["error"])

@@ -107,7 +107,7 @@ position = [0.0, -160.0]
 """
 
 
-@pytest.mark.parametrize("degrees_of_freedom", [3, 6])
+@pytest.mark.parametrize("degrees_of_freedom", [pytest.param(3, marks=pytest.mark.slow), 6])
 @pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
 def test_a_ship_springs_between_two_walls_without_losing_or_gaining(
     make_ship: Make, world: MakeWorld, degrees_of_freedom: int, algorithm: str

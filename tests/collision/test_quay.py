@@ -126,7 +126,7 @@ def test_ten_minutes_at_the_quay(berthed: MakeBerthed, algorithm: str, H: float)
 
 @pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
 @pytest.mark.parametrize("H", [pytest.param(0.1, marks=pytest.mark.slow), 0.5])
-@pytest.mark.parametrize("moves_by", [pytest.param(0.0, marks=pytest.mark.slow), 0.5, 1.0])
+@pytest.mark.parametrize("moves_by", [*(pytest.param(share, marks=pytest.mark.slow) for share in (0.0, 0.5)), 1.0])
 def test_however_a_ship_model_integrates_she_stays(
     berthed: MakeBerthed, algorithm: str, H: float, moves_by: float
 ) -> None:
@@ -140,8 +140,9 @@ def test_however_a_ship_model_integrates_she_stays(
     assert b.model.outputs.energy.dissipated > 0.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
-@pytest.mark.parametrize("inner_steps", [3, *(pytest.param(n, marks=pytest.mark.slow) for n in (-5, 20))])
+@pytest.mark.parametrize("inner_steps", [3, -5, 20])
 def test_nor_does_she_creep_if_her_model_takes_inner_steps(
     berthed: MakeBerthed, algorithm: str, inner_steps: int
 ) -> None:

@@ -186,6 +186,7 @@ def test_initialisation_that_fails_is_fatal_with_the_reason(host: Make) -> None:
     assert a.everything() == b.everything()
 
 
+@pytest.mark.slow
 def test_initialisation_may_fail_often(host: Make) -> None:
     """Every exception costs pythonfmu's wrapper a reference to instance, class and log."""
     a = host()

@@ -20,6 +20,8 @@ from .conftest import NAMES
 from .encounter import Encounter, Rows, run_master
 from .masters import MASTERS
 
+pytestmark = pytest.mark.slow
+
 EXACT = {"fmpy-loop", "fmpy-ssp", "ecos-api", "ecos-ssp"}
 JITTER = 1e-10
 """Relative difference from ours in the others: at 6 s a step's length jitters by 1e-14 of itself, which an impact with

@@ -34,6 +34,7 @@ def guard(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return library
 
 
+@pytest.mark.slow
 def test_a_process_ends_well_in_every_host(encounters: dict[str, Encounter], guard: Path, tmp_path: Path) -> None:
     def ended(host: str, before: str = "") -> int:
         cases, results = tmp_path / f"{host}{bool(before)}.json", tmp_path / f"{host}{bool(before)}.result.json"

@@ -80,6 +80,7 @@ simulation.free()
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("fault", "line", "north"),
     [

@@ -174,7 +174,7 @@ def test_a_stem_slides_along_five_pieces_as_along_one(sailed: Any) -> None:
     assert worlds[1].model.outputs.collision_count == worlds[0].model.outputs.collision_count
 
 
-@pytest.mark.parametrize("friction", [0.0, 0.3])
+@pytest.mark.parametrize("friction", [pytest.param(0.0, marks=pytest.mark.slow), 0.3])
 def test_a_corner_scrapes_along_five_pieces_as_along_one(sailed: Any, friction: float) -> None:
     start = [
         {"position": (0, 0, 0), "nu": (0, 0, 0, 0, 0, 0)},

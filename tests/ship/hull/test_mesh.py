@@ -249,6 +249,7 @@ def test_a_flared_hull_is_cut_into_convex_parts_that_hold_it(read: Read) -> None
         assert any((planes[:, :3] @ p <= planes[:, 3] + 0.01).all() for planes in got.planes)
 
 
+@pytest.mark.slow
 def test_parts_that_hold_too_much_are_refused(read: Read, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(mesh_module, "VOLUME_TOLERANCE", 1e-6)
     with pytest.raises(

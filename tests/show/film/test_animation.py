@@ -26,6 +26,7 @@ def scene(guan2014: Path) -> Scene:
     return load_scene(guan2014)
 
 
+@pytest.mark.slow
 def test_the_film_is_of_the_first_contact(scene: Scene, kvlcc2_crossing: Path) -> None:
     times = choose_frame_times(load_scene(kvlcc2_crossing))
     assert times[0] == pytest.approx(25.05 - 2.0)
