@@ -6,7 +6,8 @@
     messages.py        describe_error(): one line from a failed validation
     mmg_estimate.py    complete_tables(): an MMG set from L, B, T and C_b
     assembly.py        assemble_ship(): matrices, and estimates of what is missing
-    added_mass_estimate.py    estimate_added_mass(): the file's own, the MMG set's, or fractions of mass and inertia
+    added_mass_estimate.py    assemble_added_mass(): the file's own, the MMG set's, or estimates
+    motora_charts.py   estimate_added_mass(): surge, sway and yaw from L, B, T and C_b
 
 Data flow: name -> path -> tables -> ShipFile -> Ship. Imports from: tables and the files of ship/.
 Used by: all rooms that need a ship; read_toml() and describe_error() also by other files' readers.

@@ -16,7 +16,7 @@ from ..inertia import is_positive_definite, rigid_body_inertia
 from ..seakeeping import compute_seakeeping
 from ..ship import Ship
 from ..windage import compute_windage
-from .added_mass_estimate import estimate_added_mass
+from .added_mass_estimate import assemble_added_mass
 from .ship_file import ShipFile
 
 __all__ = ["assemble_ship"]
@@ -47,7 +47,7 @@ def assemble_ship(content: ShipFile, file: str) -> Ship:
         estimated.append("r_bg = (0, 0, 0)")
 
     M_RB = rigid_body_inertia(p.mass, r_bg, radii)
-    M_A = estimate_added_mass(content, p.mass * radii**2, estimated, file)
+    M_A = assemble_added_mass(content, p.mass * radii**2, estimated, file)
     M = M_RB + M_A
     if not is_positive_definite(M):
         raise ShipError(

@@ -16,7 +16,8 @@ Hull derivatives by the regressions of Yoshimura & Masumoto (2012), MARSIM, with
 The original is written in the drift angle beta = -v', so every term odd in v has the opposite sign there. With the
 original signs a container ship turns within an implausibly small circle.
 
-Added masses by Zhou's regressions of the Motora charts, propeller and rudder by the usual rules, resistance by ITTC-57:
+The added masses are the ship's own (added_mass_estimate.py). Propeller and rudder by the usual rules, resistance by
+ITTC-57:
 
     w_P0 = 0.5 C_b - 0.05 (Taylor)   t_P = 0.6 w_P0   D_p = min(0.7 T, 9.9 m)   K_T = 0.35 - 0.30 J - 0.16 J^2
     A_R = L T/100 (1 + 25 (B/L)^2) (DNV minimum)   Lam = 1.8, span at most 0.85 T
@@ -31,12 +32,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from math import log10, pi, sqrt
-from typing import Any, NamedTuple
+from typing import Any
 
 from ...errors import ShipError
 from ..hydrostatics import GRAVITY
+from .motora_charts import Dimensions
 
-__all__ = ["Dimensions", "complete_tables", "estimate_added_mass", "estimate_hull_derivatives"]
+__all__ = ["Dimensions", "complete_tables", "estimate_hull_derivatives"]
 
 REACH = (0.40, 0.90)
 """C_b of displacement ships; finer and fuller hulls are refused, because the regressions have none of them."""
@@ -58,38 +60,6 @@ K_T = (0.35, -0.30, -0.16)
 
 FASTEST_FROUDE = 0.26
 """Cap of the estimated service speed: beyond it wave resistance, left out here, is most of the resistance."""
-
-
-class Dimensions(NamedTuple):
-    """L_pp, B, T [m], C_b, CG forward of midship [m], water density [kg/m3]."""
-
-    L: float
-    B: float
-    T: float
-    C_b: float
-    x_G: float
-    rho: float
-
-
-def estimate_added_mass(d: Dimensions) -> tuple[float, float, float]:
-    """m_x/m, m_y/m, and J_z/(m L^2). Zhou's regressions of the Motora charts."""
-    LB, TB, C_b, s = d.L / d.B, d.T / d.B, d.C_b, d.T * d.L / d.B**2
-    m_x = 0.01 * (
-        0.398
-        + 11.97 * C_b * (1.0 + 3.73 * TB)
-        - 2.89 * C_b * LB * (1.0 + 1.13 * TB)
-        + 0.175 * C_b * LB**2 * (1.0 + 0.541 * TB)
-        - 1.107 * LB * TB
-    )
-    m_y = (
-        0.882
-        - 0.54 * C_b * (1.0 - 1.6 * TB)
-        - 0.156 * LB * (1.0 - 0.673 * C_b)
-        + 0.826 * s * (1.0 - 0.678 * TB)
-        - 0.638 * C_b * s * (1.0 - 0.669 * TB)
-    )
-    k_J = 0.01 * (33.0 - 76.85 * C_b * (1.0 - 0.784 * C_b) + 3.43 * LB * (1.0 - 0.63 * C_b))
-    return m_x, m_y, k_J**2
 
 
 def estimate_hull_derivatives(d: Dimensions, m_x: float, m_y: float) -> dict[str, float]:
@@ -116,11 +86,11 @@ def estimate_hull_derivatives(d: Dimensions, m_x: float, m_y: float) -> dict[str
 
 
 def complete_tables(
-    d: Dimensions, given: Mapping[str, Mapping[str, Any]], own_masses: tuple[float, float] | None
+    d: Dimensions, given: Mapping[str, Mapping[str, Any]], own_masses: tuple[float, float]
 ) -> tuple[dict[str, dict[str, Any]], list[str]]:
     """The tables manoeuvring, propeller, rudder and engine, with missing values estimated; and a note on each estimate.
 
-    own_masses: m_x, m_y over 1/2 rho L^2 T of a ship whose [added_mass] gives them; else None, and they are estimated.
+    own_masses: m_x, m_y over 1/2 rho L^2 T of the ship; those of a given [manoeuvring] take their place.
     Raises ShipError when C_b is out of the regressions' reach.
     """
     if not REACH[0] <= d.C_b <= REACH[1]:
@@ -130,9 +100,8 @@ def complete_tables(
         )
     made = _Tables(given)
     made.notes.append(f"[manoeuvring] Yoshimura & Masumoto (2012), {_name_grade(d)}")
-    masses = _estimate_masses(d, made, own_masses)
     propeller = _estimate_propeller(d, made)
-    _estimate_hull(d, made, masses, propeller["service_speed"])
+    _estimate_hull(d, made, own_masses, propeller["service_speed"])
     if "service_rev_per_s" not in propeller:
         propeller["service_rev_per_s"] = _solve_self_propulsion(d, made.tables["manoeuvring"]["R_0"], propeller)
         made.notes.append(f"[propeller] service_rev_per_s = {propeller['service_rev_per_s']:.4g} (self-propulsion)")
@@ -159,19 +128,6 @@ class _Tables:
         return self.tables[name]
 
 
-def _estimate_masses(d: Dimensions, made: _Tables, own_masses: tuple[float, float] | None) -> dict[str, float]:
-    """m_x, m_y, and J_z where it is estimated with them, over 1/2 rho L^2 T and 1/2 rho L^4 T."""
-    own = made.given.get("manoeuvring", {})
-    if own_masses is not None:
-        return {"m_x": own_masses[0], "m_y": own_masses[1]}
-    if own.get("m_x") is not None:
-        return {"m_x": own["m_x"], "m_y": own["m_y"]}
-    mass = 2.0 * d.C_b * d.B / d.L  # over 1/2 rho L^2 T
-    m_x, m_y, J_z = (fraction * mass for fraction in estimate_added_mass(d))
-    made.notes.append(f"[manoeuvring] m_x = {m_x:.4g}, m_y = {m_y:.4g}, J_z = {J_z:.4g} (Zhou, Motora charts)")
-    return {"m_x": m_x, "m_y": m_y, "J_z": J_z}
-
-
 def _estimate_propeller(d: Dimensions, made: _Tables) -> dict[str, Any]:
     w_P0 = _estimate_wake(d)
     return made.lay_under(
@@ -185,12 +141,14 @@ def _estimate_propeller(d: Dimensions, made: _Tables) -> dict[str, Any]:
     )  # fmt: skip
 
 
-def _estimate_hull(d: Dimensions, made: _Tables, masses: Mapping[str, float], speed: float) -> None:
-    """The table manoeuvring; its added masses only where they are estimated here."""
-    values = {**masses} if "J_z" in masses else {}
-    values |= estimate_hull_derivatives(d, masses["m_x"], masses["m_y"])
+def _estimate_hull(d: Dimensions, made: _Tables, masses: tuple[float, float], speed: float) -> None:
+    """The table manoeuvring; masses: m_x, m_y of the ship, unless the table gives its own."""
+    own = made.given.get("manoeuvring", {})
+    if own.get("m_x") is not None:
+        masses = own["m_x"], own["m_y"]
+    values = estimate_hull_derivatives(d, *masses)
     values["R_0"] = _estimate_resistance(d, speed)
-    if "R_0" not in made.given.get("manoeuvring", {}):
+    if "R_0" not in own:
         made.notes.append(f"[manoeuvring] R_0 = {values['R_0']:.4g} (ITTC-57, Mumford, no wave resistance)")
     made.lay_under("manoeuvring", values).pop("estimate", None)
 

@@ -19,6 +19,7 @@ from ..tables.particulars import AddedMassTable, ParticularsTable, SeakeepingTab
 from ..tables.table import Table
 from .messages import describe_error
 from .mmg_estimate import Dimensions, complete_tables
+from .motora_charts import estimate_added_mass
 
 __all__ = ["ShipFile", "validate_ship_file"]
 
@@ -146,14 +147,9 @@ def _complete_and_validate(data: Mapping[str, Any], file: str) -> ShipFile:
     """The content with its MMG set completed. Given values are checked first, then take part in the estimate."""
     rest = {key: value for key, value in data.items() if key not in _ESTIMATED}
     content = _validate(rest, file)
-    p, added = content.particulars, content.added_mass
+    p = content.particulars
     d = Dimensions(p.L_pp, p.B, p.T, p.mass / (p.rho * p.L_pp * p.B * p.T), p.r_bg[0] if p.r_bg else 0.0, p.rho)
-    unit = 2.0 * d.C_b * d.B / d.L  # the mass over 1/2 rho L^2 T
-    own_masses: tuple[float, float] | None = None
-    if added.M_A is not None:
-        own_masses = (added.M_A[0][0] / p.mass * unit, added.M_A[1][1] / p.mass * unit)
-    elif added.m_x is not None and added.m_y is not None and added.j_z is not None:
-        own_masses = (added.m_x * unit, added.m_y * unit)
+    own_masses = _find_planar_masses(d, content)
     try:
         tables, _ = complete_tables(d, {}, own_masses)
         for name in _ESTIMATED:
@@ -167,6 +163,18 @@ def _complete_and_validate(data: Mapping[str, Any], file: str) -> ShipFile:
     content = _validate({**rest, **tables}, file)
     content._estimated = tuple(notes)
     return content
+
+
+def _find_planar_masses(d: Dimensions, content: ShipFile) -> tuple[float, float]:
+    """m_x, m_y over 1/2 rho L^2 T of [added_mass], or of the Motora charts."""
+    mass, added = content.particulars.mass, content.added_mass
+    if added.M_A is not None:
+        m_x, m_y = added.M_A[0][0] / mass, added.M_A[1][1] / mass
+    else:
+        m_x, m_y, _ = estimate_added_mass(d)
+        m_x, m_y = (m_x if added.m_x is None else added.m_x), (m_y if added.m_y is None else added.m_y)
+    unit = 2.0 * d.C_b * d.B / d.L  # the mass over 1/2 rho L^2 T
+    return m_x * unit, m_y * unit
 
 
 def _validate(data: Mapping[str, Any], file: str) -> ShipFile:

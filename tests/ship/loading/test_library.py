@@ -14,6 +14,7 @@ from shipcollision_fmu.errors import ShipError
 from shipcollision_fmu.ship.frames import Array
 from shipcollision_fmu.ship.hull.hull import build_hull
 from shipcollision_fmu.ship.loading.library import find_models, list_ship_names, load_ship
+from shipcollision_fmu.ship.loading.motora_charts import Dimensions, estimate_added_mass
 from tests.ship_files import ship_toml
 
 BARGE = ship_toml()
@@ -29,14 +30,16 @@ def test_what_is_missing_is_estimated_and_said(tmp_path: Path) -> None:
     ship = load_ship(written(tmp_path, "barge.toml", BARGE))
     m, I_xx, I_zz = 8.2e6, 8.2e6 * (0.37 * 20) ** 2, 8.2e6 * 25.0**2
     np.testing.assert_allclose(np.diag(ship.M_RB), [m, m, m, I_xx, I_zz, I_zz], rtol=1e-14)
-    np.testing.assert_allclose(np.diag(ship.M_A), [0.05 * m, 0.85 * m, m, 0.2 * I_xx, I_zz, 0.21 * I_zz], rtol=1e-14)
+    m_x, m_y, J_z = estimate_added_mass(Dimensions(100.0, 20.0, 5.0, 0.8, 0.0, 1025.0))  # tested by its table
+    roll = 0.2 * I_xx + m_y * m * 2.5**2
+    np.testing.assert_allclose(np.diag(ship.M_A), [m_x * m, m_y * m, m, roll, I_zz, J_z * m * 100.0**2], rtol=1e-14)
     np.testing.assert_array_equal(ship.M, ship.M_RB + ship.M_A)
     assert ship.L_oa == 100.0
     assert ship.C_b == pytest.approx(0.8)
     assert ship.estimated == (
         "L_oa = L_pp", "k_xx = 0.37 B", "k_yy = 0.25 L_pp", "k_zz = 0.25 L_pp", "r_bg = (0, 0, 0)",
-        "m_x = 0.05 mass", "m_y = 0.85 mass", "m_z = 1.0 mass",
-        "j_x = 0.2 I_xx", "j_y = 1.0 I_yy", "j_z = 0.21 I_zz", "z_y = 0",
+        "m_x = 0.06668 mass (Motora charts, Zhou)", "m_y = 0.5889 mass (Motora charts, Zhou)", "m_z = 1 mass",
+        "j_x = 0.2 I_xx", "j_y = 1 I_yy", "j_z = 0.5527 I_zz (Motora charts, Zhou)", "z_y = T/2",
     )  # fmt: skip
 
 

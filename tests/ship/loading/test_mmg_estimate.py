@@ -12,13 +12,14 @@ from shipcollision_fmu.ship.loading.library import load_ship
 from shipcollision_fmu.ship.loading.mmg_estimate import (
     Dimensions,
     complete_tables,
-    estimate_added_mass,
     estimate_hull_derivatives,
 )
+from shipcollision_fmu.ship.loading.motora_charts import estimate_added_mass
 from tests.ship_files import ship_toml
 
 BULK = Dimensions(279.0, 44.0, 16.1, 0.84, 0.0, 1025.0)
 CONTAINER = Dimensions(250.0, 32.2, 8.5, 0.60, 0.0, 1025.0)
+MASSES = (0.02, 0.2)
 KVLCC2 = Dimensions(320.0, 58.0, 20.8, 0.81, 11.2, 1025.0)
 
 TABLE = {
@@ -63,7 +64,7 @@ def test_signs_are_those_of_v_and_r() -> None:
 
 
 def test_propulsion_and_rudder_sizes() -> None:
-    tables, _ = complete_tables(BULK, {}, None)
+    tables, _ = complete_tables(BULK, {}, MASSES)
     w = 0.5 * 0.84 - 0.05
     assert tables["propeller"]["w_P0"] == pytest.approx(w)
     assert tables["propeller"]["t_P"] == pytest.approx(0.6 * w)
@@ -76,7 +77,7 @@ def test_propulsion_and_rudder_sizes() -> None:
 
 
 def test_service_revolutions_balance_the_resistance() -> None:
-    tables, _ = complete_tables(CONTAINER, {}, None)
+    tables, _ = complete_tables(CONTAINER, {}, MASSES)
     p, R_0 = tables["propeller"], tables["manoeuvring"]["R_0"]
     n, D, U = p["service_rev_per_s"], p["D_p"], p["service_speed"]
     J = U * (1 - p["w_P0"]) / n / D
@@ -86,7 +87,7 @@ def test_service_revolutions_balance_the_resistance() -> None:
 
 def test_resistance_is_ittc_57_on_the_wetted_surface() -> None:
     """KVLCC2 at 15.5 kn: 0.00785, as its file works out by hand."""
-    tables, _ = complete_tables(KVLCC2, {"propeller": {"service_speed": 7.974}}, None)
+    tables, _ = complete_tables(KVLCC2, {"propeller": {"service_speed": 7.974}}, MASSES)
     assert tables["manoeuvring"]["R_0"] == pytest.approx(0.00785, abs=5e-6)
 
 
@@ -162,7 +163,7 @@ def test_sway_added_mass_sits_at_half_the_draught(tmp_path: Path) -> None:
 @pytest.mark.parametrize("C_b", [0.399, 0.901])
 def test_out_of_reach_is_refused(C_b: float) -> None:
     with pytest.raises(ShipError, match=rf"estimate = true with C_b = .* = {C_b}: must be 0\.40 to 0\.90; give a mass"):
-        complete_tables(BULK._replace(C_b=C_b), {}, None)
+        complete_tables(BULK._replace(C_b=C_b), {}, MASSES)
 
 
 def test_linear_derivatives_are_those_of_a_wing() -> None:
