@@ -19,13 +19,16 @@ BOX = 'shape = "box"\ndepth = 20.0'
 SHIP = 'shape = "parametric"\ndepth = 20.0\nbow_length = 40.0\nstern_length = 50.0'
 NO_ADDED_MASS = "m_x = 0.0\nm_y = 0.0\nm_z = 0.0\nj_x = 0.0\nj_y = 0.0\nj_z = 0.0\nz_y = 0.0"
 
+FOR_IMPACTS = "m_x = 0.05\nm_y = 0.85\nj_z = 0.21\nz_y = 0.0"
+"""Pedersen and Zhang (1998)."""
+
 
 @pytest.fixture
 def make_ship(tmp_path: Path) -> Callable[..., str]:
     """Writes a ship file and returns its path: L = 200 m, B = 30 m, T = 10 m unless told."""
 
     def make(
-        name: str, hull: str = SHIP, added_mass: str = "", mass: float = 40e6, r_bg: str = "[0.0, 0.0, 0.0]"
+        name: str, hull: str = SHIP, added_mass: str = FOR_IMPACTS, mass: float = 40e6, r_bg: str = "[0.0, 0.0, 0.0]"
     ) -> str:
         path = tmp_path / f"{name}.toml"
         path.write_text(
