@@ -6,8 +6,13 @@
 
 The paper prints neither hulls nor the height of the centres of gravity. Free are the own ship's depth, stem
 rake, place of the stem (trim_x), length of the bow and height of CG, the target's depth and height of CG, and the
-friction. Radii of gyration follow from the
-hull's box, as in Bullet. The cost is the 4-norm of difference / tolerance over the 24 numbers: 1 would be one number at
+friction. Radii of gyration follow from the hull's box, as in Bullet.
+
+The free numbers are fitted to several runs at once (RUNS). After a plastic impact a parallel master keeps the hulls in
+contact. A sequential master leaves a gap of up to one step's motion, which closes again some tenths of a second later.
+Both converge to the same target roll rate as the step shrinks; a fit to one run would follow its gap.
+
+The cost is the 4-norm of difference / tolerance over the 24 numbers, each at its worst run: 1 would be one number at
 the edge of its tolerance and all others exact.
 """
 
@@ -28,6 +33,9 @@ from shipcollision_fmu.cli.table import make_table
 from shipcollision_fmu.ship.frames import rotation
 from shipcollision_fmu.ship.loading.library import find_models
 from shipcollision_fmu.ship.ship import Ship
+
+RUNS = tuple((algorithm, step) for algorithm in ("gauss-seidel", "jacobi") for step in (0.01, 0.1))
+"""Algorithm of the master and communication step [s] of the runs: both masters, with the least and the greatest gap."""
 
 
 @dataclass(frozen=True)
@@ -70,7 +78,7 @@ def ship_text(base: str, ship: Ship, depth: float, z_bg: float, **hull: float) -
 
 
 def differences(x: Sequence[float], folder: Path) -> np.ndarray:
-    """Difference over tolerance of the 24 numbers, for the free numbers x."""
+    """Difference over tolerance of the 24 numbers, each at its worst run, for the free numbers x."""
     own_depth, rake, trim, target_depth, z_target, friction, z_own, bow = map(float, x)
     own, target = load_ship("guan2014_own"), load_ship("guan2014_target")
     (folder / "own.toml").write_text(
@@ -89,13 +97,15 @@ def differences(x: Sequence[float], folder: Path) -> np.ndarray:
         ships[name] = ships[name].model_copy(update={"position": moved.tolist()})
     collision = scenario.collision.model_copy(update={"friction": friction})
     changed = scenario.model_copy(update={"ships": ships, "collision": collision})
-    rows = simulate(changed, in_process=True).summary["paper"]
-    return np.array([row["difference"] / row["tolerance"] for row in rows])
+    runs = [simulate(changed, algorithm=a, step=h, in_process=True).summary["paper"] for a, h in RUNS]
+    shares = np.array([[row["difference"] / row["tolerance"] for row in rows] for rows in runs])
+    worst: np.ndarray = np.abs(shares).max(axis=0)
+    return worst
 
 
 def cost(x: Sequence[float], folder: Path) -> float:
     """4-norm of difference / tolerance."""
-    return float((np.abs(differences(x, folder)) ** 4).sum() ** 0.25)
+    return float((differences(x, folder) ** 4).sum() ** 0.25)
 
 
 def main() -> None:
@@ -117,7 +127,7 @@ def main() -> None:
         )
         for i, free in enumerate(FREE):
             less, more = (cost([v + side * free.step * (k == i) for k, v in enumerate(x)], folder) for side in (-1, 1))
-            worst = float(np.abs(differences(x, folder)).max())
+            worst = float(differences(x, folder).max())
             here.add_row(
                 free.name, f"{x[i]:.4g}", f"{free.step:g}", f"{less:.2f}", f"{cost(x, folder):.2f}", f"{more:.2f}",
                 f"{worst:.2f} of its tolerance",

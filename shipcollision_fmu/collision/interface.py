@@ -102,9 +102,10 @@ class ShipPost:
 class ContactOutput:
     """A contact point of the step.
 
-    point, normal: in n [m], [1]; r_a, r_b: the point in b of either ship [m]; impulse: on ship_b in n [N s]; gap [m];
-    impulse_normal, impulse_tangential [N s]; energy: dissipated [J]; ship_a, ship_b: from 1, 0: unused, an obstacle is
-    numbered on from the ships; collision, scratch: their numbers.
+    point, normal: in n [m], [1]; r_a, r_b: the point in b of either ship [m]; impulse: on ship_b in n [N s]; couple:
+    moment of the impulses on ship_b about the point, in n [N m s]; gap [m]; impulse_normal, impulse_tangential [N s];
+    energy: dissipated [J]; ship_a, ship_b: from 1, 0: unused, an obstacle is numbered on from the ships; collision,
+    scratch: their numbers.
     """
 
     point: list[float] = field(default_factory=lambda: zeros(3))
@@ -112,6 +113,7 @@ class ContactOutput:
     r_a: list[float] = field(default_factory=lambda: zeros(3))
     r_b: list[float] = field(default_factory=lambda: zeros(3))
     impulse: list[float] = field(default_factory=lambda: zeros(3))
+    couple: list[float] = field(default_factory=lambda: zeros(3))
     gap: float = 0.0
     impulse_normal: float = 0.0
     impulse_tangential: float = 0.0

@@ -57,10 +57,10 @@ SURROUNDINGS = (*CURRENT, WIND_SPEED, WIND_DIRECTION)
 
 CONTACT_REALS = (
     *NED, *named("normal", NED), "gap", "impulse_normal", "impulse_tangential", *named("impulse", NED), "energy",
-    *named("a", AXES), *named("b", AXES),
+    *named("a", AXES), *named("b", AXES), *named("couple", NED),
 )  # fmt: skip
 """Real variables of a contact point: the point and the normal (from ship_a to ship_b) in n, the impulse on ship_b in n,
-the places in both ships' b."""
+the places in both ships' b, the moment of the impulses about the point in n."""
 CONTACT_INTEGERS = ("ship_a", "ship_b", "impact", "scratch")
 """Its Integers."""
 IMPACT_POINT = named("impact", NED)

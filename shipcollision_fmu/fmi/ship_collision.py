@@ -58,6 +58,7 @@ def table(ships: tuple[str, ...] = SHIPS) -> Table:
         *_solver(),
         *_clearance(),
         *_parameters(),
+        *_couples(contact_point_count(len(ships))),
     )
 
 
@@ -180,6 +181,20 @@ def _contact(name: str, path: str, slots: int) -> Table:
         number("ship_b", "Second ship, from 1; beyond the ships: obstacles, in their order; 0: slot unused"),
         number("impact", "Number of the collision; 0: a fender acts, the hulls do not touch", "collision"),
         number("scratch", "Number of the scratch"),
+    )  # fmt: skip
+
+
+def _couples(slots: int) -> Table:
+    """What place x impulse lacks of the moment of the contact points; in FMI 3.0 one array."""
+    description = "Moment of the step's impulses on ship_b about the contact point, in n"
+    array = Array("contact.couple", (slots, 3), f"{description}: {', '.join(NED)}")
+    return tuple(
+        line
+        for k in range(slots)
+        for line in vector(
+            "output", named(f"{contact_point(k + 1)}.couple", NED), "N.m.s", f"outputs.contacts.{k}.couple",
+            description, depends_on=(), array=array,
+        )
     )  # fmt: skip
 
 
