@@ -37,6 +37,7 @@ from .contact_problem import ContactCaches, ContactProblem, ContactSolution
 from .dynamics.body_state import BodyState
 from .dynamics.contact import book_impulses
 from .dynamics.passivity import enforce_passivity
+from .dynamics.self_stress import remove_self_stress
 from .exchange import ShipExchange
 from .fender_ledger import FenderLedger, select_fenders
 from .geometry.broad_phase import Pair
@@ -184,7 +185,8 @@ class ShipCollision:
         impulses, scaled = enforce_passivity(solution.impulses, states)
         energies = book_impulses(impulses, states)
         self._totals.add(solution, scaled, energies)
-        return merge_impulses(points, impulses, energies, numbers)
+        shown = remove_self_stress(impulses, states, self.parameters.friction)
+        return merge_impulses(points, shown, energies, numbers)
 
     def _advance_others(self, H: float, states: Sequence[BodyState], near: Container[int]) -> None:
         """Move the ships that are not near another on by H [s]."""

@@ -13,6 +13,7 @@ import pytest
 
 from shipcollision_fmu.collision.model import ShipCollision
 from shipcollision_fmu.ship.degrees_of_freedom import free_inverse
+from shipcollision_fmu.ship.frames import rotation
 from shipcollision_fmu.ship.loading.library import load_ship
 from tests.collision.conftest import BOX
 
@@ -188,3 +189,27 @@ def test_a_fender_takes_the_side_force(berthed: MakeBerthed) -> None:
     assert places[-1] == pytest.approx(0.5 + FORCE / 8e6, abs=6e-3)
     assert b.model.outputs.collision_count == 0
     assert b.model.outputs.fender.stored == pytest.approx(0.5 * FORCE**2 / 8e6, rel=0.02)
+
+
+@pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
+def test_a_ship_at_rest_under_a_normal_load_shows_no_friction(berthed: MakeBerthed, algorithm: str) -> None:
+    """Flush with the quay: contacts that pull at each other would cancel in sum, and are not shown. The points still
+    make up what the ledger issues, the motions that are held included."""
+    b = berthed(algorithm)
+    b.run(12.0, 0.1)
+    pressed = 0
+    for _ in range(10):
+        before = np.array(b.model.outputs.ships[0].impulse)
+        b.step(0.1)
+        slots, received = b.model.outputs.contacts, b.model.inputs.ships[0]
+        for slot in slots:
+            pressed += slot.impulse_normal > 0.0
+            assert slot.impulse_tangential <= 1e-6 * slot.impulse_normal
+        R, x = rotation(received.attitude), received.position
+        J = np.array(b.model.outputs.ships[0].impulse) - before
+        shown = [
+            (-np.array(s.impulse), np.cross(np.subtract(s.point, x), np.negative(s.impulse)) - s.couple) for s in slots
+        ]
+        np.testing.assert_allclose(sum(P for P, _ in shown), R @ J[:3], rtol=0, atol=1e-6 * np.abs(J[:3]).max())
+        np.testing.assert_allclose(sum(M for _, M in shown), R @ J[3:], rtol=0, atol=1e-4 * np.abs(J[:3]).max())
+    assert pressed >= 20
