@@ -6,7 +6,7 @@ import copy
 import json
 from typing import Any
 
-__all__ = ["BARGE_ADDED_MASS", "NO_ADDED_MASS", "ship_tables", "ship_toml"]
+__all__ = ["BARGE_ADDED_MASS", "NO_ADDED_MASS", "estimated_toml", "ship_tables", "ship_toml"]
 
 _BARGE: dict[str, dict[str, Any]] = {
     "ship": {"name": "Barge", "kind": "barge", "source": "made up for the tests"},
@@ -34,3 +34,13 @@ def ship_toml(**tables: dict[str, Any] | None) -> str:
     for name, table in ship_tables(**tables).items():
         lines += [f"[{name}]", *(f"{key} = {json.dumps(value)}" for key, value in table.items())]
     return "\n".join(lines) + "\n"
+
+
+def estimated_toml(
+    L: float, B: float, T: float, C_b: float, *, kind: str = "cargo", **tables: dict[str, Any] | None
+) -> str:
+    """Text of the file of a ship from four numbers."""
+    return ship_toml(
+        ship={"name": "Four numbers", "kind": kind}, hull={"depth": 1.5 * T}, manoeuvring={"estimate": True},
+        particulars={"L_pp": L, "B": B, "T": T, "mass": 1025.0 * L * B * T * C_b}, **tables,
+    )  # fmt: skip

@@ -9,22 +9,29 @@ At moderate drift, the polynomials of the MMG standard model (Yasukawa & Yoshimu
     v' = v/U    r' = r L/U    U = hypot(u, v)    beta = atan2(-v, u)    u, v relative to the water [m/s], r [rad/s]
 
 After an impact a ship may move sideways, astern, or spin on the spot. The polynomials were fitted to |beta| <= 20 deg
-or so and mean nothing there (X_vvvv would push the ship ahead). Beyond, their linear terms, with u in the place of U so
-that they turn round when the ship moves astern, are joined to the drag of the cross flow on each section:
+or so and mean nothing there (X_vvvv would push the ship ahead). Beyond, the forces are those of the unified model for
+ocean and harbour manoeuvring (Yoshimura, Nakao & Ishibashi 2009, MARSIM): the linear terms, with u in the place of U so
+that they turn round when the ship moves astern, and the drag of the cross flow on each section:
 
-    X = 1/2 rho L d   ( -R_0 u |u| )
+    X = 1/2 rho L d   ( -R_0 u |u| + X_vr v r L )
     Y = 1/2 rho L d   ( Y_v |u| v + Y_r u r L - C_D <w |w|> )            w = v + x r, mean over the length
-    N = 1/2 rho L^2 d ( N_v u v + N_r |u| r L - C_D <(x/L) w |w|> )
+    N = 1/2 rho L^2 d ( N_v u v + N_r |u| r L - C_D C_N <(x/L) w |w|> )
 
-The share of the second set rises smoothly from 0 to 1 over |beta| = 20 to 40 deg, or over 35 to 60 deg of
+C_N is a number of the ship, as C_rN is in that model: with it, both sets damp yawing alike in the middle of the
+hand-over, so no ship is let go there. Without it, a ship whose N_vvr is large loses half of its damping as its drift
+grows, and winds itself up into a spin:
+
+    C_N = ( N_r (cos(beta) - 1) - N_vvr sin^2(beta) ) / ( C_D sin(beta)/6 )          beta = 35 deg, 1 <= C_N <= 2.5
+
+The share of the second set rises smoothly from 0 to 1 over |beta| = 25 to 45 deg, or over 40 to 60 deg of
 gamma = atan2(|r| L/2, |u|), the angle of the flow at the ship's ends, whichever is more. An ordinary turn stays below.
-Both sets are bounded multiples of the squared velocities, so nothing grows as U goes to 0.
-The second set and its limits are this project's, not the paper's; Hooft's cross-flow principle with C_D = 1.
+Both sets are bounded multiples of the squared velocities, so nothing grows as U goes to 0. Neither gives the ship
+energy: with the rate (m_y - m_x) u v r that the equations of motion leave to N_v, X u + Y v + N r is never above zero.
 """
 
 from __future__ import annotations
 
-from math import atan2, hypot, radians, tan
+from math import atan2, cos, hypot, radians, sin, tan
 
 from ..ship.ship import Ship
 from ..ship.tables.manoeuvring import ManoeuvringTable
@@ -32,13 +39,20 @@ from ..ship.tables.manoeuvring import ManoeuvringTable
 __all__ = ["HullForces", "integrate_cross_flow"]
 
 C_D = 1.0
-"""Drag coefficient of a full section in cross flow, related to L d."""
+"""Drag coefficient of a full section in cross flow, related to L d. KVLCC2's polynomial of Y gives 0.89 at 30 deg of
+drift and 1.02 at 35 deg; a value far from it makes the sway force fall as the drift grows through the hand-over."""
 
-BETA = (radians(20.0), radians(40.0))
-"""Drift angle at which the cross flow begins to count, and beyond which it alone does [rad]."""
+BETA = (radians(25.0), radians(45.0))
+"""Drift angle at which the cross flow begins to count, and beyond which it alone does [rad]. Steady turns must stay
+below: with R/L = 0.9 the rule beta = 22.5 L/R + 1.45 deg (Principles of Naval Architecture III, 1989) gives 26 deg.
+From 20 deg on, as once, full ships were half handed over in an ordinary turn."""
 
-GAMMA = (radians(35.0), radians(60.0))
-"""The same for the angle of the flow at the ship's ends; a 35 deg rudder turn of a full ship reaches about 25 deg."""
+GAMMA = (radians(40.0), radians(60.0))
+"""The same for the angle of the flow at the ship's ends; a 35 deg rudder turn of a full ship reaches about 30 deg."""
+
+C_N = (1.0, 2.5)
+"""Bounds of C_N: the pure cross flow, and somewhat above the 2.2 of KCS, the largest of a measured set. More would
+damp a spin on the spot beyond any measurement."""
 
 
 _STEEPEST, _QUICKEST = tan(BETA[0]) * (1.0 - 1e-9), tan(GAMMA[0]) * (1.0 - 1e-9)
@@ -55,6 +69,7 @@ class HullForces:
         self._X = (table.R_0, table.X_vv, table.X_vr, table.X_rr, table.X_vvvv)
         self._Y = (table.Y_v, table.Y_r, table.Y_vvv, table.Y_vvr, table.Y_vrr, table.Y_rrr)
         self._N = (table.N_v, table.N_r, table.N_vvv, table.N_vvr, table.N_vrr, table.N_rrr)
+        self._yaw_drag = C_D * _match_yaw_damping(table.N_r, table.N_vvr)
 
     def __call__(self, u: float, v: float, r: float) -> tuple[float, float, float]:
         """X, Y [N] and N [N m] about midship, in b, at velocities relative to the water."""
@@ -86,9 +101,9 @@ class HullForces:
         """Linear terms and cross-flow drag."""
         rL = r * self._L
         drag, drag_moment = integrate_cross_flow(v, 0.5 * rL)
-        X = -self._X[0] * u * abs(u)
+        X = -self._X[0] * u * abs(u) + self._X[2] * v * rL
         Y = self._Y[0] * abs(u) * v + self._Y[1] * u * rL - C_D * drag
-        N = self._N[0] * u * v + self._N[1] * abs(u) * rL - C_D * drag_moment
+        N = self._N[0] * u * v + self._N[1] * abs(u) * rL - self._yaw_drag * drag_moment
         return self._force * X, self._force * Y, self._moment * N
 
 
@@ -103,6 +118,13 @@ def integrate_cross_flow(v: float, s: float) -> tuple[float, float]:
         return one * (v * v + s * s / 3.0), a * s / 3.0
     one = 1.0 if s > 0.0 else -1.0
     return v * (b + v * v / (3.0 * b)), one * (s * s / 8.0 + v * v / 4.0 - v * v * (v / s) * (v / s) / 24.0)
+
+
+def _match_yaw_damping(N_r: float, N_vvr: float) -> float:
+    """C_N: the yaw damping of the polynomials over that of the cross flow, in the middle of the hand-over."""
+    beta = 0.5 * (BETA[0] + BETA[1])
+    matched = (N_r * (cos(beta) - 1.0) - N_vvr * sin(beta) ** 2) / (C_D * sin(beta) / 6.0)
+    return min(max(matched, C_N[0]), C_N[1])
 
 
 def _find_cross_flow_share(u: float, v: float, s: float) -> float:
