@@ -1,23 +1,30 @@
 """Atomic writing: a file is written completely or not at all.
 
 A file is first written into a temporary folder on the same file system and then renamed into place, so that no reader
-finds half a file.
+finds half a file. What can be made again is kept in the user's cache.
 """
 
 from __future__ import annotations
 
+import os
 import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 
 from .errors import HostError
 
-__all__ = ["IN_PLACE", "check_writable", "write_file", "write_files"]
+__all__ = ["IN_PLACE", "check_writable", "user_cache", "write_file", "write_files"]
 
 ANOTHER_FOLDER = "give another folder with --out"
 """Remedy in messages about a folder that the user chose."""
 IN_PLACE = "make its folder writable, or room on the disk"
 """Remedy in messages about a folder that the user did not choose, such as that of a run."""
+
+
+def user_cache() -> Path:
+    """This package's folder in the user's cache (XDG base directories; LOCALAPPDATA on Windows). It need not exist."""
+    home = os.environ.get("XDG_CACHE_HOME") or os.environ.get("LOCALAPPDATA")
+    return (Path(home) if home else Path.home() / ".cache") / "shipcollision-fmu"
 
 
 def check_writable(out: Path) -> None:

@@ -68,9 +68,10 @@ Write = Callable[..., Path]
 
 @pytest.fixture(scope="session", autouse=True)
 def _fmus_of_the_tests(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """The FMUs of these tests are built into a folder of their own, once."""
+    """The FMUs of these tests are built into a folder of their own, once. The user's cache is left alone."""
     home = tmp_path_factory.mktemp("fmus")
     with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
         patch.setattr(fmu_files, "fmu_directory", lambda ships=(): home / "-".join(ships))
         yield
 

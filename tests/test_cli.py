@@ -254,8 +254,39 @@ def test_an_interrupted_run_writes_nothing(folder: Path, monkeypatch: pytest.Mon
 
     monkeypatch.setitem(simulate.ALGORITHMS, "gauss-seidel", interrupted)
     result = called("run", "encounter.toml", "--in-process")
-    assert result.exit_code == 1
+    assert result.exit_code == 130
     assert result.stderr.lstrip() == "error: interrupted; nothing is written\n"
+    assert not (folder / "runs").exists()
+
+
+SIGNALLED = """
+import os, signal
+from pathlib import Path
+from shipcollision_fmu.cosim import fmu_files, simulate
+fmu_files.fmu_directory = lambda ships=(): Path({fmus!r})
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell that starts the tests may have it ignored
+advance = simulate.ALGORITHMS["gauss-seidel"]
+def struck(system, t, h):
+    if t > 0.2:
+        os.kill(os.getpid(), signal.{signal})
+    advance(system, t, h)
+simulate.ALGORITHMS["gauss-seidel"] = struck
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "status", "line"),
+    [("SIGINT", 130, "interrupted; nothing is written"), ("SIGTERM", 143, "ended by a signal; nothing is written")],
+)
+def test_a_signal_leaves_no_unpacked_fmu_behind(
+    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str, status: int, line: str
+) -> None:
+    (tmp_path / "unpacked").mkdir()
+    monkeypatch.setenv("TMPDIR", str(tmp_path / "unpacked"))
+    prelude = SIGNALLED.format(fmus=str(fmu_files.ready_fmus()["ShipCollision"].parent), signal=name)
+    done = fresh("run", "encounter.toml", cwd=folder, prelude=prelude)
+    assert (done.returncode, done.stderr.lstrip()) == (status, f"error: {line}\n")
+    assert list((tmp_path / "unpacked").iterdir()) == []
     assert not (folder / "runs").exists()
 
 

@@ -1,6 +1,6 @@
 """The command `shipcollision`.
 
-Exit status: 0 done, 1 the run or the check failed, 2 bad usage or input.
+Exit status: 0 done, 1 the run or the check failed, 2 bad usage or input, 130 interrupted, 143 ended by SIGTERM.
 
     runs.py, fmus.py, encounters.py, trials.py, lists.py   the commands, grouped by subject
     run_table.py      what `run` prints                    trial_table.py   what `trial` prints

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import os
+import signal
 import sys
+import threading
+from types import FrameType
 from typing import Any, NoReturn
 
 import click
@@ -21,11 +24,19 @@ def fail(message: str, status: int) -> NoReturn:
     sys.exit(status)
 
 
+def _end(number: int, frame: FrameType | None) -> NoReturn:
+    """End the process as a signal asks, but so that unpacked FMUs are removed on the way."""
+    del frame
+    fail("ended by a signal; nothing is written", 128 + number)
+
+
 class Commands(click.Group):
     """A group of commands that ends with one line on every mistake, and suggests names for unknown commands."""
 
     def main(self, *args: Any, **extra: Any) -> Any:
-        """click's main, with all errors printed in one form."""
+        """click's main, with all errors printed in one form. Exit status 130 after Ctrl-C, 143 after SIGTERM."""
+        if threading.current_thread() is threading.main_thread():
+            signal.signal(signal.SIGTERM, _end)
         try:
             status: Any = super().main(*args, **{**extra, "standalone_mode": False})
         except click.UsageError as error:
@@ -38,7 +49,7 @@ class Commands(click.Group):
                 raise  # a fault of this package, not of the installation
             fail(f"the package {error.name!r} is not installed: run `python -m pip install {error.name}`", 1)
         except (click.Abort, KeyboardInterrupt):
-            fail("interrupted; nothing is written", 1)
+            fail("interrupted; nothing is written", 128 + signal.SIGINT)
         except BrokenPipeError:  # `shipcollision run | head`
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
             sys.exit(1)

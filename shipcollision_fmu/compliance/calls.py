@@ -25,14 +25,19 @@ from tempfile import TemporaryFile, mkdtemp
 from typing import Any
 
 from fmpy import extract, platform_tuple, read_model_description
-from fmpy.fmi2 import FMU2Slave
+from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CoSimulation
 from fmpy.fmi3 import FMU3Slave
+
+from ..errors import HostError
+from ..fmi.builder.resource_uri import locate_resources
 
 __all__ = ["PROBES", "Probe", "run_probes"]
 
 OK, WARNING = 0, 1
 TIME_OUT = 60.0
 """[s] Limit of a process with all its probes; a process that takes longer is ended and reported."""
+FOLDER_NAME = "a(1) é#%25"
+"""Name of a folder with what a URI encodes: brackets, a space, a letter beyond ASCII, and what a URI uses itself."""
 _MARK = "finding "
 """Beginning of a line with findings, since the FMU may print lines of its own."""
 
@@ -40,7 +45,8 @@ _MARK = "finding "
 class Instance:
     """An FMU instance with the calls of the probes, in one form for both versions of FMI."""
 
-    def __init__(self, folder: Path, token: str | None = None) -> None:
+    def __init__(self, folder: Path, token: str | None = None, *, by_standard: bool = False) -> None:
+        """by_standard: the resources are named as FMI demands, not as the wrapper can read it (FMI 2.0)."""
         self.description = read_model_description(str(folder), validate=False)
         self.fmi = 3 if self.description.fmiVersion.startswith("3") else 2
         slave: type = FMU3Slave if self.fmi == 3 else FMU2Slave
@@ -50,8 +56,21 @@ class Instance:
             modelIdentifier=self.description.coSimulation.modelIdentifier,
             instanceName="one",
         )
-        self.fmu.instantiate()
+        if self.fmi == 3 or by_standard:
+            self.fmu.instantiate()
+        else:
+            self._instantiate(locate_resources(folder))
         self.dll, self.component = self.fmu.dll, self.fmu.component
+
+    def _instantiate(self, resources: str) -> None:
+        """Instantiate an FMU of FMI 2.0 with this URI of its resources."""
+        self.fmu.callbacks = defaultCallbacks
+        self.fmu.component = self.fmu.fmi2Instantiate(
+            self.fmu.instanceName.encode(), fmi2CoSimulation, self.fmu.guid.encode(), resources.encode(),
+            byref(defaultCallbacks), 0, 0,
+        )  # fmt: skip
+        if self.fmu.component is None:
+            raise HostError("fmi2Instantiate returned NULL")
 
     def call(self, name: str, *arguments: Any) -> int:
         """Call a function, by its name without prefix; returns its status."""
@@ -266,6 +285,18 @@ def probe_wrong_token(folder: Path) -> Iterator[str]:
     yield "it is instantiated with a wrong guid (instantiationToken)"
 
 
+def probe_folder_name(folder: Path) -> Iterator[str]:
+    """It runs from a folder whose name needs percent-encoding in a URI."""
+    other = folder / FOLDER_NAME
+    for part in ("binaries", "resources"):
+        if (folder / part).is_dir():
+            shutil.copytree(folder / part, other / part)
+    shutil.copy(folder / "modelDescription.xml", other)
+    instance = Instance(other, by_standard=True)
+    if instance.begin() > WARNING:
+        yield f"in a folder named {FOLDER_NAME} it does not initialise"
+
+
 PROBES = (
     Probe("runs", "initialises with its start values and steps", True, probe_run),
     Probe("step-first", "no step before initialisation", True, probe_step_first),
@@ -281,6 +312,8 @@ PROBES = (
     Probe("state", "a restored state repeats to the bit", True, probe_state),
     # Not binding: no wrapper in Python passes the token on, so the author of a Python FMU cannot comply.
     Probe("wrong-token", "another token is refused", False, probe_wrong_token),
+    # Nor does pythonfmu's wrapper decode a URI. The last, since it ends the process.
+    Probe("folder-name", f"any name of its folder will do, such as {FOLDER_NAME}", False, probe_folder_name),
 )
 """Every probe, in the order of the report."""
 
@@ -312,7 +345,7 @@ def _run_all(folder: Path) -> Iterator[tuple[Probe, str]]:
             probe = left.pop(0)
             yield from ((probe, finding) for finding in line)
         if left:
-            yield left.pop(0), ended
+            yield left[0], f"{ended}: {left.pop(0).demand}"
 
 
 def _run_process(folder: Path, names: list[str]) -> tuple[list[list[str]], str]:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from ctypes import Array, c_char_p, c_double, c_int, c_uint
+from pathlib import Path
 from typing import Any
 
 from fmpy.fmi2 import (
@@ -17,9 +18,11 @@ from fmpy.fmi2 import (
     defaultCallbacks,
     fmi2CallbackFunctions,
     fmi2CallbackLoggerTYPE,
+    fmi2CoSimulation,
 )
 
 from ..errors import HostError
+from ..fmi.builder.resource_uri import locate_resources
 from .component import Buffer, Group, Value, item_number
 from .fmu_instance import REMEDY, WARNING, FmuInstance, UnpackedFmu
 
@@ -37,7 +40,13 @@ class Fmi2Component(FmuInstance):
     def _instantiate(self, arguments: Mapping[str, str]) -> Any:
         fmu = FMU2Slave(**arguments)
         self._callbacks = self._logger()  # the library holds them by address
-        fmu.instantiate(callbacks=self._callbacks, loggingOn=True)
+        location = locate_resources(Path(fmu.unzipDirectory))
+        fmu.component = fmu.fmi2Instantiate(
+            fmu.instanceName.encode(), fmi2CoSimulation, fmu.guid.encode(), location.encode(),
+            byref(self._callbacks), 0, 1,
+        )  # fmt: skip
+        if fmu.component is None:
+            raise HostError("fmi2Instantiate returned NULL")
         return fmu
 
     def _enter_initialisation(self, stop_time: float) -> None:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import os
 from importlib.util import find_spec
 from pathlib import Path
 
 from ..errors import HostError
+from ..files import user_cache
 from ..fmi.builder.package import FMUS, are_fmus_current, build_fmus, fmu_file
 from ..fmi.interface import SHIPS
 
@@ -26,11 +26,8 @@ def require_pybullet() -> None:
 
 def fmu_directory(ships: tuple[str, ...] = SHIPS) -> Path:
     """Folder of the FMUs for these names of ships: build/ of a checkout, else in the user's cache."""
-    if (_PACKAGE.parent / "pyproject.toml").is_file():
-        home = _PACKAGE.parent / "build"
-    else:
-        cache = os.environ.get("XDG_CACHE_HOME")
-        home = (Path(cache) if cache else Path.home() / ".cache") / "shipcollision-fmu"
+    in_checkout = (_PACKAGE.parent / "pyproject.toml").is_file()
+    home = _PACKAGE.parent / "build" if in_checkout else user_cache()
     return home if ships == SHIPS else home / "-".join(ships)
 
 

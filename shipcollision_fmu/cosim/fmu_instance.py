@@ -64,6 +64,8 @@ class FmuInstance(ABC):
     """fmi2DoStep or fmi3DoStep of the library."""
     _step_options: tuple[Any, ...]
     """The arguments of the call after the step size."""
+    _instantiated = False
+    """Whether any FMU has been instantiated in this process."""
 
     def __init__(self, name: str, fmu: UnpackedFmu) -> None:
         self.name = name
@@ -71,6 +73,7 @@ class FmuInstance(ABC):
         self._initialised = False
         self._component: Any = None
         description = fmu.description
+        _check_imports()
         try:
             self._fmu = self._instantiate({
                 "guid": description.guid,
@@ -82,6 +85,7 @@ class FmuInstance(ABC):
             reason = self._message(ERROR) if self._messages else error
             raise HostError(f"{name}: {fmu.file.name} cannot be instantiated: {reason}") from None
         self._component = self._fmu.component
+        FmuInstance._instantiated = True
 
     @abstractmethod
     def _instantiate(self, arguments: Mapping[str, str]) -> Any:
@@ -143,3 +147,12 @@ class FmuInstance(ABC):
         if not self._messages:
             return f"{doing}{_SILENT[status]}, without a message"
         return _WRAPPER.sub("", " ".join(self._messages[-1].split()))
+
+
+def _check_imports() -> None:
+    """Raise HostError where the first FMU of a process would wait for the interpreter for ever."""
+    if "coacd" in sys.modules and not FmuInstance._instantiated:
+        raise HostError(
+            "coacd is imported in this process, after which the first FMU of a Python wrapper waits for ever: import "
+            "coacd in a process of its own or after the first run, or run the models with in_process=True"
+        )

@@ -1,7 +1,8 @@
-"""An interrupt (Ctrl-C) waits for the end of the step.
+"""An interrupt (Ctrl-C) or an order to end (SIGTERM) waits for the end of the step.
 
 Python raises KeyboardInterrupt wherever it happens to be, also inside an FMU in this very process. There the exception
-would count as a fault of the model. So the signal is noted, and KeyboardInterrupt is raised between two steps.
+would count as a fault of the model. So the signal is noted, and the exception is raised between two steps. SIGTERM
+would end the process at once and leave the unpacked FMUs behind.
 """
 
 from __future__ import annotations
@@ -11,33 +12,39 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
+from typing import Any
 
 __all__ = ["delay_interrupts"]
 
 
 @contextmanager
 def delay_interrupts() -> Iterator[Callable[[], None]]:
-    """A context that notes SIGINT, and the function that raises KeyboardInterrupt if one has come.
+    """A context that notes SIGINT and SIGTERM, and the function that acts on what has come.
 
-    Outside the main thread Python delivers no signals, so nothing is delayed there.
+    It raises KeyboardInterrupt for SIGINT. For SIGTERM it calls the handler from before, or raises SystemExit(143).
+    Outside the main thread Python delivers no signals, so nothing is delayed there. Ignored signals stay ignored.
     """
-    came = False
+    came: list[int] = []
+    before: dict[int, Any] = {}
 
     def note(number: int, frame: FrameType | None) -> None:
-        del number, frame
-        nonlocal came
-        came = True
+        del frame
+        came.append(number)
 
     def check() -> None:
-        if came:
+        if signal.SIGINT in came:
             raise KeyboardInterrupt
+        if came:
+            if callable(before[signal.SIGTERM]):
+                before[signal.SIGTERM](signal.SIGTERM, None)
+            raise SystemExit(128 + signal.SIGTERM)
 
-    ignored = signal.getsignal(signal.SIGINT) == signal.SIG_IGN  # a job in the background of a shell
-    if ignored or threading.current_thread() is not threading.main_thread():
-        yield check
-        return
-    before = signal.signal(signal.SIGINT, note)
+    if threading.current_thread() is threading.main_thread():
+        for which in (signal.SIGINT, signal.SIGTERM):
+            if signal.getsignal(which) not in (signal.SIG_IGN, None):  # ignored: a job in the background of a shell
+                before[which] = signal.signal(which, note)
     try:
         yield check
     finally:
-        signal.signal(signal.SIGINT, before)
+        for number, handler in before.items():
+            signal.signal(number, handler)

@@ -60,3 +60,18 @@ def test_where_interrupts_are_ignored_they_stay_ignored() -> None:
             check()
     finally:
         signal.signal(signal.SIGINT, before)
+
+
+def test_an_order_to_end_is_delayed_and_given_to_the_handler_from_before() -> None:
+    given: list[int] = []
+    before = signal.signal(signal.SIGTERM, lambda number, _: given.append(number))
+    try:
+        with delay_interrupts() as check:
+            check()
+            signal.raise_signal(signal.SIGTERM)
+            assert given == []
+            with pytest.raises(SystemExit) as ended:
+                check()
+        assert (given, ended.value.code) == ([signal.SIGTERM], 143)
+    finally:
+        signal.signal(signal.SIGTERM, before)

@@ -158,7 +158,10 @@ for folder in folders:
 LATER = {
     "ship/kinetic_energy.py": "for summaries and pages; the room ship travels whole",
     "ship/ship_state.py": "for helms and tracks; the room ship travels whole",
+    "files.py": "imported with the first hull that is cut into parts",
     "ship/hull/mesh.py": "imported with the first ship whose hull is a mesh file",
+    "ship/hull/convex_parts.py": "likewise",
+    "ship/hull/coacd_process.py": "runs in a process of its own",
 }
 """Files that an FMU carries although its first step does not import them, and why."""
 

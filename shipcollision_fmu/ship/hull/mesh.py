@@ -13,9 +13,7 @@
     p_b = metres [forward, starboard, down]' (p_file - origin),    starboard = forward x up
 
 The surface must be closed, for only then is there an inside. Contact needs convex parts: a convex mesh is its own part;
-any other is cut along planes by CoACD (Wei et al. 2022, ACM Trans. Graph. 41(4)) into parts whose convex hulls hold the
-whole solid and little more. The added volume is measured, and refused above VOLUME_TOLERANCE. The cutting is seeded, so
-the same file gives the same parts, to the bit, in every run. Nothing is cached on disk.
+any other is cut once and kept (convex_parts.py).
 
 Not checked: a surface that passes through itself, which end is the bow, and where T is about half the depth, which way
 is up.
@@ -23,8 +21,6 @@ is up.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import lru_cache
 from importlib import import_module
 from itertools import permutations
 from pathlib import Path
@@ -35,10 +31,11 @@ import numpy as np
 from ...errors import HostError, ShipError, describe_installation
 from ..frames import Array
 from ..tables.hull import HullTable
-from .convex import Indices, enclosed_volume, half_spaces, is_convex
+from .convex import Indices, enclosed_volume, half_spaces
+from .convex_parts import cut_into_convex_parts
 from .solid import HullMesh
 
-__all__ = ["UNITS", "VOLUME_TOLERANCE", "build_mesh_hull"]
+__all__ = ["UNITS", "build_mesh_hull"]
 
 UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "ft": 0.3048, "in": 0.0254}
 """Metres per unit of a file."""
@@ -49,16 +46,6 @@ SIZE_TOLERANCE = 0.25
 MIDSHIP_TOLERANCE, CENTRELINE_TOLERANCE, KEEL_TOLERANCE = 0.1, 0.05, 0.25
 """Distance allowed between the mesh's middle and CO, over L_oa (bulb) and B, and between its keel and T, over the depth
 (rudder, sonar dome)."""
-VOLUME_TOLERANCE = 0.05
-"""Largest volume that the convex parts may add to the solid, relative."""
-BULGE_GOAL = 0.01
-"""Bulge over B (how far a part stands out where the solid is hollow) at which the cutting is fine enough."""
-CONCAVITIES = (0.03, 0.015)
-"""CoACD's thresholds (a concavity over half the solid's length), from coarse to fine. From 0.01 on a ship falls into
-dozens of parts, which takes half a minute and makes contact slow."""
-CONVEX_WITHIN = 1e-3
-"""A vertex may lie this far [m] before a face of a mesh that still counts as convex."""
-SEED = 1
 LARGEST_FILE = 200 * 2**20
 """Bytes of a file that are read at all."""
 
@@ -87,7 +74,7 @@ def build_mesh_hull(L_oa: float, B: float, T: float, table: HullTable) -> HullMe
         )
     if volume < 0.0:  # all of it inside out: turned
         triangles = triangles[:, ::-1].copy()
-    cut = _cut_into_convex_parts(path.name, placed, triangles, table.max_parts)
+    cut = cut_into_convex_parts(path.name, placed, triangles, table.max_parts)
     return HullMesh(
         placed, triangles, tuple(p for p, _ in cut.parts), tuple(half_spaces(*part) for part in cut.parts),
         cut.volume_error, cut.bulge,
@@ -270,68 +257,3 @@ def _check_triangles(name: str, placed: Array, triangles: Indices) -> None:
             f"{name}: {int(flat.sum())} of {len(flat)} triangles have no area (their corners lie on one line): clean "
             "the mesh (dissolve degenerate faces, merge by distance)"
         )
-
-
-# -- convex parts -----------------------------------------------------------------------------------
-
-Part = tuple[Array, Indices]
-
-
-@dataclass(frozen=True)
-class Cut:
-    """Convex meshes that together hold a solid; what they add to its volume, relative; how far they bulge [m]."""
-
-    parts: tuple[Part, ...]
-    volume_error: float = 0.0
-    bulge: float = 0.0
-
-
-def _cut_into_convex_parts(name: str, vertices: Array, triangles: Indices, max_parts: int) -> Cut:
-    if is_convex(vertices, triangles, CONVEX_WITHIN):
-        return Cut(((vertices, triangles),))
-    cut = _cut_solid(vertices.tobytes(), triangles.tobytes(), max_parts)
-    if cut.volume_error > VOLUME_TOLERANCE:
-        raise ShipError(
-            f"{name}: its {len(cut.parts)} convex parts hold {cut.volume_error:.1%} more than the solid, at most "
-            f"{VOLUME_TOLERANCE:.0%}: raise max_parts = {max_parts}, or leave out what does not touch other ships "
-            "(masts, railings, tanks)"
-        )
-    return cut
-
-
-@lru_cache(maxsize=8)
-def _cut_solid(vertices: bytes, triangles: bytes, max_parts: int) -> Cut:
-    """The solid cut by CoACD, to at most max_parts. Kept in memory for several ships of one hull."""
-    coacd = _import_optional("coacd", "a hull that is not convex is cut into parts with it")
-    coacd.set_log_level("error")
-    p = np.frombuffer(vertices).reshape(-1, 3)
-    faces = np.frombuffer(triangles, dtype=np.int64).reshape(-1, 3)
-    volume, best = enclosed_volume(p, faces), None
-    for threshold in CONCAVITIES:
-        found = coacd.run_coacd(
-            coacd.Mesh(p, faces), threshold=threshold, max_convex_hull=max_parts, preprocess_mode="off", seed=SEED
-        )
-        parts = tuple(_turn_outward(np.array(v, dtype=float), np.array(f, dtype=np.int64)) for v, f in found)
-        cut = Cut(parts, sum(enclosed_volume(*part) for part in parts) / volume - 1.0, _measure_bulge(p, parts))
-        if best is None or cut.bulge < best.bulge:
-            best = cut
-        if best.bulge <= BULGE_GOAL * float(np.ptp(p[:, 1])):
-            break
-    assert best is not None
-    return best
-
-
-def _measure_bulge(surface: Array, parts: tuple[Part, ...]) -> float:
-    """How deep [m] the deepest vertex of the solid's surface lies inside a part; it should lie on one."""
-    deepest = 0.0
-    for part in parts:
-        planes = half_spaces(*part)
-        inside = (planes[:, 3] - surface @ planes[:, :3].T).min(axis=1)
-        deepest = max(deepest, float(inside.max()))
-    return deepest
-
-
-def _turn_outward(vertices: Array, triangles: Indices) -> Part:
-    return (
-        (vertices, triangles) if enclosed_volume(vertices, triangles) > 0.0 else (vertices, triangles[:, ::-1].copy())
-    )

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from shipcollision_fmu.errors import HostError, ShipError
-from shipcollision_fmu.ship.hull import mesh as mesh_module
+from shipcollision_fmu.ship.hull import convex_parts
 from shipcollision_fmu.ship.hull.convex import enclosed_volume, half_spaces, is_convex
 from shipcollision_fmu.ship.hull.hull import build_hull
 from shipcollision_fmu.ship.hull.mesh import UNITS, build_mesh_hull
@@ -228,7 +228,7 @@ def test_shells_inside_each_other_hold_nothing(read: Read) -> None:
 @pytest.mark.parametrize("package", ["trimesh", "coacd"])
 def test_a_missing_package_is_named(read: Read, monkeypatch: pytest.MonkeyPatch, package: str) -> None:
     monkeypatch.setitem(sys.modules, package, None)
-    mesh_module._cut_solid.cache_clear()
+    convex_parts._cut_once.cache_clear()
     with pytest.raises(HostError, match=rf"{package} cannot be imported .*pip install 'shipcollision-fmu\[mesh\]'"):
         read(FLARED)
 
@@ -251,7 +251,7 @@ def test_a_flared_hull_is_cut_into_convex_parts_that_hold_it(read: Read) -> None
 
 @pytest.mark.slow
 def test_parts_that_hold_too_much_are_refused(read: Read, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(mesh_module, "VOLUME_TOLERANCE", 1e-6)
+    monkeypatch.setattr(convex_parts, "VOLUME_TOLERANCE", 1e-6)
     with pytest.raises(
         ShipError, match=r"its 1 convex parts hold \d\.\d% more than the solid.*raise max_parts = 1, or"
     ):
