@@ -1,4 +1,4 @@
-"""Ship files of the tests: a barge of 100 m, and what differs from it."""
+"""Ship files of the tests: a barge of 100 m with CG at CO, and what differs from it."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ __all__ = ["BARGE_ADDED_MASS", "NO_ADDED_MASS", "estimated_toml", "ship_tables",
 
 _BARGE: dict[str, dict[str, Any]] = {
     "ship": {"name": "Barge", "kind": "barge", "source": "made up for the tests"},
-    "particulars": {"L_pp": 100.0, "B": 20.0, "T": 5.0, "mass": 8.2e6},
+    "particulars": {"L_pp": 100.0, "B": 20.0, "T": 5.0, "mass": 8.2e6, "r_bg": [0.0, 0.0, 0.0]},
     "hull": {"shape": "box", "depth": 8.0},
 }
 BARGE_ADDED_MASS = {"m_x": 0.05, "m_y": 0.85, "m_z": 1.0, "j_x": 0.2, "j_y": 1.0, "j_z": 0.21}

@@ -22,7 +22,7 @@ from ..errors import ShipError
 from .hydrostatics import GRAVITY, compute_hydrostatics
 from .ship import Ship
 
-__all__ = ["Seakeeping", "compute_seakeeping"]
+__all__ = ["BLOCK", "Seakeeping", "compute_seakeeping"]
 
 RATIOS = {"zeta_heave": 0.2, "zeta_roll": 0.05, "zeta_pitch": 0.25, "zeta_roll_per_rad": 0.3}
 """Damping ratios where the file gives none; with less roll damping, ships roll on for longer after an impact."""

@@ -1,8 +1,9 @@
 """A ship from its validated file: its matrices, and estimates of missing values by named formulas.
 
-    k_xx = 0.37 B      k_yy = k_zz = 0.25 L_pp        radii of gyration about CG
+    k_yy = k_zz = 0.25 L_pp        radii of gyration about CG [m]
 
-The added mass is that of added_mass_estimate.py where the file gives none.
+Where the file gives none, the centre of gravity and k_xx are those of stability_estimate.py, the added mass that of
+added_mass_estimate.py.
 """
 
 from __future__ import annotations
@@ -12,12 +13,15 @@ from dataclasses import replace
 import numpy as np
 
 from ...errors import ShipError
+from ..frames import Array
+from ..hydrostatics import compute_hydrostatics
 from ..inertia import is_positive_definite, rigid_body_inertia
-from ..seakeeping import compute_seakeeping
+from ..seakeeping import BLOCK, compute_seakeeping
 from ..ship import Ship
 from ..windage import compute_windage
 from .added_mass_estimate import assemble_added_mass
 from .ship_file import ShipFile
+from .stability_estimate import estimate_k_xx, estimate_stability
 
 __all__ = ["assemble_ship"]
 
@@ -37,17 +41,20 @@ def assemble_ship(content: ShipFile, file: str) -> Ship:
         return value
 
     L_oa = or_estimate(p.L_oa, "L_oa = L_pp", p.L_pp)
-    radii = np.array([
-        or_estimate(p.k_xx, "k_xx = 0.37 B", 0.37 * p.B),
-        or_estimate(p.k_yy, "k_yy = 0.25 L_pp", 0.25 * p.L_pp),
-        or_estimate(p.k_zz, "k_zz = 0.25 L_pp", 0.25 * p.L_pp),
-    ])  # fmt: skip
-    r_bg = np.array(p.r_bg if p.r_bg is not None else [0.0, 0.0, 0.0], dtype=float)
-    if p.r_bg is None:
-        estimated.append("r_bg = (0, 0, 0)")
+    k_yy = or_estimate(p.k_yy, "k_yy = 0.25 L_pp", 0.25 * p.L_pp)
+    k_zz = or_estimate(p.k_zz, "k_zz = 0.25 L_pp", 0.25 * p.L_pp)
+    r_bg, GM = _place_centre_of_gravity(content, estimated)
 
-    M_RB = rigid_body_inertia(p.mass, r_bg, radii)
-    M_A = assemble_added_mass(content, p.mass * radii**2, estimated, file)
+    def find_inertia(k_xx: float, notes: list[str]) -> tuple[Array, Array]:
+        radii = np.array([k_xx, k_yy, k_zz])
+        M_RB = rigid_body_inertia(p.mass, r_bg, radii)
+        return M_RB, assemble_added_mass(content, p.mass * radii**2, notes, file)
+
+    k_xx = p.k_xx
+    if k_xx is None:
+        k_xx, note = estimate_k_xx(p, GM, lambda k: np.add(*find_inertia(k, [])))
+        estimated.append(note)
+    M_RB, M_A = find_inertia(k_xx, estimated)
     M = M_RB + M_A
     if not is_positive_definite(M):
         raise ShipError(
@@ -64,6 +71,21 @@ def assemble_ship(content: ShipFile, file: str) -> Ship:
         estimated=tuple(estimated),
     )  # fmt: skip
     return ship if ship.manoeuvring is None else replace(ship, estimated=(*estimated, *_list_sailing_estimates(ship)))
+
+
+def _place_centre_of_gravity(content: ShipFile, estimated: list[str]) -> tuple[Array, float | None]:
+    """CG from CO [m], and GM_T [m] where it is known then; adds to `estimated`."""
+    p = content.particulars
+    if p.r_bg is not None:
+        C_b = p.mass / (p.rho * p.L_pp * p.B * p.T)
+        water = compute_hydrostatics(p.L_pp, p.B, p.T, C_b, p.r_bg[2], GM_T=p.GM_T)
+        return np.array(p.r_bg, dtype=float), water.GM_T if BLOCK[0] <= C_b <= BLOCK[1] else None
+    stability = estimate_stability(p, content.ship.kind, content.hull.depth)
+    if stability is None:
+        estimated.append("r_bg = (0, 0, 0)")
+        return np.zeros(3), None
+    estimated.append(stability.note)
+    return np.array([0.0, 0.0, p.T - stability.KG]), stability.GM
 
 
 def _list_sailing_estimates(ship: Ship) -> tuple[str, ...]:

@@ -27,7 +27,8 @@ def written(folder: Path, name: str, text: str) -> Path:
 
 
 def test_what_is_missing_is_estimated_and_said(tmp_path: Path) -> None:
-    ship = load_ship(written(tmp_path, "barge.toml", BARGE))
+    """CG and roll radius are given: their estimates are tested in test_is_code_2008.py."""
+    ship = load_ship(written(tmp_path, "barge.toml", ship_toml(particulars={"k_xx": 7.4})))
     m, I_xx, I_zz = 8.2e6, 8.2e6 * (0.37 * 20) ** 2, 8.2e6 * 25.0**2
     np.testing.assert_allclose(np.diag(ship.M_RB), [m, m, m, I_xx, I_zz, I_zz], rtol=1e-14)
     m_x, m_y, J_z = estimate_added_mass(Dimensions(100.0, 20.0, 5.0, 0.8, 0.0, 1025.0))  # tested by its table
@@ -37,7 +38,7 @@ def test_what_is_missing_is_estimated_and_said(tmp_path: Path) -> None:
     assert ship.L_oa == 100.0
     assert ship.C_b == pytest.approx(0.8)
     assert ship.estimated == (
-        "L_oa = L_pp", "k_xx = 0.37 B", "k_yy = 0.25 L_pp", "k_zz = 0.25 L_pp", "r_bg = (0, 0, 0)",
+        "L_oa = L_pp", "k_yy = 0.25 L_pp", "k_zz = 0.25 L_pp",
         "m_x = 0.06668 mass (Motora charts, Zhou)", "m_y = 0.5889 mass (Motora charts, Zhou)", "m_z = 1 mass",
         "j_x = 0.2 I_xx", "j_y = 1 I_yy", "j_z = 0.5527 I_zz (Motora charts, Zhou)", "z_y = T/2",
     )  # fmt: skip
@@ -94,9 +95,7 @@ def test_added_mass_must_not_give_energy(tmp_path: Path, coupling: float | None)
 
 def test_inertia_that_leaves_a_motion_without_any_is_refused(tmp_path: Path) -> None:
     """All mass on one line below CO, and no water: swaying and rolling about it, the ship could turn without effort."""
-    line = full_M_A(np.zeros((6, 6))).replace(
-        "mass = 8200000.0", "mass = 8200000.0\nr_bg = [0.0, 0.0, 4.0]\nk_xx = 1e-6"
-    )
+    line = full_M_A(np.zeros((6, 6))).replace("r_bg = [0.0, 0.0, 0.0]", "r_bg = [0.0, 0.0, 4.0]\nk_xx = 1e-6")
     with pytest.raises(
         ShipError,
         match=r"the inertia M_RB \+ M_A is not positive definite \(diagonal \[8200000.0, .*\]\): check r_bg, "
