@@ -7,6 +7,8 @@
     kinetic_energy.py        kinetic energy of the free motions
     inertia.py               M = M_RB + M_A about CO
     hydrostatics.py          waterplane and metacentric heights from L, B, T and C_b
+    roll_period.py           natural period of roll, of the Intact Stability Code and of a ship
+    ship_type.py             what is typical of a type of ship: GM, speed, machinery
     seakeeping.py            stiffness and damping in heave, roll and pitch
     windage.py               areas above the water and Blendermann's coefficients
     ship.py                  Ship: all numbers of a ship, which cannot be changed

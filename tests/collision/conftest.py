@@ -35,7 +35,7 @@ def make_ship(tmp_path: Path) -> Callable[..., str]:
             ship_toml(
                 ship={"name": name},
                 hull=None,
-                particulars={"L_pp": 200.0, "B": 30.0, "T": 10.0, "mass": mass, "r_bg": json.loads(r_bg)},
+                particulars={"L_pp": 200.0, "B": 30.0, "T": 10.0, "mass": mass, "r_bg": json.loads(r_bg), "k_xx": 11.1},
             )
             + f"[added_mass]\n{added_mass}\n[hull]\n{hull}\n"
         )

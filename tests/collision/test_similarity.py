@@ -31,7 +31,13 @@ def written(folder: Path, name: str, hull: str, scale: float) -> str:
         for key, value in (line.split(" = ") for line in hull.splitlines())
     }
     path = folder / f"{name}.toml"
-    particulars = {"L_pp": 200.0 * scale, "B": 30.0 * scale, "T": 10.0 * scale, "mass": 40e6 * scale**3}
+    particulars = {
+        "L_pp": 200.0 * scale,
+        "B": 30.0 * scale,
+        "T": 10.0 * scale,
+        "mass": 40e6 * scale**3,
+        "k_xx": 11.1 * scale,
+    }
     path.write_text(ship_toml(ship={"name": name}, particulars=particulars, hull=scaled))
     return str(path)
 

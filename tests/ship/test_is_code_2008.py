@@ -1,4 +1,4 @@
-"""GM and roll period of ships from main dimensions, against the Intact Stability Code 2008 and typical working values."""
+"""GM and roll period of ships from main dimensions: the Intact Stability Code 2008 and typical working values."""
 
 from __future__ import annotations
 
@@ -43,12 +43,16 @@ FISHING = ("fishing vessel", 24.0, 7.0, 3.0, 0.58, 3.8)
     ],
     ids=lambda value: value[0] if isinstance(value, tuple) else "",
 )
-def test_GM_is_the_typical_working_value(ship: tuple[str, float, float, float, float, float], least: float, most: float) -> None:
+def test_GM_is_the_typical_working_value(
+    ship: tuple[str, float, float, float, float, float], least: float, most: float
+) -> None:
     """CG at the waterline made it 8.6 m for the cruise ship and -0.009 m for the fishing vessel."""
     assert least <= compute_seakeeping(made(*ship)).GM_T <= most
 
 
-@pytest.mark.parametrize("ship", [CRUISE, FISHING, ("VLCC", 320.0, 58.0, 20.8, 0.81, 30.0), ("tug", 30.0, 11.0, 4.5, 0.6, 5.5)])
+@pytest.mark.parametrize(
+    "ship", [CRUISE, FISHING, ("VLCC", 320.0, 58.0, 20.8, 0.81, 30.0), ("tug", 30.0, 11.0, 4.5, 0.6, 5.5)]
+)
 def test_the_ship_rolls_with_the_period_of_the_code(ship: tuple[str, float, float, float, float, float]) -> None:
     """Part A, 2.3.4, written out again: T = 2 C B/sqrt(GM); free in sway, as the model rolls. A sixth is allowed where
     the Code's coefficient asks for a k_xx that no ship has."""

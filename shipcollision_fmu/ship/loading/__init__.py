@@ -7,6 +7,7 @@
     mmg_estimate.py    complete_tables(): an MMG set from L, B, T and C_b
     assembly.py        assemble_ship(): matrices, and estimates of what is missing
     added_mass_estimate.py    assemble_added_mass(): the file's own, the MMG set's, or estimates
+    stability_estimate.py     estimate_stability(), estimate_k_xx(): CG, GM and roll radius by type of ship
     motora_charts.py   estimate_added_mass(): surge, sway and yaw from L, B, T and C_b
 
 Data flow: name -> path -> tables -> ShipFile -> Ship. Imports from: tables and the files of ship/.
