@@ -63,10 +63,10 @@ def estimate_k_xx(p: ParticularsTable, GM: float | None, inertia: Callable[[floa
     if GM is None or GM <= 0.0:
         return K_XX * p.B, f"k_xx = {K_XX} B"
     period = compute_is_code_period(p.L_pp, p.B, p.T, GM)
-    wanted = (period / (2.0 * pi)) ** 2 * p.mass * GRAVITY * GM
+    needed = (period / (2.0 * pi)) ** 2 * p.mass * GRAVITY * GM
     low, high = ((k * p.B) ** 2 for k in (SLIMMEST, WIDEST))
     of_low, of_high = (compute_roll_inertia(inertia(sqrt(k_2))) for k_2 in (low, high))
-    share = min(1.0, max(0.0, (wanted - of_low) / (of_high - of_low)))  # the inertia is linear in k_xx^2
+    share = min(1.0, max(0.0, (needed - of_low) / (of_high - of_low)))  # the inertia is linear in k_xx^2
     k_xx = sqrt(low + share * (high - low))
     how = f"{k_xx / p.B:.3f} B, roll period {period:.1f} s of the Intact Stability Code"
     if share in (0.0, 1.0):
