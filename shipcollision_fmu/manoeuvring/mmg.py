@@ -98,6 +98,11 @@ class Mmg(ABC):
         self._hull = HullForces(ship, ship.manoeuvring)
         self._wind = WindForces(compute_windage(ship), ship.L_oa)
         self._propeller = Propeller(ship, ship.propeller) if ship.propeller is not None else None
+        self._torque_limit = (
+            self._propeller.limit_torque(ship.engine)
+            if self._propeller is not None and ship.engine is not None
+            else None
+        )
         self._rudder = (
             Rudder(ship, ship.rudder, ship.propeller)
             if ship.rudder is not None and ship.propeller is not None
@@ -120,6 +125,17 @@ class Mmg(ABC):
     def _derivative(self, x: tuple[float, ...], delta: float, n: float, around: Surroundings) -> tuple[float, ...]:
         """d/dt of the integrated quantities, at the rudder angle delta [rad] and the propeller speed n [1/s]."""
 
+    @abstractmethod
+    def _find_inflow(self, x: tuple[float, ...], around: Surroundings) -> float:
+        """u_P [m/s] of a ship with a propeller."""
+
+    def limit_revolutions(self, eta: Six, nu: Six, n: float, around: Surroundings) -> float:
+        """The propeller speed [1/s] as the engine's torque allows it at a pose and a velocity over ground."""
+        if self._torque_limit is None:
+            return n
+        least, most = self._torque_limit.find_range(self._find_inflow(self._pack(eta, nu), around))
+        return min(most, max(least, n))
+
     @staticmethod
     @abstractmethod
     def _add_scaled(x: tuple[float, ...], k: Sequence[float], dt: float) -> tuple[float, ...]:
@@ -133,12 +149,15 @@ class Mmg(ABC):
         dt = h / substeps
         delta, n, gear = machines
         rudder_order, propeller_order = orders
-        x, moved, derivative = self._pack(eta, nu), self._add_scaled, self._derivative
+        x, moved, derivative, limit = self._pack(eta, nu), self._add_scaled, self._derivative, self._torque_limit
         for _ in range(substeps):
             delta_mid = self.steering.follow(delta, rudder_order, 0.5 * dt)
             delta_end = self.steering.follow(delta, rudder_order, dt)
             n_mid, _half = self.engine.follow(n, gear, propeller_order, 0.5 * dt)
             n_end, gear = self.engine.follow(n, gear, propeller_order, dt)
+            if limit is not None and (n or n_end):
+                least, most = limit.find_range(self._find_inflow(x, around))
+                n, n_mid, n_end = (min(most, max(least, speed)) for speed in (n, n_mid, n_end))
             a = derivative(x, delta, n, around)
             b = derivative(moved(x, a, 0.5 * dt), delta_mid, n_mid, around)
             c = derivative(moved(x, b, 0.5 * dt), delta_mid, n_mid, around)

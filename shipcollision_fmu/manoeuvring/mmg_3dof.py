@@ -63,6 +63,15 @@ class Mmg3Dof(Mmg):
         north, east, psi, u, v, r = x
         return (north, east, *eta[2:5], psi), (u, v, *nu[2:5], r)
 
+    def _find_inflow(self, x: tuple[float, ...], around: Surroundings) -> float:
+        _x, _y, psi, u, v, r = x
+        north, east = around.current_north, around.current_east
+        if north or east:
+            c, s = cos(psi), sin(psi)
+            u, v = u - (north * c + east * s), v - (east * c - north * s)
+        assert self._propeller is not None
+        return self._propeller.compute_inflow(u, hypot(u, v), atan2(-v, abs(u)), r)
+
     @staticmethod
     def _add_scaled(x: tuple[float, ...], k: Sequence[float], dt: float) -> tuple[float, ...]:
         return (

@@ -105,6 +105,14 @@ class Mmg6Dof(Mmg):
         nu = (u, v, w, p, q, r)
         return (N, E, D, phi, theta, psi), from_level(nu, phi) if self._level else nu
 
+    def _find_inflow(self, x: tuple[float, ...], around: Surroundings) -> float:
+        _N, _E, _D, phi, theta, psi, u, v, _w, p, q, r = x
+        s_theta, c_theta = (0.0, 1.0) if self._level else (sin(theta), cos(theta))
+        u_c, v_c, _w_c = self._current(sin(phi), cos(phi), s_theta, c_theta, sin(psi), cos(psi), around)
+        u_H, v_H = u - u_c + self._z_H * q, v - v_c - self._z_H * p
+        assert self._propeller is not None
+        return self._propeller.compute_inflow(u_H, hypot(u_H, v_H), atan2(-v_H, abs(u_H)), r)
+
     @staticmethod
     def _add_scaled(x: tuple[float, ...], k: Sequence[float], dt: float) -> tuple[float, ...]:
         return (

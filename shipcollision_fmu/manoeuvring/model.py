@@ -118,6 +118,7 @@ class ShipManoeuvring:
             _refuse_steep_start(eta)
             self._refuse_orders(set_up, ScenarioError, "at the start")
             propeller_speed = set_up.mmg.engine.limit(self.inputs.propeller_order)
+            propeller_speed = set_up.mmg.limit_revolutions(eta, nu, propeller_speed, self._surroundings())
             machines = Machines(0.0, propeller_speed, set_up.mmg.engine.find_gear(propeller_speed))
         forces = self._compute_forces(set_up.mmg, eta, nu, machines)
         self._set_up, self.warning = set_up, warning

@@ -8,7 +8,7 @@
 Multiplied out, thrust = rho D_P^2 (k_0 (n D_P)^2 + k_1 n D_P u_P + k_2 u_P^2): no J is needed. That is the ship's own
 curve, and it holds where the propeller pulls ahead in a flow from ahead. No polynomial in J describes how a propeller
 stalls that turns astern while the ship still runs ahead. Where the ship's curve does not hold, the thrust is that of
-the Wageningen B4-70 propeller with the same pull on the spot (b_series.py), measured in all four quadrants:
+the Wageningen B4-70 propeller with the same pull on the spot (ship/b_series.py), measured in all four quadrants:
 
     n > 0, u_P > 0, curve above 0    the ship's own curve
     n > 0, u_P > 0, below            the series between its own zero of thrust and the stopped propeller, the angle
@@ -20,8 +20,8 @@ mirrored curve at J = -0.5. `astern_factor` scales what turning astern adds to t
 from the ship's own crash stop. With its default 1, full astern from service speed stops KVLCC2 within 16.8 L, the bulk
 carrier within 15.8 L, the container ships within 8.8 and 11 L; no crash stop of these ships was found to compare with.
 Not modelled: air drawn to the propeller, the side force of its wash on the stern (a ship keeps its heading in a crash
-stop), the change of the thrust deduction astern, and the engine's torque, which limits how soon a real propeller can be
-turned astern at speed: `reversal_delay` and `rate` of [engine] stand for it.
+stop), and the change of the thrust deduction astern. The torque of an engine of known power limits the revolutions
+(torque_limit.py).
 
 The wake takes beta = atan2(-v, |u|): a ship that moves astern has the wake of one that moves ahead.
 u, v [m/s] relative to the water, r [rad/s], n [1/s], thrust [N].
@@ -30,12 +30,14 @@ u, v [m/s] relative to the water, r [rad/s], n [1/s], thrust [N].
 from __future__ import annotations
 
 from functools import lru_cache
-from math import atan2, degrees, exp, floor, hypot, pi, sqrt
+from math import atan2, degrees, exp, floor, hypot, pi
 
 from ..errors import ShipError
+from ..ship.b_series import ROTATION, compute_bollard_pull, compute_coefficient, find_pitch
+from ..ship.propeller_torque import find_idle_advance, make_torque_law
 from ..ship.ship import Ship
-from ..ship.tables.manoeuvring import PropellerTable
-from .b_series import ROTATION, compute_bollard_pull, compute_coefficient, find_pitch
+from ..ship.tables.manoeuvring import EngineTable, PropellerTable
+from .torque_limit import TorqueLimit
 
 __all__ = ["Propeller", "speed_and_drift_angle"]
 
@@ -83,6 +85,19 @@ class Propeller:
             return drag + self._astern * (self._measured(u_P, nD) - drag)
         return self._measured(u_P, nD)
 
+    def limit_torque(self, table: EngineTable) -> TorqueLimit | None:
+        """The revolutions that an engine reaches; None where its power is not known, and no torque limits it."""
+        if table.power is None:
+            return None
+        law = make_torque_law(self._k_0, self._k_1, self._k_2)
+        rated = table.max_rev_per_s if table.rated_rev_per_s is None else table.rated_rev_per_s
+        most_torque = table.power / (2.0 * pi * rated)
+
+        def compute_torque(u_P: float, x: float) -> float:
+            return law.compute(self.compute_thrust(u_P, x / self.D_P) / self.unit, u_P, x)
+
+        return TorqueLimit(compute_torque, self.D_P, self.unit / self.D_P**2, most_torque)
+
     def _measured(self, u_P: float, nD: float) -> float:
         """That of the series [N]."""
         blade = ROTATION * nD
@@ -115,14 +130,13 @@ def _tabulate_series(k_0: float, own_zero: float) -> tuple[float, ...]:
 
 def _find_own_zero(name: str, k_0: float, k_1: float, k_2: float) -> float:
     """beta [deg] at which the ship's own curve comes to zero thrust. Raises ShipError when it never does."""
-    root = k_1 * k_1 - 4.0 * k_0 * k_2
-    falls = -k_1 + sqrt(root) if root >= 0.0 else 0.0  # k_0 + k_1 J + k_2 J^2 = 0, the least J above 0
-    if falls <= 0.0:
+    idle = find_idle_advance(k_0, k_1, k_2)
+    if idle == 0.0:
         raise ShipError(
             f"ship {name!r}: [propeller] k_0 = {k_0:g}, k_1 = {k_1:g}, k_2 = {k_2:g} never come to zero thrust with "
             "rising J: k_1 and k_2 are usually negative, e.g. -0.28 and -0.14"
         )
-    return degrees(atan2(2.0 * k_0 / falls, ROTATION))
+    return degrees(atan2(idle, ROTATION))
 
 
 def _find_series_zero(pitch: float) -> float:

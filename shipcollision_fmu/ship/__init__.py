@@ -9,6 +9,8 @@
     hydrostatics.py          waterplane and metacentric heights from L, B, T and C_b
     roll_period.py           natural period of roll, of the Intact Stability Code and of a ship
     ship_type.py             what is typical of a type of ship: GM, speed, machinery
+    b_series.py              a propeller measured in all four quadrants
+    propeller_torque.py      torque of a propeller from its thrust and pitch
     seakeeping.py            stiffness and damping in heave, roll and pitch
     windage.py               areas above the water and Blendermann's coefficients
     ship.py                  Ship: all numbers of a ship, which cannot be changed

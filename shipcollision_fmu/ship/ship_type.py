@@ -23,7 +23,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-__all__ = ["KNOT", "SHIP_TYPES", "ShipType", "find_ship_type"]
+__all__ = ["CARGO_VESSEL", "KNOT", "SHIP_TYPES", "ShipType", "find_ship_type"]
 
 KNOT = 1852.0 / 3600.0
 """[m/s]"""
@@ -62,12 +62,15 @@ SHIP_TYPES = {
         ShipType("research vessel", 0.07, 14.0 * KNOT, _CPP, highest_KG=1.2),
         ShipType("destroyer", 0.08, 30.0 * KNOT, _TURBINE),
         ShipType("fishing vessel", 0.09, 12.0 * KNOT, _CPP, least_GM=0.35, tow=1.5),
-        ShipType("tug", 0.12, 12.5 * KNOT, _AZIMUTH, tow=2.5),
+        ShipType("tug", 0.12, 12.5 * KNOT, _AZIMUTH, tow=4.0),
         ShipType("tender", 0.10, 14.0 * KNOT, _CPP, highest_KG=1.2),
         ShipType("speed boat", 0.15, 35.0 * KNOT, _JET),
     )
 }  # fmt: skip
 """By name: the ships of Blendermann (1994), and with them bulk carriers and tugs."""
+
+CARGO_VESSEL = SHIP_TYPES["cargo vessel, loaded"]
+"""The type of a ship whose kind names none."""
 
 _TYPE_BY_WORD = {
     "car carrier": "car carrier", "vehicle": "car carrier", "ro-ro": "car carrier",
@@ -89,5 +92,4 @@ def find_ship_type(kind: str) -> ShipType:
     lower = kind.lower()
     if lower in SHIP_TYPES:
         return SHIP_TYPES[lower]
-    name = next((name for word, name in _TYPE_BY_WORD.items() if word in lower), "cargo vessel, loaded")
-    return SHIP_TYPES[name]
+    return next((SHIP_TYPES[name] for word, name in _TYPE_BY_WORD.items() if word in lower), CARGO_VESSEL)

@@ -80,7 +80,7 @@ def _place_centre_of_gravity(content: ShipFile, estimated: list[str]) -> tuple[A
         C_b = p.mass / (p.rho * p.L_pp * p.B * p.T)
         water = compute_hydrostatics(p.L_pp, p.B, p.T, C_b, p.r_bg[2], GM_T=p.GM_T)
         return np.array(p.r_bg, dtype=float), water.GM_T if BLOCK[0] <= C_b <= BLOCK[1] else None
-    stability = estimate_stability(p, content.ship.kind, content.hull.depth)
+    stability = estimate_stability(p, content.wind.type or content.ship.kind, content.hull.depth)
     if stability is None:
         estimated.append("r_bg = (0, 0, 0)")
         return np.zeros(3), None

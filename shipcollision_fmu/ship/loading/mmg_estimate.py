@@ -16,27 +16,32 @@ Hull derivatives by the regressions of Yoshimura & Masumoto (2012), MARSIM, with
 The original is written in the drift angle beta = -v', so every term odd in v has the opposite sign there. With the
 original signs a container ship turns within an implausibly small circle.
 
-The added masses are the ship's own (added_mass_estimate.py). Propeller and rudder by the usual rules, resistance by
-ITTC-57:
+The added masses are the ship's own (added_mass_estimate.py); resistance and propeller are those of
+propulsion_estimate.py, the engine that of engine_estimate.py. The rudder:
 
-    w_P0 = 0.5 C_b - 0.05 (Taylor)   t_P = 0.6 w_P0   D_p = min(0.7 T, 9.9 m)   K_T = 0.35 - 0.30 J - 0.16 J^2
     A_R = L T/100 (1 + 25 (B/L)^2) (DNV minimum)   Lam = 1.8, span at most 0.85 T
-    R_0 = (C_F (1 + k_f) + 0.0004) S/(L T)   C_F = 0.075/(log10(Re) - 2)^2   S = 1.025 L (C_b B + 1.7 T) (Mumford)
 
 The regressions rest on hulls with L/B 2.6 to 7.1, T/B 0.25 to 0.46 and C_b 0.51 to 0.65 (grade B). Outside (grade C)
-the linear part still holds, the rest is extrapolated. C_b below 0.40 is refused. Wave resistance is left out, so a fast
-ship gets too few revolutions at its service speed, and turns a little too wide.
+the linear part still holds, the rest is extrapolated. C_b below 0.40 is refused.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from math import log10, pi, sqrt
+from math import pi, sqrt
 from typing import Any
 
 from ...errors import ShipError
-from ..hydrostatics import GRAVITY
+from ..ship_type import CARGO_VESSEL, ShipType
+from .engine_estimate import estimate_engine
 from .motora_charts import Dimensions
+from .propulsion_estimate import (
+    compute_resistance_coefficient,
+    compute_service_power,
+    estimate_propeller,
+    estimate_wake,
+    solve_self_propulsion,
+)
 
 __all__ = ["Dimensions", "complete_tables", "estimate_hull_derivatives"]
 
@@ -45,21 +50,6 @@ REACH = (0.40, 0.90)
 
 BAND = {"L/B": (2.6, 7.1), "T/B": (0.25, 0.46), "C_b": (0.51, 0.65)}
 """The hulls behind the regressions, as their authors state it."""
-
-NU_WATER = 1.19e-6
-"""Kinematic viscosity of sea water at 15 degrees Celsius [m2/s]."""
-
-FORM_FACTOR = 1.1
-"""1 + k_f of the frictional resistance, between 1.0 and 1.3 for merchant ships."""
-
-ROUGHNESS = 0.0004
-"""Allowance for the roughness of a ship's hull, added to the friction coefficient."""
-
-K_T = (0.35, -0.30, -0.16)
-"""k_0, k_1, k_2 of a propeller without data."""
-
-FASTEST_FROUDE = 0.26
-"""Cap of the estimated service speed: beyond it wave resistance, left out here, is most of the resistance."""
 
 
 def estimate_hull_derivatives(d: Dimensions, m_x: float, m_y: float) -> dict[str, float]:
@@ -86,7 +76,10 @@ def estimate_hull_derivatives(d: Dimensions, m_x: float, m_y: float) -> dict[str
 
 
 def complete_tables(
-    d: Dimensions, given: Mapping[str, Mapping[str, Any]], own_masses: tuple[float, float]
+    d: Dimensions,
+    given: Mapping[str, Mapping[str, Any]],
+    own_masses: tuple[float, float],
+    of: ShipType = CARGO_VESSEL,
 ) -> tuple[dict[str, dict[str, Any]], list[str]]:
     """The tables manoeuvring, propeller, rudder and engine, with missing values estimated; and a note on each estimate.
 
@@ -100,13 +93,14 @@ def complete_tables(
         )
     made = _Tables(given)
     made.notes.append(f"[manoeuvring] Yoshimura & Masumoto (2012), {_name_grade(d)}")
-    propeller = _estimate_propeller(d, made)
+    propeller = _estimate_propeller(d, made, of)
     _estimate_hull(d, made, own_masses, propeller["service_speed"])
     if "service_rev_per_s" not in propeller:
-        propeller["service_rev_per_s"] = _solve_self_propulsion(d, made.tables["manoeuvring"]["R_0"], propeller)
+        propeller["service_rev_per_s"] = solve_self_propulsion(d, made.tables["manoeuvring"]["R_0"], propeller)
         made.notes.append(f"[propeller] service_rev_per_s = {propeller['service_rev_per_s']:.4g} (self-propulsion)")
     _estimate_rudder(d, made)
-    _estimate_engine(propeller["service_rev_per_s"], made)
+    engine, how = estimate_engine(of, d.L, compute_service_power(d, propeller), propeller["service_rev_per_s"])
+    made.lay_under("engine", engine, how)
     return made.tables, made.notes
 
 
@@ -128,17 +122,9 @@ class _Tables:
         return self.tables[name]
 
 
-def _estimate_propeller(d: Dimensions, made: _Tables) -> dict[str, Any]:
-    w_P0 = _estimate_wake(d)
-    return made.lay_under(
-        "propeller",
-        {
-            "D_p": min(0.7 * d.T, 9.9), "t_P": 0.6 * w_P0, "w_P0": w_P0, "x_P": -0.48,
-            "C_1": 2.0, "C_2_plus": 1.0 / (1.0 - w_P0), "C_2_minus": 1.0 / (1.0 - w_P0),
-            "k_0": K_T[0], "k_1": K_T[1], "k_2": K_T[2], "service_speed": _estimate_service_speed(d),
-        },
-        "Taylor's wake, which vanishes in large drift; generic K_T; Alexander's speed, Froude number at most 0.26",
-    )  # fmt: skip
+def _estimate_propeller(d: Dimensions, made: _Tables, of: ShipType) -> dict[str, Any]:
+    how = f"Taylor's wake, which vanishes in large drift; generic K_T; speed of a {of.name}"
+    return made.lay_under("propeller", estimate_propeller(d, of), how)
 
 
 def _estimate_hull(d: Dimensions, made: _Tables, masses: tuple[float, float], speed: float) -> None:
@@ -147,9 +133,9 @@ def _estimate_hull(d: Dimensions, made: _Tables, masses: tuple[float, float], sp
     if own.get("m_x") is not None:
         masses = own["m_x"], own["m_y"]
     values = estimate_hull_derivatives(d, *masses)
-    values["R_0"] = _estimate_resistance(d, speed)
+    values["R_0"] = compute_resistance_coefficient(d, speed)
     if "R_0" not in own:
-        made.notes.append(f"[manoeuvring] R_0 = {values['R_0']:.4g} (ITTC-57, Mumford, no wave resistance)")
+        made.notes.append(f"[manoeuvring] R_0 = {values['R_0']:.4g} (Holtrop and Mennen at service speed)")
     made.lay_under("manoeuvring", values).pop("estimate", None)
 
 
@@ -159,7 +145,7 @@ def _estimate_rudder(d: Dimensions, made: _Tables) -> None:
     own = made.given.get("rudder", {})
     A, H = own.get("A_R", A_R), own.get("H_R", H_R)
     aspect = H * H / A
-    c, epsilon = d.C_b * d.B / d.L, 2.26 - 1.82 * (1.0 - _estimate_wake(d))
+    c, epsilon = d.C_b * d.B / d.L, 2.26 - 1.82 * (1.0 - estimate_wake(d))
     made.lay_under(
         "rudder",
         {
@@ -171,20 +157,6 @@ def _estimate_rudder(d: Dimensions, made: _Tables) -> None:
     )  # fmt: skip
 
 
-def _estimate_engine(n: float, made: _Tables) -> None:
-    """From the revolutions at service speed [1/s]."""
-    made.lay_under(
-        "engine",
-        {"rate": n / 60.0, "max_rev_per_s": 1.15 * n, "max_astern_rev_per_s": 0.7 * n, "reversal_delay": 90.0},
-        "a minute to full speed; direct reversing",
-    )
-
-
-def _estimate_wake(d: Dimensions) -> float:
-    """w_P0, Taylor."""
-    return 0.5 * d.C_b - 0.05
-
-
 def _name_grade(d: Dimensions) -> str:
     """'grade B', or 'grade C: ...' with what lies outside the regressions' band."""
     outside = []
@@ -193,25 +165,3 @@ def _name_grade(d: Dimensions) -> str:
         if not low <= value <= high:
             outside.append(f"{name} = {value:.2f} outside {low} to {high}")
     return f"grade C: {', '.join(outside)}" if outside else "grade B"
-
-
-def _estimate_service_speed(d: Dimensions) -> float:
-    """Alexander's formula V/sqrt(L) = 2 (1.08 - C_b) [kn, ft] in SI, at most the Froude number 0.26 [m/s]."""
-    knots = 2.0 * (1.08 - d.C_b) * sqrt(d.L / 0.3048)
-    return min(knots * 1852.0 / 3600.0, FASTEST_FROUDE * sqrt(GRAVITY * d.L))
-
-
-def _estimate_resistance(d: Dimensions, speed: float) -> float:
-    C_F = 0.075 / (log10(speed * d.L / NU_WATER) - 2.0) ** 2
-    S = 1.025 * d.L * (d.C_b * d.B + 1.7 * d.T)
-    return (FORM_FACTOR * C_F + ROUGHNESS) * S / (d.L * d.T)
-
-
-def _solve_self_propulsion(d: Dimensions, R_0: float, propeller: Mapping[str, float]) -> float:
-    """Revolutions [1/s] at which (1 - t_P) thrust is the resistance at service speed: a quadratic equation in n D_p."""
-    U, D = propeller["service_speed"], propeller["D_p"]
-    k_0, k_1, k_2 = propeller["k_0"], propeller["k_1"], propeller["k_2"]
-    u_P = U * (1.0 - propeller["w_P0"])
-    thrust = 0.5 * d.L * d.T * R_0 * U * U / ((1.0 - propeller["t_P"]) * D * D)  # thrust over rho D_p^2
-    b, c = k_1 * u_P, k_2 * u_P * u_P - thrust
-    return (-b + sqrt(max(0.0, b * b - 4.0 * k_0 * c))) / (2.0 * k_0) / D

@@ -13,6 +13,7 @@ from typing import Any
 from pydantic import Field, PrivateAttr, ValidationError, model_validator
 
 from ...errors import ShipError
+from ..ship_type import find_ship_type
 from ..tables.hull import HullTable
 from ..tables.manoeuvring import EngineTable, ManoeuvringTable, PropellerTable, RudderTable
 from ..tables.particulars import AddedMassTable, ParticularsTable, SeakeepingTable, ShipTable, WindTable
@@ -149,15 +150,15 @@ def _complete_and_validate(data: Mapping[str, Any], file: str) -> ShipFile:
     content = _validate(rest, file)
     p = content.particulars
     d = Dimensions(p.L_pp, p.B, p.T, p.mass / (p.rho * p.L_pp * p.B * p.T), p.r_bg[0] if p.r_bg else 0.0, p.rho)
-    own_masses = _find_planar_masses(d, content)
+    own_masses, of = _find_planar_masses(d, content), find_ship_type(content.wind.type or content.ship.kind)
     try:
-        tables, _ = complete_tables(d, {}, own_masses)
+        tables, _ = complete_tables(d, {}, own_masses, of)
         for name in _ESTIMATED:
             own = data.get(name, {})
             tables[name] = {**tables[name], **own} if isinstance(own, Mapping) else own
         checked = _validate({**rest, **tables}, file)
         given = {name: getattr(checked, name).model_dump(include=set(data.get(name, {}))) for name in _ESTIMATED}
-        tables, notes = complete_tables(d, given, own_masses)
+        tables, notes = complete_tables(d, given, own_masses, of)
     except ShipError as error:
         raise ShipError(f"{file}: {error}") from None
     content = _validate({**rest, **tables}, file)

@@ -93,11 +93,17 @@ class RudderTable(Table):
 
 
 class EngineTable(Table):
-    """[engine]: how fast the propeller follows its order."""
+    """[engine]: how fast the propeller follows its order, and what the engine's torque allows."""
 
     rate: Positive = Field(description="the change of revolutions per second [1/s2]")
     max_rev_per_s: Positive = Field(description="the largest revolutions ahead [1/s]")
     max_astern_rev_per_s: NotNegative = Field(default=0.0, description="the largest revolutions astern [1/s]")
     reversal_delay: NotNegative = Field(
         default=0.0, description="the time that a stopped engine takes to be started the other way round [s]"
+    )
+    power: Positive | None = Field(
+        default=None, description="the rated power at the propeller [W]; none: no torque limits the revolutions"
+    )
+    rated_rev_per_s: Positive | None = Field(
+        default=None, description="the revolutions of the rated power [1/s]; max_rev_per_s where it is missing"
     )

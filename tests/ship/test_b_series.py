@@ -7,7 +7,7 @@ from math import atan2, degrees, pi
 import numpy as np
 import pytest
 
-from shipcollision_fmu.manoeuvring.b_series import (
+from shipcollision_fmu.ship.b_series import (
     FOURIER,
     PITCHES,
     ROTATION,
