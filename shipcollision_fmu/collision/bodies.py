@@ -9,7 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ..errors import InputError
+from ..errors import InputError, ShipError
+from ..ship.coasting_law import CoastingLaw, make_coasting
 from ..ship.degrees_of_freedom import free_inverse, tilted_inverse
 from ..ship.frames import Array, skew
 from ..ship.hull.hull import build_hull
@@ -30,8 +31,8 @@ class Body:
     """A ship or an obstacle.
 
     reach: no point of the hull is farther from CO [m]; free: degrees of freedom, 0 for an obstacle; fender_thickness:
-    how far before the hull the fender acts [m], 0 without one; wall: the state of an obstacle, None for a ship;
-    rectangle: where an obstacle stands.
+    how far before the hull the fender acts [m], 0 without one; coasting: law of motion between impulses; wall: the
+    state of an obstacle, None for a ship; rectangle: where an obstacle stands.
     """
 
     name: str
@@ -41,6 +42,7 @@ class Body:
     upright_inverse: Array  # (6, 6), see inverse_at
     bullet: BulletBody
     fender: Fender | None
+    coasting: CoastingLaw | None = None  # None: straight
     wall: BodyState | None = None
     rectangle: Rectangle = (0.0, 0.0, 0.0, 0.0)
     fender_thickness: float = field(init=False)
@@ -56,7 +58,7 @@ class Body:
         """Bound [m/s] of the speed of any point of the hull, in the mean over the step: |v| + |omega| reach."""
         if state.fixed:
             return 0.0
-        u, v, w, p, q, r = state.nu_mean.tolist()
+        u, v, w, p, q, r = state.nu_path.tolist()
         return hypot(u, v, w) + hypot(p, q, r) * self.reach
 
 
@@ -82,7 +84,24 @@ def _ship(name: str, ship: Ship, parameters: ShipParameters) -> Body:
         parameters.degrees_of_freedom, free_inverse(ship.M, parameters.degrees_of_freedom),
         BulletBody(ship.mass, inertia_g, np.array(ship.r_bg)),
         build_fender(f"{name}.fender", fender.stiffness, fender.damping, fender.thickness),
+        _predict_coasting(name, ship, parameters),
     )  # fmt: skip
+
+
+def _predict_coasting(name: str, ship: Ship, parameters: ShipParameters) -> CoastingLaw | None:
+    """How the ship is expected to move between impulses; None for straight.
+
+    A ship that does not float upright, or whose buoyancy cannot be estimated, is expected to move without buoyancy.
+    """
+    law, free = parameters.coasting, parameters.degrees_of_freedom
+    if law == "straight":
+        return None
+    try:
+        return make_coasting(ship, free, law)
+    except ShipError:
+        return make_coasting(ship, free, "free")
+    except InputError as error:
+        raise InputError(f"{name}.{error}") from None
 
 
 def _wall(obstacle: Obstacle) -> Body:
@@ -91,7 +110,8 @@ def _wall(obstacle: Obstacle) -> Body:
     (n_0, e_0, _), (n_1, e_1, _) = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()
     return Body(
         obstacle.name, obstacle.solid, float(np.linalg.norm(obstacle.solid.vertices, axis=1).max()),
-        0, wall.M_inverse, BulletBody(0.0, np.zeros(3), np.zeros(3)), obstacle.fender, wall, (n_0, n_1, e_0, e_1),
+        0, wall.M_inverse, BulletBody(0.0, np.zeros(3), np.zeros(3)), obstacle.fender, None, wall,
+        (n_0, n_1, e_0, e_1),
     )  # fmt: skip
 
 

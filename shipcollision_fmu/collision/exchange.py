@@ -5,7 +5,7 @@
     publish    the impulse of the step is entered in the ledger; pose and twist at the end of the step
 
 Most ships in most steps are *quiet*: nothing pending, no open collision. A quiet ship far from all others gets no state
-(ABSENT stands for it) and merely coasts.
+(ABSENT stands for it) and merely coasts (ship/coasting_law.py).
 """
 
 from __future__ import annotations
@@ -16,7 +16,8 @@ from typing import Any
 import numpy as np
 
 from ..ship.coasting import coast
-from ..ship.frames import attitude_from_rotation, unwrap_attitude
+from ..ship.coasting_law import CoastingLaw
+from ..ship.frames import Array, attitude_from_rotation, rotation, unwrap_attitude
 from .bodies import Body
 from .dynamics.body_state import BodyState
 from .dynamics.impulse_ledger import ImpulseLedger, Reading
@@ -77,14 +78,17 @@ class ShipExchange:
         nu = reading.nu + M_inverse @ reading.deficit if reading.deficit.any() else reading.nu
         if (before := self._last_received[i]) is not None and feedback == "ledger":
             forces = estimate_other_forces(
-                before, _as_received(t, 0.0, received), body.inverse_at(before.attitude), body.bullet.r_bg, body.reach
-            )
+                before, _as_received(t, 0.0, received), body.inverse_at(before.attitude), body.bullet.r_bg, body.reach,
+                body.coasting,
+            )  # fmt: skip
             if forces is not None:
                 state.expect(forces)
                 if reading.pending.any():  # one-step delay: the impulse meets a ship that has gained velocity
                     nu = nu + forces.velocity_gain
         if nu is not state.nu:
             state.set_twist(nu)
+        if body.coasting is not None and H > 0.0:
+            _follow(body.coasting, state, received, reading.nu, H)
         if self._delay if reading.one_step_delay is None else reading.one_step_delay:
             x_then, R_then = state.pose_after(reading.nu, H)
             state.apply_at(x_then, R_then, body.inverse_at(attitude_from_rotation(R_then).tolist()))
@@ -102,10 +106,16 @@ class ShipExchange:
         for i, (out, received) in enumerate(zip(self._outputs, self._inputs, strict=True)):
             state = states[i]
             if state is ABSENT:
-                out.position[:], out.attitude[:], out.velocity[:] = coast(
-                    received.position, received.attitude, received.velocity, received.rate, self._centres[i], H
-                )
-                out.rate[:] = received.rate
+                law = self._bodies[i].coasting
+                if law is not None:
+                    out.position[:], out.attitude[:], out.velocity[:], out.rate[:] = law.coast(
+                        received.position, received.attitude, received.velocity, received.rate, H
+                    )
+                else:
+                    out.position[:], out.attitude[:], out.velocity[:] = coast(
+                        received.position, received.attitude, received.velocity, received.rate, self._centres[i], H
+                    )
+                    out.rate[:] = received.rate
                 out.force[:] = _NO_FORCE
                 continue
             ledger = self.ledgers[i]
@@ -113,10 +123,20 @@ class ShipExchange:
             out.impulse[:] = ledger.issued.tolist()
             out.force[:] = (state.issued / H).tolist() if state.issued.any() else _NO_FORCE
             self._last_received[i] = _as_received(t, H, received) if i in colliding else None
-            nu = state.twist_at_predicted_pose().tolist()
+            nu = self._twist_at_the_end(i, state, H)
             out.position[:] = state.x.tolist()
             out.attitude[:] = unwrap_attitude(attitude_from_rotation(state.R), received.attitude[2]).tolist()
             out.velocity[:], out.rate[:] = nu[:3], nu[3:]
+
+    def _twist_at_the_end(self, i: int, state: BodyState, H: float) -> list[float]:
+        """Twist (6,) at the end of the step, in b by then. After an impulse the law is asked again: a ship that adopts
+        the state then has the energy that the impulse left it."""
+        law = self._bodies[i].coasting
+        if law is None or state.end_gain is None or not state.issued.any():
+            return [*state.twist_at_predicted_pose().tolist()]
+        received, nu = self._inputs[i], state.nu.tolist()
+        _, _, velocity, rate = law.coast(received.position, received.attitude, nu[:3], nu[3:], H)
+        return [*velocity, *rate]
 
     # -- state ----------------------------------------------------------------------------------------
 
@@ -132,6 +152,14 @@ class ShipExchange:
         for ledger, saved in zip(self.ledgers, state["ledgers"], strict=True):
             ledger.set_state(saved)
         self._last_received = [None if s is None else ReceivedState(*s) for s in state["last_received"]]
+
+
+def _follow(law: CoastingLaw, state: BodyState, received: ShipState, start: Array, H: float) -> None:
+    """Let the state follow the law of its ship through the step, from the twist start (6,)."""
+    nu = start.tolist()
+    if not law.is_straight(received.position, received.attitude, nu[:3], nu[3:]):
+        position, attitude, velocity, rate = law.coast(received.position, received.attitude, nu[:3], nu[3:], H)
+        state.follow(np.array(position), rotation(attitude), np.array([*velocity, *rate]), start, H)
 
 
 def _as_received(t: float, H: float, ship: ShipState) -> ReceivedState:

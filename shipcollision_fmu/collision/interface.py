@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from ..ship.coasting_law import COASTING
+
 __all__ = [
     "CollisionInputs", "CollisionOutputs", "CollisionParameters", "ContactOutput", "EnergyOutput", "FenderOutput",
     "FenderParameters", "Impact", "ShipParameters", "ShipPost", "ShipState", "SolverOutput",
@@ -40,10 +42,11 @@ class FenderParameters:
 @dataclass
 class ShipParameters:
     """Which ship it is: a name or a file; degrees_of_freedom 3 (surge, sway, yaw), 4 (and roll) or 6, as its model
-    has; the fender around its hull."""
+    has; the law by which it is expected to move between impulses (ship/coasting_law.py); the fender around its hull."""
 
     ship: str = "kvlcc2"
     degrees_of_freedom: int = 6
+    coasting: str = COASTING[0]
     fender: FenderParameters = field(default_factory=FenderParameters)
 
 

@@ -13,6 +13,7 @@ from ..collision.dynamics.impulse_ledger import FEEDBACKS
 from ..collision.interface import contact_point_count
 from ..collision.model import ShipCollision
 from ..collision.responses import RESPONSES
+from ..ship.coasting_law import COASTING
 from .interface import SHIPS, Interface
 from .names import (
     APPLIED,
@@ -59,6 +60,7 @@ def table(ships: tuple[str, ...] = SHIPS) -> Table:
         *_clearance(),
         *_parameters(),
         *_couples(contact_point_count(len(ships))),
+        *(_coasting(i, name) for i, name in enumerate(ships)),
     )
 
 
@@ -327,6 +329,15 @@ def _parameters() -> Table:
             "parameter", "obstacles", "parameters.obstacles",
             "Fixed obstacles: TOML text with one table each, or the path of a TOML file; empty for none",
         ),
+    )  # fmt: skip
+
+
+def _coasting(i: int, s: str) -> Variable:
+    """How a ship moves between impulses."""
+    return enumeration(
+        "parameter", f"{s}.coasting", COASTING, f"parameters.ships.{i}.coasting",
+        f"Motion that is expected of {s} between impulses, as in the ship's own model: Kirchhoff's equations with "
+        "restoring and damping; Kirchhoff's equations alone; or velocity and angular velocity constant in n",
     )  # fmt: skip
 
 

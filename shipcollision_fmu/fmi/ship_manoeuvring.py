@@ -7,6 +7,7 @@ names are those of the project's contract with other programs; renaming one is a
 from __future__ import annotations
 
 from ..manoeuvring.model import ShipManoeuvring
+from ..ship.coasting_law import COASTING
 from .interface import Interface
 from .names import (
     APPLIED,
@@ -28,7 +29,7 @@ from .names import (
     WIND_SPEED,
     named,
 )
-from .variables import FORCE_UNITS, IMPULSE_UNITS, Table, boolean, integer, real, string, vector, wrench
+from .variables import FORCE_UNITS, IMPULSE_UNITS, Table, boolean, enumeration, integer, real, string, vector, wrench
 
 __all__ = ["INTERFACE", "table"]
 
@@ -116,7 +117,7 @@ def _parameters() -> Table:
         ),
         boolean(
             "parameter", "hydrodynamics", "parameters.hydrodynamics",
-            "false: the ship coasts, its velocity and angular velocity constant in n between impulses",
+            "false: the ship coasts between impulses, without manoeuvring forces, as the parameter coasting says",
         ),
         real(
             "parameter", "substep", "s", "parameters.substep", None, "Longest internal step of the hydrodynamics",
@@ -131,6 +132,11 @@ def _parameters() -> Table:
         *vector(
             "parameter", named("initial", RATE), "rad/s", "parameters.initial_rate",
             "Angular velocity at the start, in b",
+        ),
+        enumeration(
+            "parameter", "coasting", COASTING, "parameters.coasting",
+            "Motion without hydrodynamics: Kirchhoff's equations with restoring and damping of heave, roll and pitch; "
+            "Kirchhoff's equations alone; or velocity and angular velocity constant in n",
         ),
     )  # fmt: skip
 

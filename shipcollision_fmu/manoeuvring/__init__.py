@@ -6,7 +6,7 @@
     mmg_3dof, mmg_6dof              equations of motion in 3, and in 4 or 6 degrees of freedom
     hull_forces, propeller, rudder  forces of the MMG standard model
     torque_limit                    revolutions of an engine of limited torque
-    restoring, damping, wind        forces of buoyancy, of roll, heave and pitch damping, and of the air
+    wind                            forces of the air
     held_motions                    starts in 3 and 4 degrees of freedom: what is held must be at rest
     actuators                       rudder and engine follow their orders
     trials/                         turning circle, zigzag and crash stop of a ship; no FMU carries them

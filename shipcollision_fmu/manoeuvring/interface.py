@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from ..ship.coasting_law import COASTING
+
 __all__ = ["ShipInputs", "ShipOutputs", "ShipParameters"]
 
 
@@ -31,6 +33,7 @@ class ShipParameters:
 
     degrees_of_freedom: 3 (surge, sway, yaw), 4 (and roll) or 6: what moves.
     substep: the longest internal step of the hydrodynamics [s].
+    coasting: how the ship moves without hydrodynamics, "kirchhoff", "free" or "straight" (ship/coasting_law.py).
     """
 
     ship: str = "kvlcc2"
@@ -41,6 +44,7 @@ class ShipParameters:
     initial_velocity: list[float] = field(default_factory=three)
     initial_rate: list[float] = field(default_factory=three)
     substep: float = 0.05
+    coasting: str = COASTING[0]
 
 
 @dataclass

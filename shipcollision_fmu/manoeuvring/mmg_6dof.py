@@ -31,12 +31,12 @@ from math import atan2, cos, hypot, sin, sqrt
 import numpy as np
 
 from ..errors import ShipError
+from ..ship.damping import Damping
 from ..ship.degrees_of_freedom import free_inverse, from_level, to_level
+from ..ship.restoring import Restoring
 from ..ship.seakeeping import compute_seakeeping
 from ..ship.ship import Ship
-from .damping import Damping
 from .mmg import Forces, Machines, Mmg, Six, Surroundings
-from .restoring import Restoring
 
 __all__ = ["Mmg6Dof"]
 

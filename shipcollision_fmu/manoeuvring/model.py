@@ -5,7 +5,7 @@ A communication step [t, t + h]:
     check            the inputs; a step that is refused changes nothing
     apply pending    impulses issued since the last step, at once: nu += M^-1 (impulse - impulse_applied)
     advance          hydrodynamics: the MMG model in 3, 4 or 6 degrees of freedom, external force on its right-hand side
-                     otherwise: coasting, with half of the force's momentum before and half after the motion
+                     otherwise: coasting (ship/coasting_law.py), half of the force's momentum before it, half after
     publish          the new state
 
 The impulse ledger: `impulse` is cumulative, the sum of all that the collision model has issued. A lost or repeated
@@ -25,7 +25,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..errors import InputError, ScenarioError, StepError
-from ..ship.coasting import coast
+from ..ship.coasting_law import CoastingLaw, make_coasting
 from ..ship.degrees_of_freedom import free_inverse, tilted_inverse
 from ..ship.frames import Array
 from ..ship.loading.library import Ship, load_ship
@@ -74,6 +74,7 @@ class _SetUp(NamedTuple):
     upright: Array  # (6, 6) inverse of the free block of M
     M_inverse: list[list[float]]  # the same as lists
     mmg: Mmg | None
+    coasting: CoastingLaw | None  # of a ship without mmg
     substep: float
 
     def apply_impulse(self, eta: Six, nu: Six, impulse: Sequence[float]) -> Six:
@@ -127,7 +128,7 @@ class ShipManoeuvring:
     def _prepare(self) -> _SetUp:
         """The set-up for the parameters, kept while they are unchanged."""
         p = self.parameters
-        parameters = (p.ship, p.degrees_of_freedom, p.hydrodynamics, p.substep)
+        parameters = (p.ship, p.degrees_of_freedom, p.hydrodynamics, p.coasting, p.substep)
         if self._set_up is not None and self._set_up.parameters == parameters:
             return self._set_up
         substep = p.substep
@@ -136,6 +137,7 @@ class ShipManoeuvring:
         ship = load_ship(p.ship, self.directory)
         upright = free_inverse(ship.M, p.degrees_of_freedom)
         mmg: Mmg | None = None
+        coasting = None if p.hydrodynamics else make_coasting(ship, p.degrees_of_freedom, p.coasting)
         if p.hydrodynamics:
             mmg = Mmg3Dof(ship) if p.degrees_of_freedom == 3 else Mmg6Dof(ship, p.degrees_of_freedom)
             if substep > mmg.shortest_time:
@@ -143,7 +145,7 @@ class ShipManoeuvring:
                     f"substep = {substep} s is too long for the heave, roll or pitch of ship {ship.name!r}: must be at "
                     f"most {mmg.shortest_time:.3g} s, a sixth of its shortest period"
                 )
-        return _SetUp(parameters, ship, p.degrees_of_freedom, upright, upright.tolist(), mmg, substep)
+        return _SetUp(parameters, ship, p.degrees_of_freedom, upright, upright.tolist(), mmg, coasting, substep)
 
     # -- a step ---------------------------------------------------------------------------------------------------
 
@@ -154,9 +156,9 @@ class ShipManoeuvring:
         before, set_up = self._state, self._set_up
         substeps = self._check(t, h, set_up)
         nu, applied = self._apply_pending(before, set_up)
-        if set_up.mmg is None:
-            after = self._coast(before, nu, applied, set_up, t, h)
-        else:
+        if set_up.coasting is not None:
+            after = self._coast(before, nu, applied, set_up, set_up.coasting, t, h)
+        elif set_up.mmg is not None:
             after = self._advance(before, nu, applied, set_up, set_up.mmg, t, h, substeps)
         self.warning = ""
         self._publish(after)
@@ -200,16 +202,17 @@ class ShipManoeuvring:
         pending = [issued - applied for issued, applied in zip(impulse, before.impulse_applied, strict=True)]
         return (set_up.apply_impulse(before.eta, before.nu, pending) if any(pending) else before.nu), impulse
 
-    def _coast(self, before: State, nu: Six, applied: Six, set_up: _SetUp, t: float, h: float) -> State:
+    def _coast(
+        self, before: State, nu: Six, applied: Six, set_up: _SetUp, coasting: CoastingLaw, t: float, h: float
+    ) -> State:
         """Kick, drift, kick: of second order in h, and exact for a force along a straight course."""
         half = [0.5 * h * F for F in self.inputs.force]
         pushed = any(half)
         if pushed:
             nu = set_up.apply_impulse(before.eta, nu, half)
         _refuse_absurd(nu, set_up.ship, t)
-        r_bg = set_up.ship.r_bg.tolist()
-        position, attitude, velocity = coast(before.eta[:3], before.eta[3:], nu[:3], nu[3:], r_bg, h)
-        eta, nu = _six([*position, *attitude]), _six([*velocity, *nu[3:]])
+        position, attitude, velocity, rate = coasting.coast(before.eta[:3], before.eta[3:], nu[:3], nu[3:], h)
+        eta, nu = _six([*position, *attitude]), _six([*velocity, *rate])
         if pushed:
             nu = set_up.apply_impulse(eta, nu, half)
             _refuse_absurd(nu, set_up.ship, t)

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from shipcollision_fmu.collision.model import ShipCollision
+from shipcollision_fmu.ship.coasting_law import make_coasting
 from shipcollision_fmu.ship.degrees_of_freedom import free_inverse, level_axes, tilted_inverse
 from shipcollision_fmu.ship.frames import attitude_from_rotation, rotation, rotation_vector
 from shipcollision_fmu.ship.loading.library import load_ship
@@ -45,18 +46,24 @@ def make_ship(tmp_path: Path) -> Callable[..., str]:
 
 
 class World:
-    """Two ships that coast, coupled to a collision model by the ledger.
+    """Two ships that coast, coupled to a collision model by the ledger. Their law is known to both: straight, unless
+    another one is named (ship/coasting_law.py).
 
     The algorithm is a master's: "gauss-seidel" hands impulses over at once, "jacobi" one step late.
     """
 
     def __init__(self, ships: list[str], start: list[dict], *, algorithm: str = "gauss-seidel",
-                 degrees_of_freedom: int = 6, **parameters: object) -> None:  # fmt: skip
+                 degrees_of_freedom: int = 6, coasting: str = "straight", **parameters: object) -> None:  # fmt: skip
         self.model = ShipCollision([f"s{i}" for i in range(len(ships))])
         for slot, ship in zip(self.model.parameters.ships, ships, strict=True):
-            slot.ship, slot.degrees_of_freedom = ship, degrees_of_freedom
+            slot.ship, slot.degrees_of_freedom, slot.coasting = ship, degrees_of_freedom, coasting
         for key, value in parameters.items():
             setattr(self.model.parameters, key, value)
+        self.law = (
+            None
+            if coasting == "straight"
+            else [make_coasting(load_ship(ship), degrees_of_freedom, coasting) for ship in ships]
+        )
         self.M = [load_ship(ship).M for ship in ships]
         self.r_bg = [np.array(load_ship(ship).r_bg) for ship in ships]
         self.upright = [free_inverse(M, degrees_of_freedom) for M in self.M]
@@ -105,6 +112,11 @@ class World:
     def _coast(self, i: int, H: float) -> None:
         """On by H with the velocity of CG constant in n, and the angular velocity: in 4 degrees of freedom the velocity
         of CO and the rates of heading and heel, so that what is held stays held."""
+        if self.law is not None:
+            angles, nu = attitude_from_rotation(self.R[i]).tolist(), self.nu[i].tolist()
+            x, angles, velocity, rate = self.law[i].coast(self.x[i].tolist(), angles, nu[:3], nu[3:], H)
+            self.x[i], self.R[i], self.nu[i] = np.array(x), rotation(angles), np.array([*velocity, *rate])
+            return
         v_n, nu = self.R[i] @ self.nu[i][:3], self.nu[i]
         if self.free != 4:
             w_n, r = self.R[i] @ nu[3:], self.r_bg[i]

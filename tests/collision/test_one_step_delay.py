@@ -107,17 +107,20 @@ position = [0.0, -160.0]
 """
 
 
-@pytest.mark.parametrize("degrees_of_freedom", [pytest.param(3, marks=pytest.mark.slow), 6])
+@pytest.mark.parametrize(
+    ("degrees_of_freedom", "coasting"),
+    [pytest.param(3, "straight", marks=pytest.mark.slow), (6, "straight"), (3, "kirchhoff"), (6, "free")],
+)
 @pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
 def test_a_ship_springs_between_two_walls_without_losing_or_gaining(
-    make_ship: Make, world: MakeWorld, degrees_of_freedom: int, algorithm: str
+    make_ship: Make, world: MakeWorld, degrees_of_freedom: int, coasting: str, algorithm: str
 ) -> None:
     """Restitution 1, no friction, turning as she goes. Under a parallel master all but the first impulse is right."""
     box = make_ship("box", BOX, added_mass="m_x = 0.05\nm_y = 0.9\nm_z = 1.0")
     start = [{"position": [0.0, 0.0, 0.0], "attitude": (0.0, 0.0, 0.1), "nu": [2.0, 6.0, 0.0, 0.0, 0.0, 0.004]}]
     start.append({"position": [5000.0, 0.0, 0.0], "nu": [0.0] * 6})
     w = world([box, box], start, algorithm=algorithm, degrees_of_freedom=degrees_of_freedom, friction=0.0,
-              restitution=1.0, obstacles=WALLS)  # fmt: skip
+              restitution=1.0, obstacles=WALLS, coasting=coasting)  # fmt: skip
     bounces, H = 0, 0.2
     first: float | None = None
     for _ in range(1200):

@@ -21,13 +21,15 @@ def start() -> Callable[..., ShipManoeuvring]:
 def started(
     ship: str = "kvlcc2", *, degrees_of_freedom: int = 6, hydrodynamics: bool = False,
     position: Sequence[float] = ZERO, attitude: Sequence[float] = ZERO, velocity: Sequence[float] = ZERO,
-    rate: Sequence[float] = ZERO, substep: float = 0.05, again: ShipManoeuvring | None = None, **inputs: Any,
+    rate: Sequence[float] = ZERO, substep: float = 0.05, coasting: str = "kirchhoff",
+    again: ShipManoeuvring | None = None, **inputs: Any,
 ) -> ShipManoeuvring:  # fmt: skip
     """`again`: start this one again, which spares reading the ship file. Inputs by name; `orders` and `wind` are pairs:
     rudder [rad] and propeller [1/s], speed [m/s] and direction [rad]."""
     model = again or ShipManoeuvring()
     p = model.parameters
     p.ship, p.degrees_of_freedom, p.hydrodynamics, p.substep = ship, degrees_of_freedom, hydrodynamics, substep
+    p.coasting = coasting
     p.initial_position[:], p.initial_attitude[:] = position, attitude
     p.initial_velocity[:], p.initial_rate[:] = velocity, rate
     i = model.inputs

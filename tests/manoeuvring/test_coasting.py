@@ -1,4 +1,4 @@
-"""Coasting: CG goes straight, the angular velocity stays."""
+"""`coasting = "straight"`: CG goes straight, the angular velocity stays."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def pose(model: ShipManoeuvring) -> tuple[Array, Array]:
 
 
 def test_straight_line(start: Start) -> None:
-    ship = start(position=[10.0, -20.0, 0.5], attitude=[0.0, 0.0, 0.6], velocity=[5.0, -1.0, 0.0])
+    ship = start(coasting="straight", position=[10.0, -20.0, 0.5], attitude=[0.0, 0.0, 0.6], velocity=[5.0, -1.0, 0.0])
     steps(ship, 400, 0.05)
     expected = [10.0 + 20 * (5 * cos(0.6) + sin(0.6)), -20.0 + 20 * (5 * sin(0.6) - cos(0.6)), 0.5]
     np.testing.assert_allclose(ship.outputs.position, expected, rtol=1e-12)
@@ -37,7 +37,7 @@ def test_straight_line(start: Start) -> None:
 def test_turning_ship_moves_its_CG_straight(start: Start) -> None:
     """Two and a half turns about the vertical: the heading counts on, CO circles about CG."""
     r, psi_0, t = 0.05, 3.0, 100.0 * pi
-    ship = start(attitude=[0.0, 0.0, psi_0], velocity=[4.0, 0.7, 0.0], rate=[0.0, 0.0, r])
+    ship = start(coasting="straight", attitude=[0.0, 0.0, psi_0], velocity=[4.0, 0.7, 0.0], rate=[0.0, 0.0, r])
     v_g_b = np.array([4.0, 0.7 + r * R_BG[0], 0.0])
     steps(ship, 1000, t / 1000)
     assert ship.outputs.attitude[2] == pytest.approx(psi_0 + r * t, rel=1e-12)
@@ -50,7 +50,7 @@ def test_turning_ship_moves_its_CG_straight(start: Start) -> None:
 
 def test_rotation_about_a_tilted_axis_in_one_step_or_many(start: Start) -> None:
     keys = {"attitude": [0.2, -0.1, 1.0], "velocity": [4.0, 0.7, -0.2], "rate": [0.05, -0.03, 0.04]}
-    one, many = start(**keys), start(**keys)
+    one, many = start(**keys, coasting="straight"), start(**keys, coasting="straight")
     one.step(0.0, 20.0)
     steps(many, 400, 0.05)
     np.testing.assert_allclose(many.outputs.position, one.outputs.position, rtol=1e-12)
@@ -61,7 +61,7 @@ def test_rotation_about_a_tilted_axis_in_one_step_or_many(start: Start) -> None:
 
 def test_angular_velocity_is_constant_in_n(start: Start) -> None:
     keys = {"attitude": [0.2, -0.1, 1.0], "velocity": [4.0, 0.7, -0.2], "rate": [0.05, -0.03, 0.04]}
-    ship = start(**keys)
+    ship = start(**keys, coasting="straight")
     omega_n = rotation(keys["attitude"]) @ keys["rate"]
     v_g_n = rotation(keys["attitude"]) @ (keys["velocity"] + np.cross(keys["rate"], R_BG))
     steps(ship, 100, 0.3)
@@ -71,13 +71,13 @@ def test_angular_velocity_is_constant_in_n(start: Start) -> None:
 
 
 def test_more_than_half_a_turn_in_a_step(start: Start) -> None:
-    ship = start(rate=[0.0, 0.0, -1.5])
+    ship = start(coasting="straight", rate=[0.0, 0.0, -1.5])
     ship.step(0.0, 5.0)
     assert ship.outputs.attitude[2] == pytest.approx(-7.5, rel=1e-14)
 
 
 def test_heading_passes_north_without_a_jump(start: Start) -> None:
-    ship = start(attitude=[0.0, 0.0, 2 * pi - 0.01], rate=[0.0, 0.0, 0.1])
+    ship = start(coasting="straight", attitude=[0.0, 0.0, 2 * pi - 0.01], rate=[0.0, 0.0, 0.1])
     ship.step(0.0, 0.2)
     assert ship.outputs.attitude[2] == pytest.approx(2 * pi + 0.01, rel=1e-14)
 

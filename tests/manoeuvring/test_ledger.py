@@ -104,7 +104,7 @@ def test_a_lost_sample_loses_nothing(start: Start) -> None:
 
 
 def test_no_impulse_leaves_the_twist_to_the_bit(start: Start) -> None:
-    ship = start(velocity=[5.1, 0.3, 0.0])
+    ship = start(velocity=[5.1, 0.3, 0.0], coasting="straight")
     before = twist(ship)
     ship.step(0.0, 0.05)
     np.testing.assert_array_equal(twist(ship), before)
@@ -134,7 +134,7 @@ def test_force_changes_momentum_by_F_h(start: Start, component: int, hydrodynami
 @pytest.mark.parametrize("degrees_of_freedom", [4, 6])
 def test_force_in_the_other_degrees_of_freedom(start: Start, degrees_of_freedom: int) -> None:
     h, F = 1e-6, SCALE * [1.0, -0.5, 0.3, 0.2, -0.7, 0.4]
-    ship = start(degrees_of_freedom=degrees_of_freedom, force=F)
+    ship = start(degrees_of_freedom=degrees_of_freedom, force=F, coasting="free")
     ship.step(0.0, h)
     free = list(FREE[degrees_of_freedom])
     taken = M[np.ix_(free, free)] @ twist(ship)[free]

@@ -11,13 +11,16 @@ Symbols:
 
     nu              twist about CO in b of the pose of application; changed by impulses only
     velocity_bias   what other forces are expected to add to nu, in the mean over the step (other_forces.py)
+    path_bias       what the mean motion over the step has beside, by the law of the ship (ship/coasting_law.py)
     scheme_error    what nu lacks to the twist of an exact integration, with which energy is reckoned (other_forces.py)
     J               impulse (6,) in b about CO at the pose of application [N s, N m s];    nu += M^-1 J
 
 Guan et al. 2014, equations (5)-(8), the motion of the bodies under impulses: here nu += M^-1 J.
 
-Between impulses the velocity of CG and the angular velocity stay constant in n (ship/coasting.py). Twists in b
-therefore turn with the hull.
+Between impulses a body moves by its law of coasting (ship/coasting_law.py). Within a communication step the predicted
+pose follows the chord of that motion: the constant twist in n (ship/coasting.py) that ends in the same pose. Impacts
+are solved with nu, so that their energy is right. A ship on which other forces act is solved with the mean over the
+step, in which the law takes part.
 """
 
 from __future__ import annotations
@@ -29,7 +32,7 @@ import numpy as np
 
 from ...ship.coasting import coast_pose
 from ...ship.frames import Array, rotation, skew
-from .other_forces import OtherForces
+from .other_forces import OtherForces, rotation_vector_of
 
 __all__ = ["BodyState"]
 
@@ -45,8 +48,9 @@ class BodyState:
     CG in b [m].
 
     M_inverse (6, 6): of the free degrees of freedom, at the pose of application. nu_received: the twist at the start of
-    the step, with pending impulses. nu_mean: nu + velocity_bias, the mean over the step. nu_energy: nu + scheme_error.
-    Call `set_twist` to change nu: it keeps the two sums in step.
+    the step, with pending impulses. nu_mean: nu + velocity_bias, with which contact is solved. nu_path: nu_mean +
+    path_bias, which moves the predicted pose. nu_energy: nu + scheme_error. Call `set_twist` to change nu: it keeps the
+    sums in step.
     """
 
     x_applied: Array
@@ -60,8 +64,11 @@ class BodyState:
     issued: Array  # (6,) impulse booked in this communication step, in b about CO at the pose of application
     velocity_bias: Array | None = None  # (6,)
     scheme_error: Array | None = None  # (6,)
+    path_bias: Array | None = None  # (6,)
+    end_gain: Array | None = None  # (6,) in b at the end of the step: what the law adds to nu by then
     fixed: bool = False  # an obstacle: M_inverse is zero, and the pose never changes
     nu_mean: Array = field(init=False)
+    nu_path: Array = field(init=False)
     nu_energy: Array = field(init=False)
 
     def __post_init__(self) -> None:
@@ -86,12 +93,29 @@ class BodyState:
         """Set nu (6,), and the twists that follow from it."""
         self.nu = nu
         self.nu_mean = nu if self.velocity_bias is None else nu + self.velocity_bias
+        self.nu_path = self.nu_mean if self.path_bias is None else self.nu_mean + self.path_bias
         self.nu_energy = nu if self.scheme_error is None else nu + self.scheme_error
         self._motion: Motion | None = None
 
     def expect(self, forces: OtherForces) -> None:
         """Take in what other forces are expected to do in the step."""
         self.velocity_bias, self.scheme_error = forces.velocity_bias, forces.scheme_error
+        self.set_twist(self.nu)
+
+    def follow(self, x: Array, R: Array, nu_end: Array, start: Array, H: float) -> None:
+        """Take in where the law leads in a step of H [s]: pose x, R and twist nu_end (6,) in b there.
+
+        start: the twist (6,) at the pose of application from which it leads there. Take in other forces before.
+        """
+        turn, r_bg = self.R_applied.T @ R, self.r_bg
+        omega = rotation_vector_of(turn) / H
+        v_g = (self.R_applied.T @ (x - self.x_applied) - r_bg + turn @ r_bg) / H
+        bias = np.concatenate([v_g - skew(omega) @ r_bg, omega]) - start
+        if self.velocity_bias is None:
+            self.path_bias = bias
+        else:
+            self.velocity_bias = self.velocity_bias + bias
+        self.end_gain = nu_end - self._carry_twist(R, start)
         self.set_twist(self.nu)
 
     def book(self, impulses: Sequence[Array]) -> None:
@@ -104,22 +128,24 @@ class BodyState:
         self.issued = issued
 
     def twist_at_predicted_pose(self) -> Array:
-        """nu (6,) in b of the predicted pose."""
-        return self._carry_twist(self.R, self.nu)
+        """nu (6,) in b of the predicted pose, at the end of the step."""
+        nu = self._carry_twist(self.R, self.nu)
+        return nu if self.end_gain is None else nu + self.end_gain
 
     # -- pose -----------------------------------------------------------------------------------------
 
     def advance(self, h: float, substeps: int = 1) -> None:
-        """Move the predicted pose on by so many substeps of h [s], with the mean twist over the step."""
+        """Move the predicted pose on by so many substeps of h [s], along the chord of the step."""
         if self._motion is None:
-            self._motion = self._motion_of(self.nu_mean)
+            self._motion = self._motion_of(self.nu_path)
         for _ in range(substeps):
             self.x, self.R = coast_pose(self.x, self.R, *self._motion, self.r_bg, h)
 
     def pose_after(self, nu: Array, h: float) -> tuple[Array, Array]:
         """Pose (x, R) h [s] after the pose of application, with the twist nu (6,) there and the expected bias."""
-        nu_mean = nu if self.velocity_bias is None else nu + self.velocity_bias
-        return coast_pose(self.x_applied, self.R_applied, *self._motion_of(nu_mean), self.r_bg, h)
+        for bias in (self.velocity_bias, self.path_bias):
+            nu = nu if bias is None else nu + bias
+        return coast_pose(self.x_applied, self.R_applied, *self._motion_of(nu), self.r_bg, h)
 
     def apply_at(self, x: Array, R: Array, M_inverse: Array) -> None:
         """Move the pose of application to x, R, to which the motion leads. M_inverse (6, 6): in b there."""
@@ -128,6 +154,10 @@ class BodyState:
             self.velocity_bias = self._carry_twist(R, self.velocity_bias)
         if self.scheme_error is not None:
             self.scheme_error = self._carry_twist(R, self.scheme_error)
+        if self.end_gain is not None:
+            nu = nu + self.end_gain
+            path = np.zeros(6) if self.path_bias is None else self._carry_twist(R, self.path_bias)
+            self.path_bias, self.end_gain = path - self.end_gain, None
         self.x_applied, self.R_applied, self.M_inverse = x, R, M_inverse
         self.set_twist(nu)
 

@@ -8,8 +8,9 @@ per step of H. Therefore the *mean* velocity over the step is stopped:
     velocity_bias = mean velocity over the step - that of coasting           from the two poses received
     velocity_gain = velocity at the end - that of coasting                   all in b at the start of the step
 
-Coasting is the motion without forces (ship/coasting.py). Contact is detected and solved with nu + velocity_bias. With a
-one-step delay (impulse_ledger.py) an impulse meets a ship that has already gained velocity_gain: it is solved with nu +
+Coasting is the motion by the ship's own law (ship/coasting_law.py): what the law knows is no other force. Contact is
+detected and solved with nu + velocity_bias; where other forces act, the mean of the law is added to it. With a one-step
+delay (impulse_ledger.py) an impulse meets a ship that has already gained velocity_gain: it is solved with nu +
 velocity_gain.
 
 Only ships in an open collision have a bias. The first impact is solved with the velocities as received. The bias may
@@ -33,14 +34,15 @@ with H = 0.1 s. After a minute the ship is 6 mm in the quay (tests/collision/tes
 
 from __future__ import annotations
 
-from math import asin, hypot, isclose
+from math import asin, hypot, isclose, pi
 from typing import NamedTuple
 
 import numpy as np
 
+from ...ship.coasting_law import CoastingLaw
 from ...ship.frames import Array, rotation, rotation_vector
 
-__all__ = ["OtherForces", "ReceivedState", "estimate_other_forces"]
+__all__ = ["OtherForces", "ReceivedState", "estimate_other_forces", "rotation_vector_of"]
 
 MAX_ACCELERATION = 2.0
 """Acceleration [m/s2] above which the motion between two steps is no ship's: the host has moved the ship. With a lower
@@ -78,11 +80,17 @@ class OtherForces(NamedTuple):
 
 
 def estimate_other_forces(
-    before: ReceivedState, now: ReceivedState, M_inverse: Array, r_bg: Array, reach: float
+    before: ReceivedState,
+    now: ReceivedState,
+    M_inverse: Array,
+    r_bg: Array,
+    reach: float,
+    coasting: CoastingLaw | None = None,
 ) -> OtherForces | None:
     """Other forces in the step that `before` began and `now` ended; None where there are none to be measured.
 
-    M_inverse (6, 6): at the attitude before; r_bg: CG in b [m]; reach: of the hull from CO [m].
+    M_inverse (6, 6): at the attitude before; r_bg: CG in b [m]; reach: of the hull from CO [m]; coasting: the
+    law of the ship, None for the straight one.
     """
     H = before.H
     if not isclose(before.t + H, now.t, rel_tol=1e-9, abs_tol=1e-6 * H):
@@ -90,13 +98,13 @@ def estimate_other_forces(
     start = np.array(before.nu) + M_inverse @ (np.array(now.applied) - np.array(before.applied))
     R = rotation(before.attitude)
     turn = R.T @ rotation(now.attitude)
-    v, omega = start[:3], start[3:]
-    v_bg, E = np.cross(omega, r_bg), rotation_vector(omega * H)
-    coasting_mean = v + v_bg + (r_bg - E @ r_bg) / H  # velocity of CO
     way = R.T @ (np.array(now.position) - np.array(before.position))
-    bias = np.concatenate([way / H - coasting_mean, _rotation_vector_of(turn) / H - omega])
     nu = np.array(now.nu)
-    gain = np.concatenate([turn @ nu[:3] - (v + v_bg - E @ v_bg), turn @ nu[3:] - omega])
+    mean, omega_mean, v_end, omega_end = (
+        _coast_straight(start, r_bg, H) if coasting is None else _coast(coasting, before, start, R, H)
+    )
+    bias = np.concatenate([way / H - mean, rotation_vector_of(turn) / H - omega_mean])
+    gain = np.concatenate([turn @ nu[:3] - v_end, turn @ nu[3:] - omega_end])
     bias_speed, gain_speed = _largest_speed(bias, reach), _largest_speed(gain, reach)
     if not ROUNDING < max(bias_speed, gain_speed) <= MAX_ACCELERATION * H:
         return None
@@ -104,14 +112,34 @@ def estimate_other_forces(
     return OtherForces(bias, gain, error if _largest_speed(error, reach) > EXACT * gain_speed else None)
 
 
+def _coast_straight(start: Array, r_bg: Array, H: float) -> tuple[Array, Array, Array, Array]:
+    """Mean velocity of CO and mean angular velocity over H [s], and both at the end, in b at the start."""
+    v, omega = start[:3], start[3:]
+    v_bg, E = np.cross(omega, r_bg), rotation_vector(omega * H)
+    return v + v_bg + (r_bg - E @ r_bg) / H, omega, v + v_bg - E @ v_bg, omega
+
+
+def _coast(
+    law: CoastingLaw, before: ReceivedState, start: Array, R: Array, H: float
+) -> tuple[Array, Array, Array, Array]:
+    """The same for a ship's law. R (3, 3): R_nb before."""
+    nu = start.tolist()
+    position, attitude, velocity, rate = law.coast(before.position, before.attitude, nu[:3], nu[3:], H)
+    turn = R.T @ rotation(attitude)
+    way = R.T @ (np.array(position) - np.array(before.position))
+    return way / H, rotation_vector_of(turn) / H, turn @ velocity, turn @ rate
+
+
 def _largest_speed(nu: Array, reach: float) -> float:
     """No point of the hull moves faster [m/s]."""
     return hypot(*nu[:3].tolist()) + reach * hypot(*nu[3:].tolist())
 
 
-def _rotation_vector_of(R: Array) -> Array:
-    """Rotation vector [rad] of a rotation by less than a quarter turn."""
+def rotation_vector_of(R: Array) -> Array:
+    """Rotation vector [rad] of a rotation by less than half a turn."""
     x, y, z = R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]
     s = 0.5 * hypot(x, y, z)
+    if R[0, 0] + R[1, 1] + R[2, 2] < 1.0:  # more than a quarter turn; about half a turn the axis is lost
+        return 0.5 * (pi - asin(min(1.0, s))) / max(s, 1e-9) * np.array([x, y, z])
     factor = 0.5 if s < 1e-9 else 0.5 * asin(min(1.0, s)) / s
     return factor * np.array([x, y, z])

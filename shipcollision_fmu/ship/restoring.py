@@ -17,8 +17,8 @@ from __future__ import annotations
 
 from math import atan, cos, sin
 
-from ..ship.degrees_of_freedom import Six
-from ..ship.seakeeping import Seakeeping
+from .degrees_of_freedom import Six
+from .seakeeping import Seakeeping
 
 __all__ = ["Restoring"]
 

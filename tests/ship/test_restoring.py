@@ -10,9 +10,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from shipcollision_fmu.manoeuvring.restoring import Restoring
 from shipcollision_fmu.ship.frames import rotation
 from shipcollision_fmu.ship.loading.library import load_ship
+from shipcollision_fmu.ship.restoring import Restoring
 from shipcollision_fmu.ship.seakeeping import compute_seakeeping
 
 SEA = compute_seakeeping(load_ship("kvlcc2"))

@@ -8,7 +8,7 @@ sway force the hull meets when it rolls is in those too, taken at the depth z_H 
 
 from __future__ import annotations
 
-from ..ship.seakeeping import Seakeeping
+from .seakeeping import Seakeeping
 
 __all__ = ["Damping"]
 
