@@ -56,13 +56,13 @@ def summarise_run(run: Run) -> Iterator[str]:
 
 
 def _warn_of_heel(run: Run) -> Iterator[str]:
-    """Lines on coasting ships that heel by more than LARGE_HEEL, since no buoyancy rights them."""
+    """Lines on ships without buoyancy that heel by more than LARGE_HEEL."""
     for name, ship in run.summary["ships"].items():
         heel = degrees(float(abs(run.states[f"{name}.attitude.roll"]).max()))
-        if not ship["hydrodynamics"] and heel > LARGE_HEEL:
+        if ship["coasting"] in ("straight", "free") and heel > LARGE_HEEL:
             yield (
-                f"  {name} heeled by {heel:.0f} deg: a ship that coasts has no buoyancy; give degrees_of_freedom = 3, "
-                "or hydrodynamics = true"
+                f"  {name} heeled by {heel:.0f} deg: coasting = {ship['coasting']!r} has no buoyancy; take "
+                "coasting = 'kirchhoff', or degrees_of_freedom = 3"
             )
 
 

@@ -27,7 +27,8 @@ def ship_parameters(scenario: Scenario, name: str, ship: ShipStart) -> dict[str,
     return {
         "ship": scenario.ship_file(name),
         "degrees_of_freedom": ship.free,
-        "hydrodynamics": ship.hydrodynamics,
+        "hydrodynamics": bool(ship.hydrodynamics),
+        "coasting": ship.law,
         **{f"initial.{variable}": value for variable, value in zip(STATE, state, strict=True)},
     }
 
@@ -38,6 +39,7 @@ def collision_parameters(scenario: Scenario) -> dict[str, Value]:
     for name, ship in scenario.ships.items():
         parameters[f"{name}.ship"] = scenario.ship_file(name)
         parameters[f"{name}.degrees_of_freedom"] = ship.free
+        parameters[f"{name}.coasting"] = ship.predicted_law
         if ship.fender is not None:
             for key, value in ship.fender.model_dump().items():
                 parameters[f"{name}.fender.{key}"] = value

@@ -1,8 +1,8 @@
 """Tracks to an impact: pose and velocity of a ship at every communication point, ending at a given place and heading.
 
-A coasting ship moves in a straight line. A sailed ship is stepped forwards with the manoeuvring model. Its track is
-then turned and shifted so that it ends where required. A current does not turn with the track: with a current the
-heading at the start is corrected until the heading at the end is right.
+A coasting ship moves in a straight line: ahead, or by coasting = "straight". A sailed ship is stepped forwards with the
+manoeuvring model. Its track is then turned and shifted so that it ends where required. A current does not turn with the
+track: with a current the heading at the start is corrected until the heading at the end is right.
 """
 
 from __future__ import annotations
@@ -83,7 +83,7 @@ def sail_as_in_run(scenario: Scenario, name: str, steps: int) -> list[ShipState]
     model, start = ShipManoeuvring(), table.start
     parameters = model.parameters
     parameters.ship, parameters.degrees_of_freedom = scenario.ship_file(name), table.free
-    parameters.hydrodynamics = table.hydrodynamics
+    parameters.hydrodynamics, parameters.coasting = bool(table.hydrodynamics), table.law
     parameters.initial_position[:], parameters.initial_attitude[:] = start.position, start.attitude
     parameters.initial_velocity[:], parameters.initial_rate[:] = start.velocity, start.rate
     if table.hydrodynamics:

@@ -10,6 +10,7 @@ from math import cos, radians, sin
 from typing import NamedTuple
 
 from ..manoeuvring.trials.steady_course import find_self_propulsion
+from ..ship.coasting_law import COASTING
 from .request import Kind, Request, value_or_default
 from .ship_table import require_manoeuvring
 
@@ -39,6 +40,16 @@ class ApproachingShip:
     sway: float
     orders: tuple[HelmOrder, ...] | None
     degrees_of_freedom: int
+
+    @property
+    def coasting(self) -> str | None:
+        """The key of its table: a coasting ship that drifts is carried by the water, and keeps its heading."""
+        return "straight" if self.orders is None and self.sway else None
+
+    @property
+    def predicted_law(self) -> str:
+        """What the collision model expects of it between impulses."""
+        return "straight" if self.orders is not None or self.sway else COASTING[0]
 
 
 def plan_approaching_ships(

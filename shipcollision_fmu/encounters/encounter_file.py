@@ -72,7 +72,8 @@ def _ship_table(ship: ApproachingShip, start: ShipState, step: float, sailed: bo
         round_off(degrees(start.heading), 7) % 360.0,
         round_off(start.surge, 9),
         round_off(start.sway, 9),
-        hydrodynamics=sailed or None,
+        hydrodynamics=sailed,
+        coasting=ship.coasting,
         degrees_of_freedom=ship.degrees_of_freedom,
         orders=None if ship.orders is None else [
             {"time": round(order.k * step, 9), "rudder_deg": order.rudder_deg, "rev_per_s": order.rev_per_s}

@@ -121,7 +121,7 @@ def _ship_table(
         (round_off(-distance * cos(psi), 4), round_off(-distance * sin(psi), 4)),
         float(course),
         speed,
-        hydrodynamics=hydrodynamics or None,
+        hydrodynamics=hydrodynamics,
         orders=[{"time": 0.0, "rudder_deg": 0.0, "rev_per_s": find_self_propulsion(file, speed)}]
         if hydrodynamics
         else None,

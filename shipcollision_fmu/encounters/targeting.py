@@ -58,6 +58,7 @@ class ImpactFinder:
         self._model = ShipCollision(("own", "target"))
         for parameters, ship in zip(self._model.parameters.ships, (own, target), strict=True):
             parameters.ship, parameters.degrees_of_freedom = ship.file, ship.degrees_of_freedom
+            parameters.coasting = ship.predicted_law
         self._initial_state: dict[str, object] | None = None
 
     def find_impact(self, own: Sequence[ShipState], target: Sequence[ShipState]) -> Hit | None:

@@ -31,6 +31,7 @@ from .. import __version__
 from ..collision.interface import CollisionParameters
 from ..fmi.names import STATE
 from ..scenario.scenario import Scenario
+from ..scenario.tables.ship_start import ShipStart
 from ..ship.frames import Array, rotation
 from ..ship.kinetic_energy import kinetic_energy, motion_twist
 from ..ship.ship import Ship
@@ -90,9 +91,17 @@ def build_summary(
 
 
 def _is_momentum_closed(scenario: Scenario, ships: Mapping[str, Ship], record: Record) -> bool:
-    coast = not any(table.hydrodynamics for table in scenario.ships.values())
-    dry = not any(ship.M_A.any() for ship in ships.values())
-    return coast and dry and not any(name in scenario.obstacles for name in record.contacts["ship_b"].tolist())
+    kept = all(_keeps_momentum(table, ships[name]) for name, table in scenario.ships.items())
+    return kept and not any(name in scenario.obstacles for name in record.contacts["ship_b"].tolist())
+
+
+def _keeps_momentum(table: ShipStart, ship: Ship) -> bool:
+    """Whether the momentum of ship and water stays while the ship coasts."""
+    if table.hydrodynamics:
+        return False
+    if table.law == "straight":
+        return not bool(ship.M_A.any())
+    return table.law == "free" or table.free == 3
 
 
 def _ship(scenario: Scenario, name: str, ship: Ship) -> dict[str, Any]:
@@ -100,7 +109,8 @@ def _ship(scenario: Scenario, name: str, ship: Ship) -> dict[str, Any]:
         "ship": ship.name,
         "mass": ship.mass,
         "degrees_of_freedom": scenario.ships[name].free,
-        "hydrodynamics": scenario.ships[name].hydrodynamics,
+        "hydrodynamics": bool(scenario.ships[name].hydrodynamics),
+        "coasting": None if scenario.ships[name].hydrodynamics else scenario.ships[name].law,
         "estimated": list(ship.estimated),
     }
 

@@ -6,6 +6,7 @@ after the end, ships that cannot be loaded, and bodies that overlap at the start
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ from pydantic import Field, PrivateAttr, ValidationError, model_validator
 from ..collision.obstacles import ObstacleTable
 from ..collision.ship_names import NAME_RULE, is_identifier, is_ship_name
 from ..errors import ScenarioError, ShipError
+from ..ship.coasting_law import make_coasting
 from ..ship.loading.library import find_models, load_ship
 from ..ship.loading.messages import describe_error, suggest
 from ..ship.loading.toml import parse_toml, read_toml
@@ -67,8 +69,7 @@ class Scenario(Table):
 
         A path in a scenario file is relative to that file.
         """
-        ship = self.ships[name].ship
-        return str((self._directory / ship).resolve()) if _is_path(ship) else ship
+        return _resolve(self.ships[name].ship, self._directory)
 
     def load_ships(self) -> dict[str, Ship]:
         """The ships by name. Raises ScenarioError, in one line, for a ship that cannot be loaded."""
@@ -111,6 +112,11 @@ class Scenario(Table):
                 f"{key} can only coast, it has no table [manoeuvring]: set hydrodynamics = false, or take "
                 "a ship that has it"
             )
+        if not start.hydrodynamics:
+            try:
+                make_coasting(ship, start.free, start.law)
+            except ShipError as error:
+                raise ScenarioError(f"{key}: {error}") from None
         return ship
 
     @model_validator(mode="after")
@@ -228,13 +234,35 @@ def _locate(name_or_path: str | Path) -> Path:
     return path
 
 
+def _choose_motions(data: dict[str, Any], directory: Path) -> dict[str, Any]:
+    """The data with `hydrodynamics` of each ship: true for one with manoeuvring data, unless a key says otherwise."""
+    ships = data.get("ships")
+    if not isinstance(ships, Mapping):
+        return data
+    return {**data, "ships": {name: _choose_motion(table, directory) for name, table in ships.items()}}
+
+
+def _choose_motion(table: Any, directory: Path) -> Any:
+    if not isinstance(table, Mapping) or "hydrodynamics" in table or not isinstance(table.get("ship"), str):
+        return table
+    try:
+        sails = "coasting" not in table and load_ship(_resolve(table["ship"], directory)).manoeuvring is not None
+    except ShipError:  # raised again, with the ship's name
+        sails = False
+    return {**table, "hydrodynamics": sails}
+
+
+def _resolve(ship: str, directory: Path) -> str:
+    return str((directory / ship).resolve()) if _is_path(ship) else ship
+
+
 def _is_path(text: str) -> bool:
     return text.endswith(".toml") or "/" in text or "\\" in text
 
 
 def _validate(data: dict[str, Any], source: str, directory: Path) -> Scenario:
     try:
-        scenario = Scenario.model_validate(data)
+        scenario = Scenario.model_validate(_choose_motions(data, directory))
     except ValidationError as error:
         raise ScenarioError(f"{source}: {describe_error(error, Scenario)}") from None
     scenario._source, scenario._directory = source, directory

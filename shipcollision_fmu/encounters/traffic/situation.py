@@ -187,13 +187,15 @@ def _write(plan: _Plan, directory: Path) -> str:
 
 def _ship_table(start: TrafficStart, ship: str, directory: Path, plan: _Plan) -> dict[str, Any]:
     drift_angle = start.course - start.heading
+    sway = round_off(start.speed * sin(drift_angle), 6)
     return build_ship_table(
         ship if ship in plan.files else refer_to_ship(ship, directory),
         (round_off(start.north, 3), round_off(start.east, 3)),
         round(degrees(start.heading), 6) % 360.0,
         round_off(start.speed * cos(drift_angle), 6),
-        round_off(start.speed * sin(drift_angle), 6),
-        hydrodynamics=plan.hydrodynamics or None,
+        sway,
+        hydrodynamics=plan.hydrodynamics,
+        coasting="straight" if sway and not plan.hydrodynamics else None,
         orders=(_list_orders(start, ship, plan.steps * plan.step) or None) if plan.hydrodynamics else None,
         route={"waypoints": start.route} if plan.hydrodynamics and start.route else None,
     )

@@ -9,6 +9,7 @@ from typing import Any, Literal
 from pydantic import Field, model_validator
 
 from ...collision.obstacles import FenderTable
+from ...ship.coasting_law import COASTING
 from ...ship.frames import Array, attitude_from_quaternion, rotation
 from ...ship.tables.table import Table
 from .autopilot import SHORTEST_LEG, AutopilotTable, RouteTable
@@ -57,11 +58,19 @@ class ShipStart(Table):
     velocity_ned: list[float] | None = _vector(3, "the velocity of CO, [north, east, down] [m/s]")
     rates: list[float] | None = _vector(3, "the rates of roll, pitch and yaw, [p, q, r] in b [rad/s]")
     angular_velocity_ned: list[float] | None = _vector(3, "the angular velocity, [north, east, down] [rad/s]")
-    hydrodynamics: bool = Field(
-        default=False, description="true for a ship with the manoeuvring model, false for a ship that coasts"
+    hydrodynamics: bool | None = Field(
+        default=None,
+        description="true for a ship with the manoeuvring model, false for a ship that coasts; default: true for a "
+        "ship with a table [manoeuvring], unless coasting is given",
+    )
+    coasting: Literal["kirchhoff", "free", "straight"] | None = Field(
+        default=None,
+        description='how a ship coasts: "kirchhoff" (default) by Kirchhoff\'s equations, in 4 and 6 degrees of freedom '
+        'with restoring and damping of heave, roll and pitch; "free" by Kirchhoff\'s equations alone; "straight" with '
+        "velocity and angular velocity constant in n",
     )
     degrees_of_freedom: Literal[3, 4, 6] | None = Field(
-        default=None, description="3 (surge, sway, yaw), 4 (and roll) or 6; default 3 with hydrodynamics, 6 without"
+        default=None, description="3 (surge, sway, yaw), 4 (and roll) or 6; default 3"
     )
     orders: list[Order] = Field(default=[], description="[{time = 0.0, rudder_deg = 0.0, rev_per_s = 1.5}, ...]")
     autopilot: AutopilotTable | None = Field(default=None, description="{gain = 1.5, rudder_limit_deg = 20.0}")
@@ -73,8 +82,19 @@ class ShipStart(Table):
 
     @property
     def free(self) -> int:
-        """Degrees of freedom: as given, else 3 with hydrodynamics (plane motion of the MMG model) and 6 without."""
-        return self.degrees_of_freedom or (3 if self.hydrodynamics else 6)
+        """Degrees of freedom: as given, else 3 (motion in the plane)."""
+        return self.degrees_of_freedom or 3
+
+    @property
+    def law(self) -> str:
+        """How the ship coasts, by its name in ship/coasting_law.py."""
+        return self.coasting or COASTING[0]
+
+    @property
+    def predicted_law(self) -> str:
+        """What the collision model expects of the ship between impulses. For a ship under way all that its manoeuvring
+        model does beside going straight is an other force, which is measured."""
+        return "straight" if self.hydrodynamics else self.law
 
     @property
     def start(self) -> StartState:
@@ -131,6 +151,8 @@ class ShipStart(Table):
         for key in ("orders", "route", "autopilot", "evasion"):
             if getattr(self, key) and not self.hydrodynamics:
                 raise ValueError(f"has {key}, but coasts: set hydrodynamics = true, or remove {key}")
+        if self.hydrodynamics and self.coasting is not None:
+            raise ValueError(f"coasting = {self.coasting!r} goes with hydrodynamics = false: remove one of them")
         for earlier, later in pairwise(order.time for order in self.orders):
             if later <= earlier:
                 raise ValueError(f"orders: time {later:g} s comes after {earlier:g} s: put them in order of time")
