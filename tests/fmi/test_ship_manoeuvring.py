@@ -55,7 +55,7 @@ CONTRACT = {
     ("degrees_of_freedom", "Integer", "parameter", None),
     ("hydrodynamics", "Boolean", "parameter", None),
 }
-EXTENSIONS = {("substep", "Real", "parameter", "s")}
+EXTENSIONS = {("substep", "Real", "parameter", "s"), ("coasting", "Enumeration", "parameter", None)}
 
 
 @pytest.fixture(scope="module")

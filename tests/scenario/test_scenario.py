@@ -72,10 +72,29 @@ def test_speed_may_be_given_by_component() -> None:
     assert start(position=[1, 2, 3]).start.position == [1.0, 2.0, 3.0]
 
 
-def test_degrees_of_freedom_follow_from_how_the_ship_moves() -> None:
-    assert start().free == 6
-    assert start(hydrodynamics=True).free == 3
+def test_ships_move_in_the_plane_unless_told() -> None:
+    assert start().free == start(hydrodynamics=True).free == start(coasting="straight").free == 3
     assert start(hydrodynamics=True, degrees_of_freedom=4).free == 4
+
+
+@pytest.mark.parametrize(
+    ("keys", "sails", "law", "predicted"),
+    [
+        ("", True, "kirchhoff", "straight"),
+        ("hydrodynamics = false", False, "kirchhoff", "kirchhoff"),
+        ('coasting = "free"', False, "free", "free"),
+        ('coasting = "straight"\nhydrodynamics = false', False, "straight", "straight"),
+    ],
+)
+def test_a_ship_with_manoeuvring_data_sails_unless_told(
+    scenario_file: Write, keys: str, sails: bool, law: str, predicted: str
+) -> None:
+    scenario = load_scenario(scenario_file((OWN, f'ship = "kvlcc2"\n{keys}\nposition = [5.0, -640.0]')))
+    own = scenario.ships["own"]
+    assert (bool(own.hydrodynamics), own.law, own.predicted_law) == (sails, law, predicted)
+    others = [ship for name, ship in scenario.ships.items() if name != "own"]
+    assert not any(ship.hydrodynamics for ship in others)  # barges
+    assert scenario.changed(step=0.1).ships["own"] == own
 
 
 def test_an_order_is_given_at_the_first_communication_point_from_its_time() -> None:
