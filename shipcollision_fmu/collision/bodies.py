@@ -11,7 +11,7 @@ import numpy as np
 
 from ..errors import InputError, ShipError
 from ..ship.coasting_law import CoastingLaw, make_coasting
-from ..ship.degrees_of_freedom import free_inverse, tilted_inverse
+from ..ship.degrees_of_freedom import free_inverse, held_mobility, tilted_inverse
 from ..ship.frames import Array, skew
 from ..ship.hull.hull import build_hull
 from ..ship.hull.solid import HullMesh
@@ -40,6 +40,7 @@ class Body:
     reach: float
     free: int
     upright_inverse: Array  # (6, 6), see inverse_at
+    held: Array | None  # (3, 3), see degrees_of_freedom.held_mobility
     bullet: BulletBody
     fender: Fender | None
     coasting: CoastingLaw | None = None  # None: straight
@@ -82,7 +83,7 @@ def _ship(name: str, ship: Ship, parameters: ShipParameters) -> Body:
     return Body(
         name, hull, float(np.linalg.norm(hull.vertices, axis=1).max()),
         parameters.degrees_of_freedom, free_inverse(ship.M, parameters.degrees_of_freedom),
-        BulletBody(ship.mass, inertia_g, np.array(ship.r_bg)),
+        held_mobility(ship.M, parameters.degrees_of_freedom), BulletBody(ship.mass, inertia_g, np.array(ship.r_bg)),
         build_fender(f"{name}.fender", fender.stiffness, fender.damping, fender.thickness),
         _predict_coasting(name, ship, parameters),
     )  # fmt: skip
@@ -110,7 +111,7 @@ def _wall(obstacle: Obstacle) -> Body:
     (n_0, e_0, _), (n_1, e_1, _) = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()
     return Body(
         obstacle.name, obstacle.solid, float(np.linalg.norm(obstacle.solid.vertices, axis=1).max()),
-        0, wall.M_inverse, BulletBody(0.0, np.zeros(3), np.zeros(3)), obstacle.fender, None, wall,
+        0, wall.M_inverse, None, BulletBody(0.0, np.zeros(3), np.zeros(3)), obstacle.fender, None, wall,
         (n_0, n_1, e_0, e_1),
     )  # fmt: skip
 

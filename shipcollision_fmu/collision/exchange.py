@@ -72,7 +72,7 @@ class ShipExchange:
         received, body, feedback = self._inputs[i], self._bodies[i], self._feedback
         nu, x = np.array(received.velocity + received.rate), np.array(received.position)
         M_inverse = body.inverse_at(received.attitude)
-        state = BodyState.at(x, np.array(received.attitude), nu, M_inverse, body.bullet.r_bg)
+        state = BodyState.at(x, np.array(received.attitude), nu, M_inverse, body.bullet.r_bg, body.held)
         applied = np.array(received.impulse_applied)
         reading = self.ledgers[i].read(feedback, x, state.R, nu, applied, M_inverse, body.reach, H)
         nu = reading.nu + M_inverse @ reading.deficit if reading.deficit.any() else reading.nu

@@ -19,7 +19,8 @@ from ..ship.frames import Array
 from .contact_problem import ContactCaches, ContactProblem, ContactSolution
 from .dynamics.body_state import BodyState
 from .dynamics.contact import Contact, Impulse, make_contact
-from .dynamics.delassus import approach_velocities, delassus
+from .dynamics.delassus import approach_velocities, delassus, held_delassus
+from .solvers.held_motions import yield_to_friction
 from .solvers.impact_process import solve_impact_process
 from .solvers.poisson_restitution import solve_poisson_impact
 from .solvers.resultant_contact import reduce_to_resultant
@@ -41,9 +42,12 @@ def respond_pgs(problem: ContactProblem, caches: ContactCaches) -> ContactSoluti
     velocity = approach_velocities(contacts, states)
     if velocity[0::3].min() >= -AT_REST:  # touching, but parting, or stopped in the substep before
         return ContactSolution([Impulse(c, np.zeros(3)) for c in contacts])
+    W, H, slip = delassus(contacts, states), held_delassus(contacts, states), None
+    if H is not None:
+        W, slip = yield_to_friction(W, velocity, problem.friction, H)
     solution = solve_poisson_impact(
-        delassus(contacts, states), velocity, problem.friction, problem.restitution,
-        guess_impulses(contacts, [c.axes for c in contacts], caches.warm_starts),
+        W, velocity, problem.friction, problem.restitution,
+        guess_impulses(contacts, [c.axes for c in contacts], caches.warm_starts), slip,
     )  # fmt: skip
     impulses = [Impulse(c, c.axes.T @ P) for c, P in zip(contacts, solution.P, strict=True)]
     keep_impulses(impulses, caches.warm_starts)
@@ -64,7 +68,9 @@ def respond_closed_form(problem: ContactProblem, caches: ContactCaches) -> Conta
             impulses += [Impulse(c, np.zeros(3)) for c in contacts]
             continue
         W, velocity = delassus([contact], states), approach_velocities([contact], states)
-        P = contact.axes.T @ solve_impact_process(W, velocity, problem.friction, problem.restitution).P
+        H = held_delassus([contact], states)
+        process = solve_impact_process(W, velocity, problem.friction, problem.restitution, H)
+        P = contact.axes.T @ process.P
         _apply_to_states(contact, P, states)
         impulses.append(Impulse(contact, P))
     return ContactSolution(impulses)

@@ -16,6 +16,12 @@ psi_dot) of the level axes that turn with the heading,
 
 The level part of an impulse alone changes the level momentum, at any heel. L of an upright ship is the identity.
 
+The water holds heave and pitch in the course of a roll period, not within an impact. Friction along the vertical acts
+within the impact and meets the inertia of all motions (collision/solvers/held_motions.py). With the velocity down
+g . nu_l of a point of the hull, g = (0, 0, 1, dz/dphi, dz/dtheta, 0), the held motions add to its mobility
+
+    g' (M^-1 - M_free^-1) g                            [1/kg]
+
 Source: Fossen (2021), section 2.2.1 (zyx Euler angles: the last three columns of L are those of the angle rates).
 """
 
@@ -29,7 +35,7 @@ import numpy as np
 from ..errors import ShipError
 from .frames import Array, rotation
 
-__all__ = ["FREE", "Six", "free_inverse", "from_level", "level_axes", "tilted_inverse", "to_level"]
+__all__ = ["FREE", "Six", "free_inverse", "from_level", "held_mobility", "level_axes", "tilted_inverse", "to_level"]
 
 FREE: dict[int, tuple[int, ...]] = {3: (0, 1, 5), 4: (0, 1, 3, 5), 6: (0, 1, 2, 3, 4, 5)}
 """Indices into nu (6: of b; 3 and 4: of the level axes) that may change, by number of degrees of freedom."""
@@ -55,6 +61,13 @@ def free_inverse(M: Array, degrees_of_freedom: int) -> Array:
     inverse = np.zeros((6, 6))
     inverse[free] = _symmetric(np.linalg.inv(block * scaling) * scaling)
     return inverse
+
+
+def held_mobility(M: Array, degrees_of_freedom: int) -> Array | None:
+    """M^-1 - M_free^-1 in heave, roll and pitch (3, 3): what the held motions would add; None if none is held."""
+    if degrees_of_freedom == 6:
+        return None
+    return (free_inverse(M, 6) - free_inverse(M, degrees_of_freedom))[2:5, 2:5]
 
 
 def tilted_inverse(upright: Array, degrees_of_freedom: int, attitude: Sequence[float] | Array) -> Array:

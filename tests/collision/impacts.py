@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from shipcollision_fmu.collision.dynamics.body_state import BodyState
 from shipcollision_fmu.collision.dynamics.contact import make_contact, point_jacobian
 from shipcollision_fmu.collision.dynamics.contact_frame import contact_axes
-from shipcollision_fmu.ship.degrees_of_freedom import FREE, free_inverse, level_axes, tilted_inverse
+from shipcollision_fmu.ship.degrees_of_freedom import FREE, free_inverse, held_mobility, level_axes, tilted_inverse
 from shipcollision_fmu.ship.frames import attitude_from_rotation, rotation
 from shipcollision_fmu.ship.inertia import added_mass_matrix, rigid_body_inertia
 
@@ -37,9 +37,18 @@ class Ship:
     axes: Array
     axes_n: Array
     free: int
+    fixed: bool = False
 
     def jacobian(self, point: Array) -> Array:
         return point_jacobian(self.R, self.R.T @ (point - self.x))
+
+    @property
+    def held(self) -> Array:
+        """(6, 6): what M^-1 of all motions is more than M_inverse, in b."""
+        if self.fixed:
+            return np.zeros((6, 6))
+        held: Array = self.axes @ np.linalg.inv(self.M) @ self.axes.T - self.M_inverse
+        return held
 
     def struck(self, point: Array, P: Array) -> Ship:
         """The ship after the impulse P (in n) at `point`."""
@@ -49,7 +58,7 @@ class Ship:
         """The same as the collision model knows her, from her position, attitude, twist and inertia alone."""
         attitude = attitude_from_rotation(self.R)
         inverse = tilted_inverse(free_inverse(self.M, self.free), self.free, attitude)
-        return BodyState.at(self.x, attitude, self.nu, inverse)
+        return BodyState.at(self.x, attitude, self.nu, inverse, held=held_mobility(self.M, self.free))
 
     @property
     def motion(self) -> Array:
@@ -85,6 +94,23 @@ class Impact:
             for ship in (self.a, self.b)
             for G in [self.axes @ ship.jacobian(self.point)]
         )  # fmt: skip
+
+    @property
+    def H(self) -> Array:
+        """(3, 3) in contact axes: what the held motions would add along the vertical."""
+        rows = [ship.jacobian(self.point)[2] for ship in (self.a, self.b)]
+        added = sum(float(g @ ship.held @ g) for g, ship in zip(rows, (self.a, self.b), strict=True))
+        return added * np.outer(self.axes[:, 2], self.axes[:, 2])
+
+    @property
+    def W_friction(self) -> Array:
+        """(3, 3): W with H across the normal, which friction meets."""
+        across = np.diag([0.0, 1.0, 1.0])
+        return self.W + across @ self.H @ across
+
+    def held_energy(self, P: Array) -> float:
+        """What the water takes of heave and pitch after friction has moved them [J]."""
+        return float(0.5 * P @ (self.W_friction - self.W) @ P)
 
     @property
     def v(self) -> Array:

@@ -19,7 +19,9 @@ from shipcollision_fmu.collision.dynamics.impulse_ledger import ImpulseLedger, R
 from shipcollision_fmu.collision.geometry import detection
 from shipcollision_fmu.collision.geometry.bullet import Closest
 from shipcollision_fmu.collision.solvers import gauss_seidel
+from shipcollision_fmu.collision.solvers import held_motions as held_motions_solver
 from shipcollision_fmu.collision.solvers.aitken import Aitken
+from tests.collision import test_held_motions as held_motions
 from tests.collision import test_mechanisms as mechanisms
 from tests.collision import test_model as impacts
 from tests.collision import test_one_step_delay as delay
@@ -29,6 +31,7 @@ from tests.collision import test_similarity as similarity
 from tests.collision.geometry import test_compound_hull as compound
 from tests.collision.geometry.test_compound_hull import pair, sailed
 from tests.collision.solvers import test_gauss_seidel as patches
+from tests.collision.test_held_motions import WEST
 from tests.collision.test_quay import berthed
 
 __all__ = ["berthed", "pair", "sailed"]
@@ -101,6 +104,14 @@ def one(name: str, test: Callable[..., None], *arguments: object) -> Callable[[F
 
 ABLATIONS = {
     # -- solvers
+    "held motions that yield to friction": Ablation(
+        responses, "held_delassus", lambda *_: None,
+        two(held_motions.test_a_struck_ship_rolls_in_four_degrees_of_freedom_as_in_six, "pgs", 3.0, 0.0, WEST, 2.0),
+    ),
+    "slip of held motions at a sloping normal": Ablation(
+        held_motions_solver, "ROUNDS", 0,
+        two(held_motions.test_a_struck_ship_rolls_in_four_degrees_of_freedom_as_in_six, "pgs", 8.0, 30.0, WEST, 15.0),
+    ),
     "Aitken's extrapolation": Ablation(
         Aitken, "extrapolate", lambda self, P, last: P,
         one("berthed", mechanisms.test_a_ship_that_slides_along_a_quay_costs_few_sweeps),

@@ -19,7 +19,7 @@ PLASTIC = st.just(0.0)
 def solved(impact: Impact) -> NewtonImpact:
     """Newton's solution of an impact that has one."""
     try:
-        return solve_newton_impact(impact.W, impact.v, impact.mu, impact.e)
+        return solve_newton_impact(impact.W_friction, impact.v, impact.mu, impact.e)
     except StepError:
         assume(False)
         raise
@@ -29,12 +29,12 @@ def solved(impact: Impact) -> NewtonImpact:
 def test_restitution_cone_and_the_energy_that_the_ships_lose(impact: Impact) -> None:
     form = solved(impact)
     after, size = impact.after(form.P), np.linalg.norm(impact.v)
-    np.testing.assert_allclose(after.v, form.after, rtol=0.0, atol=1e-10 * size)
-    if impact.a.free == 6 or impact.normal[2] == 0.0:
-        assert form.after[0] == pytest.approx(-impact.e * impact.v[0], rel=1e-8, abs=1e-10 * size)
+    np.testing.assert_allclose(after.v[0], form.after[0], rtol=0.0, atol=1e-10 * size)
+    assert form.after[0] == pytest.approx(-impact.e * impact.v[0], rel=1e-8, abs=1e-10 * size)
     assert np.hypot(*form.P[1:]) <= impact.mu * form.P[0] * (1 + 1e-12)
     lost = impact.scale - after.scale
-    assert form.energy_normal + form.energy_tangential == pytest.approx(lost, rel=1e-9, abs=1e-12 * impact.scale)
+    parts = form.energy_normal + form.energy_tangential + impact.held_energy(form.P)
+    assert parts == pytest.approx(lost, rel=1e-9, abs=1e-12 * impact.scale)
 
 
 @given(impacts())
@@ -45,14 +45,14 @@ def test_ships_take_equal_and_opposite_impulses_at_one_point(impact: Impact) -> 
 @given(impacts(e=PLASTIC))
 def test_plastic_impact_never_creates_energy(impact: Impact) -> None:
     form = solved(impact)
-    assert form.energy_normal + form.energy_tangential >= -1e-12 * stick_energy(impact.W, impact.v)
+    assert form.energy_normal + form.energy_tangential >= -1e-12 * stick_energy(impact.W_friction, impact.v)
 
 
 @given(impacts(mu=st.just(1e6), e=PLASTIC))
 def test_stick_takes_all_the_energy_of_the_relative_motion(impact: Impact) -> None:
     form = solved(impact)
     assume(form.mode == "stick")
-    stick = stick_energy(impact.W, impact.v)
+    stick = stick_energy(impact.W_friction, impact.v)
     assert form.energy_normal + form.energy_tangential == pytest.approx(stick, rel=1e-9)
 
 

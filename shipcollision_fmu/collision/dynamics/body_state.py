@@ -67,6 +67,7 @@ class BodyState:
     path_bias: Array | None = None  # (6,)
     end_gain: Array | None = None  # (6,) in b at the end of the step: what the law adds to nu by then
     fixed: bool = False  # an obstacle: M_inverse is zero, and the pose never changes
+    held: Array | None = None  # (3, 3) degrees_of_freedom.held_mobility; None where no motion is held
     nu_mean: Array = field(init=False)
     nu_path: Array = field(init=False)
     nu_energy: Array = field(init=False)
@@ -75,10 +76,13 @@ class BodyState:
         self.set_twist(self.nu)
 
     @classmethod
-    def at(cls, position: Array, attitude: Array, nu: Array, M_inverse: Array, r_bg: Array | None = None) -> BodyState:
+    def at(
+        cls, position: Array, attitude: Array, nu: Array, M_inverse: Array, r_bg: Array | None = None,
+        held: Array | None = None,
+    ) -> BodyState:  # fmt: skip
         """State at a pose (n [m], rad) with the twist nu (b about CO). Without r_bg, CG is CO."""
-        R = rotation(attitude)
-        return cls(position, R, position, R, nu, nu, M_inverse, np.zeros(3) if r_bg is None else r_bg, np.zeros(6))
+        R, centre = rotation(attitude), np.zeros(3) if r_bg is None else r_bg
+        return cls(position, R, position, R, nu, nu, M_inverse, centre, np.zeros(6), held=held)
 
     @classmethod
     def wall(cls, position: Array, heading: float) -> BodyState:

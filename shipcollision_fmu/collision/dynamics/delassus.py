@@ -4,6 +4,13 @@
     W_ij = sum over bodies s of +- G_s,i M_s^-1 G_s,j^T      (3 x 3 blocks)                          [1/kg]
     v(P) = v(0) + W P                             P (3k,) impulses on the b bodies                   [N s]
 
+Heave and pitch of a ship in 3 and 4 degrees of freedom are held, and so is roll in 3. What they would add along the
+vertical, if they were free, has an operator of its own. It decides which way friction acts (solvers/held_motions.py):
+
+    H_ij = sum over bodies s of +- z g_s,i D_s g_s,j^T z^T       D = M^-1 - M_free^-1 (3 x 3): held_mobility     [1/kg]
+
+z: unit vector down; g (3,): vertical velocity of the contact per heave, roll and pitch.
+
 v, W and P are in the contacts' axes (normal, t1, t2). W is symmetric and positive semi-definite. It is J M^-1 J^T of
 Guan et al. 2014, equations (10)-(11), with M the 6x6 rigid-body mass plus added mass of each ship, in place of their
 scalar mass and inertia, and with each ship's own arm.
@@ -12,6 +19,7 @@ scalar mass and inertia, and with each ship's own arm.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import hypot
 
 import numpy as np
 
@@ -19,7 +27,10 @@ from ...ship.frames import Array
 from .body_state import BodyState
 from .contact import Contact
 
-__all__ = ["approach_velocities", "delassus", "mobility"]
+__all__ = ["approach_velocities", "delassus", "held_delassus", "mobility"]
+
+ON_END = 1e-12
+"""Least cosine of a trim. A ship on end has no heading; without the limit its pitch would be infinitely mobile."""
 
 
 def approach_velocities(contacts: Sequence[Contact], states: Sequence[BodyState]) -> Array:
@@ -48,3 +59,26 @@ def mobility(c: Contact, states: Sequence[BodyState]) -> Array:
     W: Array = c.G_a @ states[c.a].M_inverse @ c.G_a.T + c.G_b @ states[c.b].M_inverse @ c.G_b.T
     in_axes: Array = c.axes @ W @ c.axes.T
     return in_axes
+
+
+def held_delassus(contacts: Sequence[Contact], states: Sequence[BodyState]) -> Array | None:
+    """H (3k, 3k) [1/kg] in contact axes; None where no motion is held."""
+    H: Array | None = None
+    for body in sorted({body for c in contacts for body in (c.a, c.b)}):
+        if (held := states[body].held) is None:
+            continue
+        rows = np.zeros((3 * len(contacts), 3))
+        for i, c in enumerate(contacts):
+            if body in (c.a, c.b):
+                down = c.axes[:, 2] if body == c.b else -c.axes[:, 2]
+                rows[3 * i : 3 * i + 3] = np.outer(down, _vertical_velocity(c.at, states[body]))
+        added = rows @ held @ rows.T
+        H = added if H is None else H + added
+    return H
+
+
+def _vertical_velocity(at: Array, state: BodyState) -> tuple[float, float, float]:
+    """g: velocity down [m/s] of a point of a body per heave [m/s], roll and pitch [rad/s]."""
+    (c_x, s_x), (x, y) = state.R_applied[:2, 0].tolist(), state.x_applied[:2].tolist()  # heading times cos(trim)
+    north, east = float(at[0]) - x, float(at[1]) - y
+    return 1.0, c_x * east - s_x * north, -(c_x * north + s_x * east) / max(hypot(c_x, s_x), ON_END)

@@ -15,9 +15,9 @@ normal impulse has given back the share e^2 of the work that it took in (Stronge
     E_n = -integral of v_n dp = (1 - e^2) W_c >= 0           energy lost along the normal     [J]
     E_t = -integral of s.dP_t = mu integral of |s| dp >= 0   energy lost to friction          [J]
 
-so energy is never created, whatever the geometry. Newton's restitution (v_n after = -e v_n before) with friction can
-create energy, see tests/oracles/newton_impact.py. Both give the same impulse where slip neither stops nor turns, where
-there is no friction, and where a plastic impact ends in stick.
+so energy is never created, whatever the geometry (but for H_tn in held_motions.py). Newton's restitution (v_n after =
+-e v_n before) with friction can create energy, see tests/oracles/newton_impact.py. Both give the same impulse where
+slip neither stops nor turns, where there is no friction, and where a plastic impact ends in stick.
 
 A jam, in which friction presses the hulls together faster than the normal impulse parts them, needs no special case:
 the slip slows down and stops, and the path goes on from there. W may be singular, as it is for ships that move in the
@@ -78,11 +78,12 @@ class ImpactProcess:
     ending: Ending
 
 
-def solve_impact_process(W: Array, v: Array, mu: float, e: float) -> ImpactProcess:
+def solve_impact_process(W: Array, v: Array, mu: float, e: float, H: Array | None = None) -> ImpactProcess:
     """The end of the impact of one contact with friction mu >= 0 and restitution 0 <= e <= 1.
 
     W (d, d) [1/kg] and v (d,) [m/s] in contact axes, normal first, d = 2 or 3. v is of ship b relative to ship a, with
-    a negative normal part on approach. Raises StepError when no ship can move along the normal.
+    a negative normal part on approach. H (d, d): what held motions add to the slip (held_motions.py).
+    Raises StepError when no ship can move along the normal.
     """
     W, v = np.asarray(W, dtype=float), np.asarray(v, dtype=float)
     d = len(v)
@@ -91,14 +92,17 @@ def solve_impact_process(W: Array, v: Array, mu: float, e: float) -> ImpactProce
     speed, W_nn = -float(v[0]), float(W[0, 0])
     if W_nn <= 0.0:
         raise StepError(f"W_nn = {W_nn:g} 1/kg at a contact must be > 0: neither ship can move along the normal")
+    W_slip = W if H is None else W + H
     # Tangents along the eigenvectors of W_tt.
-    values, axes = np.linalg.eigh(W[1:, 1:] / W_nn)
-    w = axes.T @ W[1:, 0] / W_nn
+    values, axes = np.linalg.eigh(W_slip[1:, 1:] / W_nn)
+    w, n = axes.T @ W_slip[1:, 0] / W_nn, axes.T @ W[1:, 0] / W_nn
     slip = axes.T @ v[1:] / speed
     immobile = values < IMMOBILE
-    values, w = np.where(immobile, 0.0, values), np.where(immobile, 0.0, w)
-    padded = [np.concatenate([x, np.zeros(3 - d)]).tolist() for x in (values, w, slip)]
-    path = _Path(SlipFlow(padded[1][0], padded[1][1], padded[0][0], padded[0][1], mu), e * e, padded[2])
+    values, w, n = (np.where(immobile, 0.0, x) for x in (values, w, n))
+    (A_1, A_2), (w_1, w_2), (n_1, n_2), start = (
+        np.concatenate([x, np.zeros(3 - d)]).tolist() for x in (values, w, n, slip)
+    )
+    path = _Path(SlipFlow(w_1, w_2, n_1, n_2, A_1, A_2, mu), e * e, start)
     ending = _follow(path)
     P = np.concatenate([[path.P[0]], axes @ path.P[1:d]]) * (speed / W_nn)
     unit = speed * speed / W_nn
@@ -122,7 +126,7 @@ class _Path:
         """Add the impulses and works of a stretch that lies as a whole in compression or in restitution."""
         flow = self.flow
         self.P = [self.P[0] + p, self.P[1] + P_1, self.P[2] + P_2]
-        self.v_n += p + flow.w_1 * P_1 + flow.w_2 * P_2
+        self.v_n += p + flow.n_1 * P_1 + flow.n_2 * P_2
         self.slip = [
             self.slip[0] + flow.w_1 * p + flow.A_1 * P_1,
             self.slip[1] + flow.w_2 * p + flow.A_2 * P_2,
@@ -159,7 +163,7 @@ def _follow(path: _Path) -> Ending:
 def _follow_straight(path: _Path, q_1: float, q_2: float, p_most: float) -> bool:
     """Whether the impact ends on the straight path dP/dp = (1, q_1, q_2) before p_most, at which the slip stops."""
     flow = path.flow
-    a_n = 1.0 + flow.w_1 * q_1 + flow.w_2 * q_2  # dv_n/dp
+    a_n = 1.0 + flow.n_1 * q_1 + flow.n_2 * q_2  # dv_n/dp
     if p_most == inf and a_n <= RANK:
         return True  # no impulse in this direction moves the hulls apart
     while True:
@@ -209,7 +213,7 @@ def _follow_slip(path: _Path) -> bool:
             continue
         if event:
             end = _locate_event(path, angle, log_slip, tau, event)
-        path.move(end.p, end.P_1, end.P_2, end.N, _friction_work(path, end))
+        path.move(end.p, end.P_1, end.P_2, end.N, end.E_t)
         if event == "given back" or (event == "turn" and path.turn()):
             return True
         angle, log_slip = end.angle, end.log_slip
@@ -220,22 +224,12 @@ def _follow_slip(path: _Path) -> bool:
     return _follow_straight(path, q_1, q_2, -sigma / g if g < 0.0 else inf)
 
 
-def _friction_work(path: _Path, end: Stretch) -> float:
-    """Energy lost to friction along a stretch: the whole loss less its part along the normal."""
-    flow = path.flow
-    dv_n = end.p + flow.w_1 * end.P_1 + flow.w_2 * end.P_2
-    ds_1, ds_2 = flow.w_1 * end.p + flow.A_1 * end.P_1, flow.w_2 * end.p + flow.A_2 * end.P_2
-    s_1, s_2 = path.slip
-    lost = end.p * (path.v_n + 0.5 * dv_n) + end.P_1 * (s_1 + 0.5 * ds_1) + end.P_2 * (s_2 + 0.5 * ds_2)
-    return -lost + end.N
-
-
 Event = Literal["", "turn", "given back", "shorten"]
 
 
 def _normal_velocity(path: _Path, end: Stretch) -> float:
     """v_n at the end of a stretch."""
-    return path.v_n + end.p + path.flow.w_1 * end.P_1 + path.flow.w_2 * end.P_2
+    return path.v_n + end.p + path.flow.n_1 * end.P_1 + path.flow.n_2 * end.P_2
 
 
 def _find_event(path: _Path, end: Stretch) -> Event:

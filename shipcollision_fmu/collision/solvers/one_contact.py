@@ -1,7 +1,6 @@
 """The exact solution of the law of contact (contact_law.py) at one contact, for any positive definite W (3, 3).
 
-Three cases are tried in turn: apart, stick, slide. Where a degree of freedom is held (heave, in 3 degrees of freedom)
-and the normal slopes, many impulses stop the ships alike. The least of them is taken, with friction at its limit.
+Three cases are tried in turn: apart, stick, slide.
 
 Sliding is one equation for the angle of friction, solved by Newton's method. Newton's method fails where friction is so
 strong that it presses the hulls together on the way, or where the hulls can hardly move in some direction. There the

@@ -33,19 +33,25 @@ MAX_SWEEPS = 1000
 friction stays in its disc, so no law is broken."""
 
 
-def solve_poisson_impact(W: Array, v: Array, mu: float, e: float, start: Array | None = None) -> Solution:
+def solve_poisson_impact(
+    W: Array, v: Array, mu: float, e: float, start: Array | None = None, slip: Array | None = None
+) -> Solution:
     """Impulses of k contacts with restitution e.
 
-    W (3k, 3k) [1/kg] and v (3k,) [m/s] before, in contact axes; start (k, 3): as in solve_gauss_seidel.
+    W (3k, 3k) [1/kg] and v (3k,) [m/s] before, in contact axes; start (k, 3): as in solve_gauss_seidel; slip (3k,):
+    what compression adds to the slip by motions that are held (held_motions.py); restitution adds e times as much.
     """
-    plastic = solve_gauss_seidel(W, v, mu, start)
+    met = v if slip is None else v + slip
+    plastic = solve_gauss_seidel(W, met, mu, start)
     if e <= NO_REBOUND or not plastic.P.any():
         return plastic
     P = plastic.P.ravel()
-    whole = P + _solve_restitution(W, v + W @ P, mu, e * P)
+    if slip is not None:
+        met = met + e * slip
+    whole = P + _solve_restitution(W, met + W @ P, mu, e * P)
     if whole @ (v + 0.5 * W @ whole) > 0.0:
         whole = (1.0 + e) * P
-    last = solve_gauss_seidel(W, v + W @ whole, mu)  # contacts that the rebound of others has closed
+    last = solve_gauss_seidel(W, met + W @ whole, mu)  # contacts that the rebound of others has closed
     residual = max(plastic.residual, last.residual)
     return Solution(whole.reshape(-1, 3) + last.P, residual, plastic.sweeps + last.sweeps)
 

@@ -5,10 +5,13 @@ unit vector D' across D,
 
     dsigma/dp = g(phi) = D.w - mu D.A D          w (2,), A (2, 2): rows of W for the slip, by normal and by friction
     sigma dphi/dp = h(phi) = D'.w - mu D'.A D
+    dv_n/dp       = 1 - mu D.n                            n (2,): row of W for the normal, by friction
 
-These equations are singular where the slip stops. In the time tau with dp = sigma dtau they are regular:
+n = w, but where motions are held (held_motions.py). These equations are singular where the slip stops. In the time tau
+with dp = sigma dtau they are regular:
 
-    dphi/dtau = h,    d(ln sigma)/dtau = g,    dp/dtau = sigma,    dP_t/dtau = -mu sigma D,    dN/dtau = sigma v_n
+    dphi/dtau = h,    d(ln sigma)/dtau = g,    dp/dtau = sigma,    dP_t/dtau = -mu sigma D,
+    dN/dtau = sigma v_n,    dE_t/dtau = mu sigma^2
 
 The slip stops at tau = infinity, along an invariant direction, h = 0, in which the path is straight. The equations are
 integrated by Gragg's midpoint rule with extrapolation (Bulirsch and Stoer). The direction is an angle in axes in which
@@ -41,8 +44,8 @@ State = tuple[float, ...]
 
 @dataclass(frozen=True)
 class Stretch:
-    """A stretch of the path: angle and ln sigma at its end; its impulses p and P_t = (P_1, P_2), and N = integral of
-    v_n dp."""
+    """A stretch of the path: angle and ln sigma at its end; its impulses p and P_t = (P_1, P_2), N = integral of
+    v_n dp, and E_t = mu integral of sigma dp, lost to friction."""
 
     angle: float
     log_slip: float
@@ -50,14 +53,17 @@ class Stretch:
     P_1: float
     P_2: float
     N: float
+    E_t: float
 
 
 @dataclass(frozen=True)
 class SlipFlow:
-    """The slip flow of one contact with w = (w_1, w_2), A = diag(A_1, A_2) and friction mu."""
+    """The slip flow of one contact with w = (w_1, w_2), n = (n_1, n_2), A = diag(A_1, A_2) and friction mu."""
 
     w_1: float
     w_2: float
+    n_1: float
+    n_2: float
     A_1: float
     A_2: float
     mu: float
@@ -83,8 +89,8 @@ class SlipFlow:
 
     def integrate(self, angle: float, log_slip: float, v_n: float, tau: float) -> tuple[Stretch, int | None]:
         """The path over tau from a slip and a normal velocity, and the columns that it took; None: too few."""
-        w_1, w_2, A_1, A_2, mu = self.w_1, self.w_2, self.A_1, self.A_2, self.mu
-        diagonal_1, diagonal_2, across = mu * A_1, mu * A_2, mu * (A_1 - A_2)
+        w_1, w_2, n_1, n_2, mu = self.w_1, self.w_2, self.n_1, self.n_2, self.mu
+        diagonal_1, diagonal_2, across = mu * self.A_1, mu * self.A_2, mu * (self.A_1 - self.A_2)
 
         def derivative(y: State) -> State:
             c, s, sigma = cos(y[0]), sin(y[0]), exp(y[1])
@@ -95,10 +101,11 @@ class SlipFlow:
                 sigma,
                 friction * c,
                 friction * s,
-                sigma * (v_n + y[2] + w_1 * y[3] + w_2 * y[4]),
+                sigma * (v_n + y[2] + n_1 * y[3] + n_2 * y[4]),
+                -friction * sigma,
             )
 
-        end, columns = _extrapolate(derivative, (angle, log_slip, 0.0, 0.0, 0.0, 0.0), tau)
+        end, columns = _extrapolate(derivative, (angle, log_slip, 0.0, 0.0, 0.0, 0.0, 0.0), tau)
         return Stretch(*end), columns
 
     def solve_reslip(self) -> tuple[float, float]:
