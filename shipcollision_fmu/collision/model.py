@@ -182,9 +182,9 @@ class ShipCollision:
     ) -> list[ContactPoint]:
         """Book the impulses, scaled to passivity, and the energy that they cost. Returns the contact points with those
         of the impulses."""
-        impulses, scaled = enforce_passivity(solution.impulses, states)
+        impulses, taken_off = enforce_passivity(solution.impulses, states)
         energies = book_impulses(impulses, states)
-        self._totals.add(solution, scaled, energies)
+        self._totals.add(solution, taken_off, energies)
         shown = remove_self_stress(impulses, states, self.parameters.friction)
         return merge_impulses(points, shown, energies, numbers)
 

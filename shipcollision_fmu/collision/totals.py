@@ -16,6 +16,12 @@ CONVERGED = 1e-9
 at 1e-11; a larger limit would hide inexact impulses from the user."""
 
 
+NOTICEABLE = 1e-4
+"""Velocity [m/s] of a ship, taken off an impulse by passivity.py, from which it counts as scaled. A ship that wind
+holds at a quay loses less by the fluctuation of the wind, in thousands of substeps. With a larger limit a gust that
+ends, and leaves 80 J in a ship of 40 000 t, would not be counted."""
+
+
 _OF_THE_STEP = ("residual", "sweeps", "unconverged_in_step")
 
 
@@ -32,14 +38,14 @@ class Totals:
     sweeps: int = 0
     unconverged_in_step: int = 0
 
-    def add(self, solution: ContactSolution, scaled: bool, energies: Sequence[tuple[float, float]]) -> None:
-        """Count a solved substep. scaled: by passivity.py; energies: lost at each contact [J], along and across the
-        normal."""
+    def add(self, solution: ContactSolution, taken_off: float, energies: Sequence[tuple[float, float]]) -> None:
+        """Count a solved substep. taken_off: velocity [m/s], by passivity.py; energies: lost at each contact [J], along
+        and across the normal."""
         self.residual, self.sweeps = max(self.residual, solution.residual), max(self.sweeps, solution.sweeps)
         missed = solution.residual > CONVERGED
         self.unconverged_in_step += missed
         self.unconverged += missed
-        self.scaled += scaled
+        self.scaled += taken_off > NOTICEABLE
         for along, across in energies:
             self.energy += along + across
             self.energy_normal += along

@@ -277,7 +277,8 @@ def _solver() -> Table:
         ),
         integer(
             "output", "solver.scaled", "outputs.solver.scaled",
-            "Contact problems so far whose impulses were scaled back so as not to add energy", minimum=0, depends_on=(),
+            "Contact problems so far whose impulses were scaled back so as not to add energy, by more than 0.1 mm/s of "
+            "a ship's velocity", minimum=0, depends_on=(),
         ),
     )  # fmt: skip
 

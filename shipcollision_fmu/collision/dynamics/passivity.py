@@ -11,6 +11,7 @@ Obstacles do not move, and connect no groups.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import hypot
 
 from ...ship.frames import Array
 from .body_state import BodyState
@@ -22,18 +23,19 @@ ROUNDING = 1e-9
 """Gain, as a share of the work of the impulses, that is rounding. With zero, exact elastic impacts would be scaled."""
 
 
-def enforce_passivity(impulses: Sequence[Impulse], states: Sequence[BodyState]) -> tuple[list[Impulse], bool]:
-    """(the impulses, scaled where they would add energy; whether any were)."""
+def enforce_passivity(impulses: Sequence[Impulse], states: Sequence[BodyState]) -> tuple[list[Impulse], float]:
+    """(the impulses, scaled where they would add energy; the largest velocity [m/s] that a body lost by it)."""
     passive: list[Impulse] = []
-    scaled = False
+    taken_off = 0.0
     for group in _groups(impulses, states) if impulses else ():
-        s = _scale(group, states)
-        scaled |= s != 1.0
+        s, speed = _scale(group, states)
+        taken_off = max(taken_off, (1.0 - s) * speed)
         passive += group if s == 1.0 else [Impulse(i.contact, s * i.P) for i in group]
-    return passive, scaled
+    return passive, taken_off
 
 
-def _scale(group: Sequence[Impulse], states: Sequence[BodyState]) -> float:
+def _scale(group: Sequence[Impulse], states: Sequence[BodyState]) -> tuple[float, float]:
+    """The factor s of a group, and where it is not 1 the largest change of the velocity of CO by the group [m/s]."""
     work, J = 0.0, dict[int, Array]()
     for impulse, v in zip(group, energy_velocities([i.contact for i in group], states), strict=True):
         c, P = impulse.contact, impulse.P
@@ -42,10 +44,11 @@ def _scale(group: Sequence[Impulse], states: Sequence[BodyState]) -> float:
         work += float(P @ v)
         for body, J_body in ((c.a, -(P @ c.G_a)), (c.b, P @ c.G_b)):
             J[body] = J[body] + J_body if body in J else J_body
-    quadratic = sum(float(J_body @ states[body].M_inverse @ J_body) for body, J_body in J.items())
+    changes = {body: states[body].M_inverse @ J_body for body, J_body in J.items()}
+    quadratic = sum(float(J[body] @ change) for body, change in changes.items())
     if quadratic <= 0.0 or work + 0.5 * quadratic <= ROUNDING * (abs(work) + quadratic):
-        return 1.0
-    return max(0.0, -2.0 * work / quadratic)
+        return 1.0, 0.0
+    return max(0.0, -2.0 * work / quadratic), max(hypot(*change[:3].tolist()) for change in changes.values())
 
 
 def _groups(impulses: Sequence[Impulse], states: Sequence[BodyState]) -> list[list[Impulse]]:
