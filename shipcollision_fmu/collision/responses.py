@@ -23,7 +23,7 @@ from .dynamics.delassus import approach_velocities, delassus, held_delassus
 from .solvers.held_motions import yield_to_friction
 from .solvers.impact_process import solve_impact_process
 from .solvers.poisson_restitution import solve_poisson_impact
-from .solvers.resultant_contact import reduce_to_resultant
+from .solvers.touching_pair import TouchingPair
 from .solvers.warm_start import guess_impulses, keep_impulses
 
 __all__ = ["RESPONSES", "respond_bullet", "respond_closed_form", "respond_pgs"]
@@ -31,6 +31,14 @@ __all__ = ["RESPONSES", "respond_bullet", "respond_closed_form", "respond_pgs"]
 AT_REST = 1e-12
 """Approach [m/s] that is the rounding left by a solved contact. With zero, contacts at rest would be solved again in
 every substep, at the cost of an impact."""
+
+
+MAX_ANSWERS = 10
+"""Impacts per pair that touches, in one substep. Fewer leave a row of ships closing, which then depends on the order of
+the answers; more only cost time, since the next substep goes on."""
+
+AT_REST_SHARE = 1e-6
+"""Approach, as a share of the largest of the substep, that is left to the next substep."""
 
 
 def respond_pgs(problem: ContactProblem, caches: ContactCaches) -> ContactSolution:
@@ -57,23 +65,33 @@ def respond_pgs(problem: ContactProblem, caches: ContactCaches) -> ContactSoluti
 def respond_closed_form(problem: ContactProblem, caches: ContactCaches) -> ContactSolution:
     """One pair after the other, each as one impact at its resultant contact (resultant_contact.py, impact_process.py).
 
-    Each pair is solved with the twists that the pairs before it left. Contacts that a substep leaves closing, by the
-    friction of the resultant or by another pair, are solved in the next.
+    The pair that approaches fastest is answered first, with the twists that the impacts before it left: the order in
+    which ships are named does not matter. A pair is answered again when the impact of another one has left it closing.
+    Contacts that a substep leaves closing, by the friction of the resultant or after MAX_ANSWERS, are solved in the
+    next.
     """
-    states, impulses = list(problem.states), []
-    for a, b in problem.pairs:
-        contacts = problem.detector.contacts(a, b, states, caches.last_normals)
-        contact = reduce_to_resultant(contacts, states) if contacts else None
-        if contact is None:  # no contact, or touching but parting
-            impulses += [Impulse(c, np.zeros(3)) for c in contacts]
-            continue
+    states = list(problem.states)
+    touching = [
+        TouchingPair(contacts)
+        for a, b in problem.pairs
+        if (contacts := problem.detector.contacts(a, b, states, caches.last_normals))
+    ]
+    least = AT_REST_SHARE * max((pair.measure_approach(states) for pair in touching), default=0.0)
+    for _ in range(MAX_ANSWERS * len(touching)):
+        pair = max(touching, key=TouchingPair.urgency)
+        if pair.approach <= least:
+            break
+        contact = pair.reduce(states)
         W, velocity = delassus([contact], states), approach_velocities([contact], states)
         H = held_delassus([contact], states)
         process = solve_impact_process(W, velocity, problem.friction, problem.restitution, H)
         P = contact.axes.T @ process.P
         _apply_to_states(contact, P, states)
-        impulses.append(Impulse(contact, P))
-    return ContactSolution(impulses)
+        pair.take(P)
+        for other in touching:
+            if other is not pair and other.shares_ship(pair, states):
+                other.measure_approach(states)
+    return ContactSolution([impulse for pair in touching for impulse in pair.impulses()])
 
 
 def respond_bullet(problem: ContactProblem, caches: ContactCaches) -> ContactSolution:

@@ -128,7 +128,11 @@ def _ship(i: int, s: str) -> Table:
 def _contacts(slots: int) -> Table:
     """The contact points of the step, from 1; unused slots are zero."""
     lines: list[Table] = [(
-        boolean("output", "contact.active", "outputs.contact_active", "Hulls touched in this step", depends_on=()),
+        boolean(
+            "output", "contact.active", "outputs.contact_active",
+            "Hulls touched in this step; a ship that a sequential master stopped rests up to one step's way off, see "
+            "clearance", depends_on=(),
+        ),
         integer(
             "output", "contact.count", "outputs.contact_count", "Contact points in this step, fenders' included",
             minimum=0, maximum=slots, depends_on=(),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import permutations
 
 import numpy as np
 import pytest
@@ -152,3 +153,36 @@ def test_no_approach_no_contact_and_one_contact_is_itself() -> None:
     closing = box_against_box((0, 1, 0, 0, 0, 0), (0, 0, 0, 0, 0, 0))
     (only,) = face(closing, (40.0,))
     assert reduce_to_resultant([only], closing) is only
+
+
+# -- several pairs at once --------------------------------------------------------------------------------------------
+
+WEDGED = [  # a ship runs square into the middle of two that lie side by side, the outer one a little ahead
+    {"position": (0, 0, 0), "attitude": (0, 0, HALF_PI), "nu": (0.5, 0, 0, 0, 0, 0)},
+    {"position": (20.0, 31.0, 0), "nu": (0.3, -1.2, 0, 0, 0, 0.002)},
+    {"position": (-25.0, 31.0 + 30.02, 0), "nu": (0.0, -1.5, 0, 0, 0, -0.001)},
+    {"position": (-160.0, 41.0, 0), "nu": (2.0, -0.3, 0, 0, 0, 0.0)},
+]
+ROW = [
+    {"position": (0.0, 0.0, 0), "nu": (0.2, 2.0, 0, 0, 0, 0)},
+    {"position": (3.0, 30.1, 0), "nu": (0, 0, 0, 0, 0, 0)},
+    {"position": (-4.0, 60.2, 0), "nu": (-0.2, -2.0, 0, 0, 0, 0)},
+]
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.5])
+@pytest.mark.parametrize("start", [WEDGED[:3], ROW, pytest.param(WEDGED, marks=pytest.mark.slow)])
+def test_the_order_in_which_ships_are_named_does_not_matter(
+    make_ship: MakeShip, world: MakeWorld, start: list[dict], restitution: float
+) -> None:
+    ships = [make_ship(f"s{i}", hull=BOX, mass=40e6 + 4e6 * i) for i in range(len(start))]
+    ends = []
+    for order in list(permutations(range(len(start))))[:: 2 if len(start) == 3 else 5]:
+        w = world(
+            [ships[i] for i in order], [start[i] for i in order], response="closed_form", friction=0.3,
+            restitution=restitution, degrees_of_freedom=3, substep=0.05,
+        ).run(1.0, 0.1)  # fmt: skip
+        assert w.model.outputs.collision_count >= 2
+        ends.append(np.array([w.nu[order.index(i)] for i in range(len(start))]))
+    for end in ends[1:]:
+        np.testing.assert_allclose(end, ends[0], rtol=0.0, atol=1e-6)

@@ -222,3 +222,30 @@ def test_a_wind_that_fluctuates_a_little_counts_no_answer_as_scaled(berthed: Mak
     b.model.initialise()
     b.run(30.0, 0.1)
     assert b.model.outputs.solver.scaled == 0
+
+
+@pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
+@pytest.mark.parametrize("push", [0.0, 0.1])
+def test_contact_is_active_in_the_steps_of_touch_and_the_clearance_bounds_the_rest(
+    berthed: MakeBerthed, algorithm: str, push: float
+) -> None:
+    """A sequential master stops a ship by up to one step's way short of the quay. contact.active is then true for one
+    step, and again once a force has closed the gap; the clearance stays below that way. A parallel master lets the
+    hulls overlap, and contact stays active."""
+    H, speed = 0.1, 0.73
+    b = berthed(algorithm, force=lambda t: push * FORCE)
+    b.nu[1] = speed
+    active, gaps = [], []
+    for _ in range(200):
+        b.step(H)
+        active.append(b.model.outputs.contact_active)
+        gaps.append(b.model.outputs.clearance)
+    first = active.index(True)
+    if algorithm == "gauss-seidel":
+        assert not any(active[first + 1 : first + 40])
+        assert 0.0 < gaps[first + 1] <= (speed + push * FORCE / b.M[1, 1] * first * H) * H
+        assert gaps[-1] <= gaps[first + 1] + 1e-9
+        assert any(active[first + 40 :]) == (push > 0.0)
+    else:
+        assert all(active[first:])
+        assert max(gaps[first:]) <= 0.0
