@@ -13,13 +13,14 @@ or so and mean nothing there (X_vvvv would push the ship ahead). Beyond, the for
 ocean and harbour manoeuvring (Yoshimura, Nakao & Ishibashi 2009, MARSIM): the linear terms, with u in the place of U so
 that they turn round when the ship moves astern, and the drag of the cross flow on each section:
 
-    X = 1/2 rho L d   ( -R_0 u |u| + X_vr v r L )
+    X = 1/2 rho L d   ( -R_0 u |u| + min(X_vr, -m_y/2) v r L )
     Y = 1/2 rho L d   ( Y_v |u| v + Y_r u r L - C_D <w |w|> )            w = v + x r, mean over the length
     N = 1/2 rho L^2 d ( N_v u v + N_r |u| r L - C_D C_N <(x/L) w |w|> )
 
-C_N is a number of the ship, as C_rN is in that model: with it, both sets damp yawing alike in the middle of the
-hand-over, so no ship is let go there. Without it, a ship whose N_vvr is large loses half of its damping as its drift
-grows, and winds itself up into a spin:
+The limit of X_vr is that of the early MMG models, X_vr = (C_m - 1) m_y with C_m 0.5 to 0.75 (Hasegawa 1980): where
+the flow has left the hull, half of the sway added mass m_y at most keeps up with the turn. C_N is a number of the ship,
+as C_rN is in the unified model: with it, both sets damp yawing alike in the middle of the hand-over. With C_N = 1, a
+ship whose N_vvr is large loses half of its damping as its drift grows, and winds itself up into a spin:
 
     C_N = ( N_r (cos(beta) - 1) - N_vvr sin^2(beta) ) / ( C_D sin(beta)/6 )          beta = 35 deg, 1 <= C_N <= 2.5
 
@@ -54,6 +55,9 @@ C_N = (1.0, 2.5)
 """Bounds of C_N: the pure cross flow, and somewhat above the 2.2 of KCS, the largest of a measured set. More would
 damp a spin on the spot beyond any measurement."""
 
+C_M = 0.5
+"""C_m, see above: with 1, ships of very low resistance lose their way in a hard turn and end in a spin."""
+
 
 _STEEPEST, _QUICKEST = tan(BETA[0]) * (1.0 - 1e-9), tan(GAMMA[0]) * (1.0 - 1e-9)
 """|v|/u and |r| L/(2 u) below which the cross flow does not count: says the same as the angles, and sooner."""
@@ -69,6 +73,8 @@ class HullForces:
         self._X = (table.R_0, table.X_vv, table.X_vr, table.X_rr, table.X_vvvv)
         self._Y = (table.Y_v, table.Y_r, table.Y_vvv, table.Y_vvr, table.Y_vrr, table.Y_rrr)
         self._N = (table.N_v, table.N_r, table.N_vvv, table.N_vvr, table.N_vrr, table.N_rrr)
+        m_y = float(ship.M_A[1, 1]) / (self._force * ship.L_pp)
+        self._X_vr_beyond = min(table.X_vr, (C_M - 1.0) * m_y)
         self._yaw_drag = C_D * _match_yaw_damping(table.N_r, table.N_vvr)
 
     def __call__(self, u: float, v: float, r: float) -> tuple[float, float, float]:
@@ -101,7 +107,7 @@ class HullForces:
         """Linear terms and cross-flow drag."""
         rL = r * self._L
         drag, drag_moment = integrate_cross_flow(v, 0.5 * rL)
-        X = -self._X[0] * u * abs(u) + self._X[2] * v * rL
+        X = -self._X[0] * u * abs(u) + self._X_vr_beyond * v * rL
         Y = self._Y[0] * abs(u) * v + self._Y[1] * u * rL - C_D * drag
         N = self._N[0] * u * v + self._N[1] * abs(u) * rL - self._yaw_drag * drag_moment
         return self._force * X, self._force * Y, self._moment * N

@@ -5,6 +5,7 @@
     ship_file.py       validate_ship_file(): the tables, one by one and together
     messages.py        describe_error(): one line from a failed validation
     mmg_estimate.py    complete_tables(): an MMG set from L, B, T and C_b
+    rudder_estimate.py estimate_rudder(): a rudder by the type of ship
     assembly.py        assemble_ship(): matrices, and estimates of what is missing
     added_mass_estimate.py    assemble_added_mass(): the file's own, the MMG set's, or estimates
     stability_estimate.py     estimate_stability(), estimate_k_xx(): CG, GM and roll radius by type of ship
