@@ -5,7 +5,7 @@
 P/(2 pi) T is the torque of a screw that turns without slip, and of one whose blades bear a pressure normal to their
 faces, as stalled blades do. What is missing ahead is the friction of the blades and the slip: a and b make Q that of
 the Wageningen B4-70 propeller of the same pitch on the spot and where it has no thrust left. Between them it is within
-5 % of the regression of Oosterveld and van Oossanen (1975), Int. Shipbuilding Progress 22 (tests). Turning astern the
+6 % of the regression of Oosterveld and van Oossanen (1975), Int. Shipbuilding Progress 22 (tests). Turning astern the
 first term stands alone: no torque of the series in that quadrant was found.
 """
 
@@ -16,14 +16,13 @@ from functools import lru_cache
 from math import pi
 from typing import NamedTuple
 
-from .b_series import compute_bollard_pull, find_pitch
-
 __all__ = ["TorqueLaw", "find_idle_advance", "make_torque_law"]
 
-K_Q_SPOT = (
-    (0.6, 0.02481), (0.7, 0.03333), (0.8, 0.04336), (0.9, 0.0548), (1.0, 0.06754), (1.1, 0.08143), (1.2, 0.09631),
+SPOT = (
+    (0.6, 0.2500, 0.02481), (0.7, 0.3021, 0.03333), (0.8, 0.3542, 0.04336), (0.9, 0.4054, 0.05480),
+    (1.0, 0.4547, 0.06754), (1.1, 0.5016, 0.08143), (1.2, 0.5455, 0.09631),
 )  # fmt: skip
-"""P/D and K_Q of B4-70 on the spot, from the regression of Oosterveld and van Oossanen (1975)."""
+"""P/D, K_T and K_Q of B4-70 on the spot, from the regression of Oosterveld and van Oossanen (1975)."""
 
 K_Q_IDLE = (0.00472, 0.0011)
 """K_Q of B4-70 without thrust, at P/D = 0.6 and its rise with P/D; from the same regression."""
@@ -44,13 +43,15 @@ class TorqueLaw(NamedTuple):
 
 @lru_cache(maxsize=64)
 def make_torque_law(k_0: float, k_1: float, k_2: float) -> TorqueLaw:
-    """The law of a propeller with K_T = k_0 + k_1 J + k_2 J^2."""
-    pitch = find_pitch(k_0)
-    k = max(1, min(len(K_Q_SPOT) - 1, bisect_left(K_Q_SPOT, (pitch, 0.0))))
-    (low, Q_low), (high, Q_high) = K_Q_SPOT[k - 1], K_Q_SPOT[k]
-    spot = Q_low + (pitch - low) / (high - low) * (Q_high - Q_low)
+    """The law of a propeller with K_T = k_0 + k_1 J + k_2 J^2; its pitch is that of the series with the same k_0."""
+    k = max(1, min(len(SPOT) - 1, bisect_left([row[1] for row in SPOT], k_0)))
+    (low, T_low, Q_low), (high, T_high, Q_high) = SPOT[k - 1], SPOT[k]
+    share = (k_0 - T_low) / (T_high - T_low)
+    pitch, within = low + share * (high - low), min(1.0, max(0.0, share))
+    pitch = min(SPOT[-1][0], max(SPOT[0][0], pitch))
+    spot = (Q_low + within * (Q_high - Q_low)) * k_0 / (T_low + within * (T_high - T_low))
     arm = pitch / (2.0 * pi)
-    a = spot * k_0 / compute_bollard_pull(pitch) - arm * k_0
+    a = spot - arm * k_0
     idle = K_Q_IDLE[0] + K_Q_IDLE[1] * (pitch - 0.6)
     advance = find_idle_advance(k_0, k_1, k_2)
     return TorqueLaw(arm, a, (idle - a) / advance if advance else 0.0)

@@ -2,7 +2,7 @@
 
     power    = tow P_s (1 + sea margin)/(1 - engine margin)      P_s = 2 pi n_s Q: power at service speed in calm water
     n_rated  = n_s (power/P_s)^(1/3)                             along the propeller law
-    rate     = n_s/(time from full ahead to stop)                reversal_delay, max_astern_rev_per_s: of the machinery
+    rate     = n_rated/(time from full ahead to stop)                reversal_delay, max_astern_rev_per_s: of the machinery
 
 Margins of 15 % and 10 % are those of MAN, Basic principles of ship propulsion. tow: ship_type.py.
 
@@ -39,14 +39,14 @@ class Machinery(NamedTuple):
 
 
 MACHINERY = {
-    "slow diesel": Machinery(30.0, 15.0, 0.7),
+    "slow diesel": Machinery(32.0, 18.0, 0.7),
     "diesel with CPP": Machinery(18.0, 0.0, 0.7),
     "gas turbine with CPP": Machinery(12.0, 0.0, 0.7),
     "azimuth": Machinery(8.0, 0.0, 1.0),
     "diesel with reversing gear": Machinery(5.0, 5.0, 0.7),
     "waterjet": Machinery(4.0, 0.0, 0.7),
 }
-"""Full ahead to full astern: 66, 31, 20, 16, 14 and 7 s. With longer times ships stop later."""
+"""Full ahead to full astern: 72, 31, 20, 16, 14 and 7 s. With longer times ships stop later."""
 
 
 def choose_machinery(of: ShipType, L: float) -> str:
@@ -65,7 +65,7 @@ def estimate_engine(of: ShipType, L: float, service_power: float, n: float) -> t
     over = of.tow * (1.0 + SEA_MARGIN) / (1.0 - ENGINE_MARGIN)
     rated = n * over ** (1.0 / 3.0)
     table = {
-        "rate": n / run, "max_rev_per_s": rated, "max_astern_rev_per_s": astern * rated, "reversal_delay": pause,
+        "rate": rated / run, "max_rev_per_s": rated, "max_astern_rev_per_s": astern * rated, "reversal_delay": pause,
     }  # fmt: skip
     if service_power > 0.0:  # else given revolutions do not drive the ship, and no engine can be sized
         table["power"] = over * service_power
