@@ -136,6 +136,19 @@ def test_ships_and_scenarios_are_listed() -> None:
     assert "kvlcc2_crossing" in scenarios.stdout
 
 
+def test_a_ship_shows_its_figures() -> None:
+    shown = called("ships", "guan2014_target_manoeuvring")
+    assert shown.exit_code == 0, shown.output
+    for figure in ("GM_T", "roll period", "service speed", "rated power", "bollard pull", "crash stop, track reach"):
+        assert figure in shown.stdout, figure
+    assert "  [engine] rate = " in shown.stdout  # an estimate is told as one
+    coasting = called("ships", "guan2014_own")
+    assert coasting.exit_code == 0
+    assert "note: it coasts" in coasting.stdout
+    unknown = called("ships", "kvlc2")
+    assert (unknown.exit_code, unknown.stderr.count("did you mean kvlcc2?")) == (2, 1)
+
+
 def test_build_and_validate(folder: Path) -> None:
     built = called("build", "--out", "fmus")
     assert built.exit_code == 0, built.stderr

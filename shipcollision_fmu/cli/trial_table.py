@@ -38,7 +38,7 @@ def format_track_csv(trial: Trial) -> str:
 
 def _judge(start: SteadyCourse, figure: Figure) -> str:
     if figure.within is None:
-        return ""
+        return "no verdict" if figure.doubtful and figure.limit is not None else ""
     verdict = "kept" if figure.within else "NOT KEPT"
     if not figure.within and figure.waived is not None and figure.value <= figure.waived:
         verdict = f"NOT KEPT; {figure.waived:g} may be allowed to large displacements"

@@ -64,5 +64,7 @@ def trial(
     if out is not None:
         write_file(out, format_track_csv(trial_run))
     console().print(make_trial_table(start, trial_run))
+    if trial_run.doubt:
+        click.echo(trial_run.doubt)
     if out is not None:
         click.echo(f"stored in {out}")

@@ -122,7 +122,7 @@ class ShipManoeuvring:
             propeller_speed = set_up.mmg.limit_revolutions(eta, nu, propeller_speed, self._surroundings())
             machines = Machines(0.0, propeller_speed, set_up.mmg.engine.find_gear(propeller_speed))
         forces = self._compute_forces(set_up.mmg, eta, nu, machines)
-        self._set_up, self.warning = set_up, warning
+        self._set_up, self.warning = set_up, "; ".join(filter(None, (warning, *set_up.ship.suspicious)))
         self._publish(State(eta, nu, _ZERO, *machines, *forces))
 
     def _prepare(self) -> _SetUp:

@@ -16,7 +16,8 @@ __all__ = ["Ship"]
 class Ship:
     """A ship: main dimensions [m], mass [kg], inertia matrices (6, 6) about CO in b (read-only), and its tables.
 
-    `estimated` lists each value that the file leaves out, with the formula used instead.
+    `estimated` lists each value that the file leaves out, with the formula used instead; `suspicious` each value that
+    is accepted, but looks like one in another unit.
     """
 
     name: str
@@ -42,6 +43,7 @@ class Ship:
     seakeeping: SeakeepingTable
     wind: WindTable
     estimated: tuple[str, ...]
+    suspicious: tuple[str, ...] = ()
 
     @property
     def C_b(self) -> float:

@@ -19,6 +19,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from .ship import Ship
+from .ship_type import find_ship_type
 
 __all__ = ["BLENDERMANN", "Windage", "compute_windage"]
 
@@ -43,12 +44,8 @@ BLENDERMANN: dict[str, tuple[float, float, float, float, float]] = {
 }
 """C_Dt, C_Dl bow, C_Dl stern, delta, kappa."""
 
-TYPE_BY_WORD = {
-    "container": "container ship, loaded", "tanker": "tanker, loaded", "car carrier": "car carrier", "ferry": "ferry",
-    "fishing": "fishing vessel", "passenger": "passenger liner", "supply": "offshore supply vessel",
-    "research": "research vessel",
-}  # fmt: skip
-"""Blendermann's type for a word in [ship] kind; a cargo vessel where no word is found."""
+_NEAREST = {"bulk carrier": "cargo vessel, loaded", "tug": "offshore supply vessel"}
+"""Blendermann's type for a type that he has not."""
 
 
 @dataclass(frozen=True)
@@ -72,7 +69,8 @@ def compute_windage(ship: Ship) -> Windage:
     table, notes = ship.wind, []
     kind: str | None = table.type
     if kind is None:
-        kind = next((t for word, t in TYPE_BY_WORD.items() if word in ship.kind.lower()), "cargo vessel, loaded")
+        name = find_ship_type(ship.kind).name
+        kind = _NEAREST.get(name, name)
         notes.append(f"[wind] type = {kind!r}")
     freeboard, house = ship.hull.depth - ship.T, 0.07 * ship.L_pp
     side, front = 0.12 * ship.L_pp * house, 0.6 * ship.B * house

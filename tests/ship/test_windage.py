@@ -8,13 +8,14 @@ from typing import get_args
 import pytest
 
 from shipcollision_fmu.ship.loading.library import load_ship
+from shipcollision_fmu.ship.ship_type import SHIP_TYPES
 from shipcollision_fmu.ship.tables.particulars import WindType
-from shipcollision_fmu.ship.windage import BLENDERMANN, TYPE_BY_WORD, compute_windage
+from shipcollision_fmu.ship.windage import BLENDERMANN, compute_windage
 
 
 def test_every_type_has_its_coefficients() -> None:
     assert set(get_args(WindType)) == set(BLENDERMANN)
-    assert set(TYPE_BY_WORD.values()) <= set(BLENDERMANN)
+    assert set(BLENDERMANN) <= set(SHIP_TYPES)
     for C_Dt, bow, stern, delta, kappa in BLENDERMANN.values():
         assert 0.7 <= C_Dt <= 1.0
         assert min(bow, stern) >= 0.4

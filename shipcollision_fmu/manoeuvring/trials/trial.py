@@ -3,17 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
-from math import hypot
+from dataclasses import dataclass, field, replace
+from math import atan2, degrees, hypot
 
 from ...errors import StepError
+from ..hull_forces import BETA
 from ..model import ShipManoeuvring
 from .steady_course import STEP, SteadyCourse, make_model
 
-__all__ = ["Figure", "Moment", "Trial", "find_moment_of_heading", "sail_trial"]
+__all__ = ["Figure", "Moment", "Trial", "find_moment_of_heading", "make_trial", "sail_trial"]
 
 PATIENCE = 150.0
 """Lengths at the steady speed after which a trial that has not ended is given up."""
+
+WIDEST_DRIFT = 0.5 * (BETA[0] + BETA[1])
+"""[rad] |beta| in the middle of the hand-over from the hull's polynomials to the cross flow. Beyond, the set makes less
+than half of the hull's forces, and a figure says nothing of the ship."""
+
+TIGHTEST = 1.5
+"""|r'| = |r| L/U. Sets are fitted up to 0.8 or so, and ships turn with 1.3 at most (a radius of 0.77 L). A set that
+spins on the spot would keep all of IMO's limits."""
+
+SLOW = 0.2
+"""Of the approach speed: below it, at the end of a crash stop, drift is without meaning."""
 
 
 @dataclass(frozen=True)
@@ -41,30 +53,55 @@ class Moment:
 
 @dataclass(frozen=True)
 class Figure:
-    """A result: name, value, unit, IMO's limit where there is a limit, and the limit that may be allowed instead."""
+    """A result: name, value, unit, IMO's limit where there is a limit, and the limit that may be allowed instead.
+
+    doubtful: the trial left the range of the hull's polynomials, so there is no verdict.
+    """
 
     name: str
     value: float
     unit: str
     limit: float | None = None
     waived: float | None = None
+    doubtful: bool = False
 
     @property
     def within(self) -> bool | None:
-        """Whether the limit is kept, None where there is none."""
-        return None if self.limit is None else self.value <= self.limit
+        """Whether the limit is kept, None where there is none or the figure is doubtful."""
+        return None if self.limit is None or self.doubtful else self.value <= self.limit
 
 
 @dataclass(frozen=True)
 class Trial:
-    """A finished trial: its title, its figures by name, and the track."""
+    """A finished trial: its title, its figures by name, the track, and why there is no verdict, else ''."""
 
     title: str
     figures: dict[str, Figure]
     track: list[Moment] = field(repr=False)
+    doubt: str = ""
 
     def __getitem__(self, name: str) -> float:
         return self.figures[name].value
+
+
+def make_trial(start: SteadyCourse, title: str, figures: list[Figure], track: list[Moment]) -> Trial:
+    """The trial with its figures; without a verdict where the ship left the range of the hull's polynomials."""
+    doubt = _describe_excess(track, start.ship.L_pp)
+    return Trial(title, {f.name: replace(f, doubtful=bool(doubt)) for f in figures}, track, doubt)
+
+
+def _describe_excess(track: list[Moment], L: float) -> str:
+    least = SLOW * track[0].speed
+    moving = [now for now in track if now.speed > least]
+    drift = max(abs(atan2(now.sway, now.surge)) for now in moving)
+    turn = max(L * abs(now.yaw_rate) / now.speed for now in moving)
+    if drift <= WIDEST_DRIFT and turn <= TIGHTEST:
+        return ""
+    return (
+        f"no verdict: the ship drifts by up to {degrees(drift):.0f} deg and turns with up to r L/U = {turn:.2f}; the "
+        f"polynomials of [manoeuvring] hold up to {degrees(WIDEST_DRIFT):.0f} deg and {TIGHTEST}: look at the signs "
+        "and sizes of the set, above all of N_v, N_r and gamma_R"
+    )
 
 
 def sail_trial(

@@ -20,6 +20,8 @@ speed; L/V is length over test speed [s].
     yaw checking, 20/20         first overshoot <= 25 deg
     stopping ability            track reach <= 15 L; an Administration may allow a ship of large displacement up to 20 L
 
+Where the ship drifts or turns so fast that the hull's polynomials no longer hold, there is no verdict (trial.py).
+
 Distances are of midship (CO), from where it was when the order was given. The water is at rest and deep.
 """
 
@@ -29,7 +31,7 @@ from math import atan2, degrees, hypot, isfinite, pi, radians
 
 from ...errors import ScenarioError
 from .steady_course import SteadyCourse
-from .trial import Figure, Moment, Trial, find_moment_of_heading, sail_trial
+from .trial import Figure, Moment, Trial, find_moment_of_heading, make_trial, sail_trial
 
 __all__ = ["sail_crash_stop", "sail_turning_circle", "sail_zigzag"]
 
@@ -72,7 +74,7 @@ def sail_turning_circle(start: SteadyCourse, rudder_deg: float, *, port: bool = 
         Figure("time to 180 deg", at_180.time, "s"),
     ]
     side = "port" if port else "starboard"
-    return Trial(f"turning circle, {rudder_deg:g} deg to {side}", {f.name: f for f in figures}, track)
+    return make_trial(start, f"turning circle, {rudder_deg:g} deg to {side}", figures, track)
 
 
 def sail_zigzag(start: SteadyCourse, rudder_deg: float, heading_deg: float, *, port: bool = False) -> Trial:
@@ -118,7 +120,7 @@ def sail_zigzag(start: SteadyCourse, rudder_deg: float, heading_deg: float, *, p
         Figure("period", executes[2][0].time - executes[0][0].time, "s"),
     ]
     first = "port" if port else "starboard"
-    return Trial(f"zigzag {rudder_deg:g}/{heading_deg:g}, {first} first", {f.name: f for f in figures}, track)
+    return make_trial(start, f"zigzag {rudder_deg:g}/{heading_deg:g}, {first} first", figures, track)
 
 
 def sail_crash_stop(start: SteadyCourse, *, rev_per_s: float | None = None) -> Trial:
@@ -147,7 +149,7 @@ def sail_crash_stop(start: SteadyCourse, *, rev_per_s: float | None = None) -> T
         Figure("time to stop", end.time, "s"),
         Figure("change of heading", degrees(end.heading), "deg"),
     ]
-    return Trial(f"crash stop, {astern:g} rev/s astern", {f.name: f for f in figures}, track)
+    return make_trial(start, f"crash stop, {astern:.4g} rev/s astern", figures, track)
 
 
 def _compute_overshoot_limits(rudder_deg: float, heading_deg: float, L_over_V: float) -> tuple[float | None, ...]:

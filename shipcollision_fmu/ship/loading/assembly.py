@@ -68,7 +68,7 @@ def assemble_ship(content: ShipFile, file: str) -> Ship:
         L_pp=p.L_pp, L_oa=L_oa, B=p.B, T=p.T, mass=p.mass, rho=p.rho, r_bg=r_bg, M_RB=M_RB, M_A=M_A, M=M,
         GM_T=p.GM_T, GM_L=p.GM_L, hull=content.hull, manoeuvring=content.manoeuvring, propeller=content.propeller,
         rudder=content.rudder, engine=content.engine, seakeeping=content.seakeeping, wind=content.wind,
-        estimated=tuple(estimated),
+        estimated=tuple(estimated), suspicious=_list_suspicious(content),
     )  # fmt: skip
     return ship if ship.manoeuvring is None else replace(ship, estimated=(*estimated, *_list_sailing_estimates(ship)))
 
@@ -86,6 +86,18 @@ def _place_centre_of_gravity(content: ShipFile, estimated: list[str]) -> tuple[A
         return np.zeros(3), None
     estimated.append(stability.note)
     return np.array([0.0, 0.0, p.T - stability.KG]), stability.GM
+
+
+def _list_suspicious(content: ShipFile) -> tuple[str, ...]:
+    """What may be right, but looks like a number in another unit."""
+    p = content.particulars
+    x_G = p.r_bg[0] if p.r_bg is not None else 0.0
+    if content.manoeuvring is None or not 0.0 < abs(x_G) <= 0.1 or p.L_pp < 20.0:
+        return ()
+    return (
+        f"[particulars] r_bg: x = {x_G} m looks like x_G/L_pp, but CG is given in metres: leave it if it is meant so, "
+        f"else give {x_G * p.L_pp:.4g}",
+    )
 
 
 def _list_sailing_estimates(ship: Ship) -> tuple[str, ...]:

@@ -2,7 +2,7 @@
 
     power    = tow P_s (1 + sea margin)/(1 - engine margin)      P_s = 2 pi n_s Q: power at service speed in calm water
     n_rated  = n_s (power/P_s)^(1/3)                             along the propeller law
-    rate     = n_rated/(time from full ahead to stop)                reversal_delay, max_astern_rev_per_s: of the machinery
+    rate     = n_rated/(time from full ahead to stop)    reversal_delay, max_astern_rev_per_s: of the machinery
 
 Margins of 15 % and 10 % are those of MAN, Basic principles of ship propulsion. tow: ship_type.py.
 

@@ -31,6 +31,10 @@ C_B_TOLERANCE = 0.02
 """Relative difference allowed between a given C_b and the one from the mass: published C_b have two digits."""
 
 
+MMG_X_G = 0.15
+"""x_G over L_pp of a ship with [manoeuvring]; ships in service stay within 0.05."""
+
+
 class ShipFile(Table):
     """A whole ship file."""
 
@@ -114,6 +118,28 @@ class ShipFile(Table):
                 raise ValueError(
                     f"[added_mass] {', '.join(twice)} and [manoeuvring] m_x, m_y, J_z are two added masses of one "
                     "ship: remove one of the two sets"
+                )
+        return self
+
+    @model_validator(mode="after")
+    def _check_mmg_sizes(self) -> ShipFile:
+        if self.manoeuvring is None:
+            return self
+        p = self.particulars
+        x_G = p.r_bg[0] if p.r_bg is not None else 0.0
+        if abs(x_G) > MMG_X_G * p.L_pp:
+            raise ValueError(
+                f"[particulars] r_bg: x = {x_G} m is {x_G / p.L_pp:.2g} L_pp, with [manoeuvring] at most {MMG_X_G} "
+                "either way: give CG in metres forward of midship, not from the after perpendicular"
+            )
+        own = 2.0 * p.mass / (p.rho * p.L_pp**2 * p.T)  # the mass over 1/2 rho L^2 T
+        for key, most, power in (("m_x", 1.0, 2), ("m_y", 2.0, 2), ("J_z", 0.15, 4)):
+            value = getattr(self.manoeuvring, key)
+            if value is not None and value > most * own:
+                raise ValueError(
+                    f"[manoeuvring] {key} = {value:.6g} is {value / own:.3g} times the ship's own m' = {own:.3g}, must "
+                    f"be at most {most:g} times: give it over 1/2 rho L_pp^{power} T = "
+                    f"{0.5 * p.rho * p.L_pp**power * p.T:.4g}, neither in kg or kg m2 nor as a fraction of the ship's"
                 )
         return self
 

@@ -11,6 +11,10 @@ from .table import NotNegative, Positive, Table
 __all__ = ["EngineTable", "ManoeuvringTable", "PropellerTable", "RudderTable"]
 
 
+Fraction = Annotated[float, Field(ge=-0.7, le=0.7)]
+"""A place on the ship over its length; larger ones are in metres."""
+
+
 class ManoeuvringTable(Table):
     """[manoeuvring]: hull derivatives of the MMG standard model, non-dimensional (primed), about midship.
 
@@ -55,7 +59,7 @@ class PropellerTable(Table):
     D_p: Positive = Field(description="the diameter [m]")
     t_P: Annotated[float, Field(ge=0.0, lt=1.0)] = Field(description="the thrust deduction fraction")
     w_P0: Annotated[float, Field(ge=0.0, lt=1.0)] = Field(description="the wake fraction in straight motion")
-    x_P: float = Field(description="the propeller's effective position x_P / L in the wake formula")
+    x_P: Fraction = Field(description="the propeller's effective position x_P / L in the wake formula, not in metres")
     C_1: NotNegative = Field(description="C_1 of the wake formula")
     C_2_plus: Positive = Field(description="C_2 of the wake formula for beta_P > 0")
     C_2_minus: Positive = Field(description="C_2 of the wake formula for beta_P < 0")
@@ -78,9 +82,13 @@ class RudderTable(Table):
     f_alpha: Positive = Field(description="the slope of the normal force coefficient [1/rad]")
     t_R: float = Field(description="the steering resistance deduction")
     a_H: float = Field(description="the rudder force increase on the hull")
-    x_H: float = Field(description="where that increase acts, x_H / L")
-    x_R: float = Field(description="the rudder's position x_R / L")
-    l_R: float = Field(description="the effective position l_R / L in the inflow formula")
+    x_H: Fraction = Field(description="where that increase acts, x_H / L, not in metres")
+    x_R: Annotated[float, Field(ge=-0.6, le=-0.3)] = Field(
+        description="the rudder's position x_R / L, forward of midship, not in metres"
+    )
+    l_R: Annotated[float, Field(ge=-2.0, le=2.0)] = Field(
+        description="the effective position l_R / L in the inflow formula, not in metres"
+    )
     gamma_R_minus: float = Field(description="the flow straightening for beta_R < 0")
     gamma_R_plus: float = Field(description="the flow straightening for beta_R > 0")
     epsilon: Positive = Field(description="the wake ratio between rudder and propeller")

@@ -45,7 +45,8 @@ def test_a_steady_turn_is_a_circle_of_its_radius() -> None:
 def test_limits_are_those_of_the_resolution_at_35_degrees() -> None:
     limits = {name: figure.limit for name, figure in circle("kvlcc2", False).figures.items() if figure.limit}
     assert limits == {"advance": 4.5, "tactical diameter": 5.0}
-    assert all(f.within in (True, None) for f in circle("kvlcc2", False).figures.values())
+    assert all(f.within is (None if f.limit is None else True) for f in circle("kvlcc2", False).figures.values())
+    assert circle("kvlcc2", False).doubt == ""
     gentle = sail_turning_circle(find_steady_course("kvlcc2"), 20.0)
     assert {figure.limit for figure in gentle.figures.values()} == {None}
     assert gentle["tactical diameter"] > circle("kvlcc2", False)["tactical diameter"]
