@@ -93,14 +93,14 @@ def make_trial(start: SteadyCourse, title: str, figures: list[Figure], track: li
 def _describe_excess(track: list[Moment], L: float) -> str:
     least = SLOW * track[0].speed
     moving = [now for now in track if now.speed > least]
-    drift = max(abs(atan2(now.sway, now.surge)) for now in moving)
+    drift_angle = max(abs(atan2(now.sway, now.surge)) for now in moving)
     turn = max(L * abs(now.yaw_rate) / now.speed for now in moving)
-    if drift <= WIDEST_DRIFT and turn <= TIGHTEST:
+    if drift_angle <= WIDEST_DRIFT and turn <= TIGHTEST:
         return ""
     return (
-        f"no verdict: the ship drifts by up to {degrees(drift):.0f} deg and turns with up to r L/U = {turn:.2f}; the "
-        f"polynomials of [manoeuvring] hold up to {degrees(WIDEST_DRIFT):.0f} deg and {TIGHTEST}: look at the signs "
-        "and sizes of the set, above all of N_v, N_r and gamma_R"
+        f"no verdict: the ship drifts by up to {degrees(drift_angle):.0f} deg and turns with up to r L/U = {turn:.2f}; "
+        f"the polynomials of [manoeuvring] hold up to {degrees(WIDEST_DRIFT):.0f} deg and {TIGHTEST}: look at the "
+        "signs and sizes of the set, above all of N_v, N_r and gamma_R"
     )
 
 
