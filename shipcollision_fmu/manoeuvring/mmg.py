@@ -77,6 +77,9 @@ class Mmg(ABC):
     shortest_time: float = float("inf")
     """1/w of the fastest free oscillation [s]: substeps must be shorter."""
 
+    _surge: int
+    """Place of u among the integrated quantities."""
+
     def __init__(self, ship: Ship) -> None:
         if ship.manoeuvring is None:
             raise ShipError(
@@ -149,13 +152,16 @@ class Mmg(ABC):
         dt = h / substeps
         delta, n, gear = machines
         rudder_order, propeller_order = orders
+        still, surge = around.current_north == 0.0 == around.current_east, self._surge
         x, moved, derivative, limit = self._pack(eta, nu), self._add_scaled, self._derivative, self._torque_limit
         for _ in range(substeps):
             delta_mid = self.steering.follow(delta, rudder_order, 0.5 * dt)
             delta_end = self.steering.follow(delta, rudder_order, dt)
             n_mid, _half = self.engine.follow(n, gear, propeller_order, 0.5 * dt)
             n_end, gear = self.engine.follow(n, gear, propeller_order, dt)
-            if limit is not None and (n or n_end):
+            if limit is not None and not (
+                still and n >= 0.0 <= n_end and limit.is_surely_free(x[surge], max(n, n_end))
+            ):
                 least, most = limit.find_range(self._find_inflow(x, around))
                 n, n_mid, n_end = (min(most, max(least, speed)) for speed in (n, n_mid, n_end))
             a = derivative(x, delta, n, around)

@@ -32,6 +32,8 @@ ZERO: Planar = (0.0, 0.0, 0.0)
 class Mmg3Dof(Mmg):
     """One ship in three degrees of freedom. What is integrated: x, y, psi, u, v, r."""
 
+    _surge = 3
+
     def __init__(self, ship: Ship) -> None:
         super().__init__(ship)
         self._m_u = float(ship.M[0, 0])  # m + m_x

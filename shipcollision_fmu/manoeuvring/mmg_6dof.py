@@ -50,6 +50,8 @@ class Mmg6Dof(Mmg):
     Raises ShipError when it does not float upright.
     """
 
+    _surge = 6
+
     def __init__(self, ship: Ship, degrees_of_freedom: int) -> None:
         super().__init__(ship)
         sea = compute_seakeeping(ship)

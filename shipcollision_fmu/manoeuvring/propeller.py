@@ -96,7 +96,8 @@ class Propeller:
         def compute_torque(u_P: float, x: float) -> float:
             return law.compute(self.compute_thrust(u_P, x / self.D_P) / self.unit, u_P, x)
 
-        return TorqueLimit(compute_torque, self.D_P, self.unit / self.D_P**2, most_torque)
+        least_wake = self._through * min(1.0, 1.0 + self._plus, 1.0 + self._minus)
+        return TorqueLimit(compute_torque, self.D_P, self.unit / self.D_P**2, most_torque, least_wake)
 
     def _measured(self, u_P: float, nD: float) -> float:
         """That of the series [N]."""

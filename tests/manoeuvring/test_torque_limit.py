@@ -94,6 +94,22 @@ def test_the_torque_is_the_engines_at_both_limits(u_P: float, tmp_path: Path) ->
     assert least == 0.0 or -torque_of(ship, u_P, least) == pytest.approx(most_torque, rel=0.02)
 
 
+def test_what_is_surely_free_is_within_the_limit(tmp_path: Path) -> None:
+    """At any speed and drift. At service speed and revolutions, where ships sail for hours, the glance is enough."""
+    ship = load_ship(written(tmp_path, TANKER))
+    limit, _ = limit_of(ship)
+    assert ship.propeller is not None
+    assert ship.propeller.service_speed is not None
+    assert ship.propeller.service_rev_per_s is not None
+    assert limit.is_surely_free(ship.propeller.service_speed, ship.propeller.service_rev_per_s)
+    propeller = Propeller(ship, ship.propeller)
+    for u in (0.0, 0.3, 2.0, 5.0, 7.7, 30.0):
+        for beta in (-0.5, 0.0, 0.5):
+            most = limit.find_range(propeller.compute_inflow(u, 10.0, beta, 0.0))[1]
+            assert not limit.is_surely_free(u, most * (1.0 + 1e-9))
+    assert not limit.is_surely_free(-1.0, 0.1)
+
+
 def test_power_goes_with_the_cube_of_the_revolutions(tmp_path: Path) -> None:
     """Twice the power at the same rated revolutions: sqrt(2) of the revolutions on the spot."""
     ship = load_ship(written(tmp_path, TANKER))
