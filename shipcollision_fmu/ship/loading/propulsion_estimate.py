@@ -39,6 +39,10 @@ K_T = (0.35, -0.30, -0.16)
 LARGEST_PROPELLER = 9.9
 """[m] Of ships in service; without it the propeller of a VLCC would be larger than any."""
 
+HEAVIEST = 330e6
+"""[kg] The heaviest ship that one such propeller is made for, a VLCC. A heavier one has the disc of several:
+with a single one, a ship of a million tonnes takes 22 lengths to stop."""
+
 
 def estimate_service_speed(d: Dimensions, of: ShipType) -> float:
     """[m/s]"""
@@ -53,8 +57,10 @@ def estimate_wake(d: Dimensions) -> float:
 def estimate_propeller(d: Dimensions, of: ShipType) -> dict[str, float]:
     """The table [propeller] without service_rev_per_s."""
     w_P0 = estimate_wake(d)
+    mass = d.rho * d.C_b * d.L * d.B * d.T
+    largest = LARGEST_PROPELLER * max(1.0, sqrt(mass / HEAVIEST))
     return {
-        "D_p": min(0.7 * d.T, LARGEST_PROPELLER), "t_P": 0.6 * w_P0, "w_P0": w_P0, "x_P": -0.48,
+        "D_p": min(0.7 * d.T, largest), "t_P": 0.6 * w_P0, "w_P0": w_P0, "x_P": -0.48,
         "C_1": 2.0, "C_2_plus": 1.0 / (1.0 - w_P0), "C_2_minus": 1.0 / (1.0 - w_P0),
         "k_0": K_T[0], "k_1": K_T[1], "k_2": K_T[2], "service_speed": estimate_service_speed(d, of),
     }  # fmt: skip
