@@ -34,8 +34,8 @@ from shipcollision_fmu.ship.frames import rotation
 from shipcollision_fmu.ship.loading.library import find_models
 from shipcollision_fmu.ship.ship import Ship
 
-RUNS = tuple((algorithm, step) for algorithm in ("gauss-seidel", "jacobi") for step in (0.01, 0.1))
-"""Algorithm of the master and communication step [s] of the runs: both masters, with the least and the greatest gap."""
+RUNS = tuple((algorithm, step) for algorithm in ("gauss-seidel", "jacobi") for step in (0.01, 0.02, 0.05, 0.1))
+"""Algorithm of the master and communication step [s] of the runs: both masters, with gaps of several lengths."""
 
 
 @dataclass(frozen=True)

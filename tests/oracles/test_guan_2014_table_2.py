@@ -58,6 +58,29 @@ def test_all_24_numbers_after_are_within_their_tolerances(run: Run) -> None:
     assert sum(r["printed"] != r["paper"] for r in rows) == 2  # row r of either ship
 
 
+@pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
+@pytest.mark.parametrize("step", [0.01, 0.02, 0.05, 0.1])
+def test_all_24_numbers_hold_with_both_masters_at_four_steps(scenario: Scenario, algorithm: str, step: float) -> None:
+    rows = simulate(scenario, algorithm=algorithm, step=step, in_process=True).summary["paper"]
+    assert [(r["ship"], r["quantity"], r["difference"], r["tolerance"]) for r in rows if not r["within"]] == []
+
+
+@pytest.mark.slow
+def test_both_masters_converge_to_one_roll_rate(scenario: Scenario) -> None:
+    """Target's w_y with ever shorter steps and substeps. A parallel master keeps the hulls in contact after the impact;
+    a sequential one leaves a gap, which closes late. With the step the gap goes, and the difference with it."""
+
+    def roll_rate(algorithm: str, step: float) -> float:
+        collision = scenario.collision.model_copy(update={"substep": step})
+        finer = scenario.model_copy(update={"collision": collision})
+        rows = simulate(finer, algorithm=algorithm, step=step, in_process=True).summary["paper"]
+        return next(float(r["computed"]) for r in rows if (r["ship"], r["quantity"]) == ("target", "w_y"))
+
+    apart = [abs(roll_rate("gauss-seidel", step) - roll_rate("jacobi", step)) for step in (0.02, 0.001)]
+    assert apart[0] > 5e-4
+    assert apart[1] < 1e-4
+
+
 def printed(scenario: Scenario, ship: str) -> np.ndarray:
     assert scenario.reference is not None
     after = scenario.reference.ships[ship].printed
