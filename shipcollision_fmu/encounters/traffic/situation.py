@@ -15,7 +15,7 @@ import re
 import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import cos, degrees, inf, isclose, sin
+from math import cos, degrees, inf, isclose, pi, radians, sin
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -30,6 +30,8 @@ from .ships import TrafficStart, locate_ships, write_ship_file
 
 __all__ = ["TrafficScenario", "traffic_scenario"]
 
+LARGEST_CRAB = radians(15.0)
+"""[rad] Angle between heading and course that wind and current explain. Ships beyond it drift, at low speed."""
 LONGEST_DEFAULT = 3600.0
 """[s] Limit of the default duration, which is the time that own ship's route takes."""
 USUAL_DURATION = 600.0
@@ -148,6 +150,8 @@ def _list_omissions(plan: _Plan) -> list[str]:
                for waypoint in ship.waypoints or []):  # fmt: skip
             notes.append("turnRadius is not carried over: the autopilots choose the turns.")
     else:
+        if any(_crabs(start) for start in starts):
+            notes.append("The ships coast in water at rest: a heading within 15 deg of the course is turned to it.")
         if any(len(start.route) > 1 for start in starts):
             notes.append("The ships coast and keep their courses: bends of their routes are left out.")
         if faster:
@@ -186,19 +190,31 @@ def _write(plan: _Plan, directory: Path) -> str:
 
 
 def _ship_table(start: TrafficStart, ship: str, directory: Path, plan: _Plan) -> dict[str, Any]:
-    drift_angle = start.course - start.heading
-    sway = round_off(start.speed * sin(drift_angle), 6)
+    heading = start.course if not plan.hydrodynamics and _crabs(start) else start.heading
+    drift_angle = start.course - heading
     return build_ship_table(
         ship if ship in plan.files else refer_to_ship(ship, directory),
         (round_off(start.north, 3), round_off(start.east, 3)),
-        round(degrees(start.heading), 6) % 360.0,
+        round(degrees(heading), 6) % 360.0,
         round_off(start.speed * cos(drift_angle), 6),
-        sway,
+        round_off(start.speed * sin(drift_angle), 6),
         hydrodynamics=plan.hydrodynamics,
-        coasting="straight" if sway and not plan.hydrodynamics else None,
         orders=(_list_orders(start, ship, plan.steps * plan.step) or None) if plan.hydrodynamics else None,
         route={"waypoints": start.route} if plan.hydrodynamics and start.route else None,
     )
+
+
+def _crabs(start: TrafficStart) -> bool:
+    """Whether a ship under way points a little off its course, as wind and current make it do.
+
+    Coasting in water at rest, it would swing broadside by the Munk moment before it meets anyone.
+    """
+    return 0.0 < abs(_wrap(start.course - start.heading)) <= LARGEST_CRAB
+
+
+def _wrap(angle: float) -> float:
+    """The angle [rad] within half a turn of zero."""
+    return (angle + pi) % (2.0 * pi) - pi
 
 
 def _list_orders(start: TrafficStart, ship: str, duration: float) -> list[dict[str, float]]:

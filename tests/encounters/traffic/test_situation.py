@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
-from math import cos, degrees, hypot, radians, sin
+from math import degrees, hypot, radians, sin
 from pathlib import Path
 from typing import Any
 
@@ -62,11 +62,8 @@ def test_version_0_1(tmp_path: Path) -> None:
     assert own.start.position == [0.0, 0.0, 0.0]
     assert own.start.velocity[0] == pytest.approx(10 * KNOT, rel=1e-6)
     assert first.start.position[0] == pytest.approx(0.04 * 111385, abs=5.0)
-    assert degrees(first.start.attitude[2]) == pytest.approx(182.0, abs=0.02)
-    heading, course = radians(182.0), radians(185.0)
-    assert first.start.velocity[:2] == pytest.approx(
-        [12.5 * KNOT * cos(course - heading), 12.5 * KNOT * sin(course - heading)], rel=1e-5
-    )
+    assert degrees(first.start.attitude[2]) == pytest.approx(185.0, abs=0.02)  # turned from 182 deg to its course
+    assert first.start.velocity == pytest.approx([12.5 * KNOT, 0.0, 0.0], rel=1e-5)
     assert degrees(second.start.attitude[2]) == pytest.approx(109.5, abs=0.05)  # no heading: the course
     ships = scenario.load_ships()
     assert (ships["target_1"].L_oa, ships["target_1"].B) == (50.0, 10.0)
@@ -83,18 +80,55 @@ def test_version_0_2(tmp_path: Path) -> None:
     assert sin(own.start.attitude[2]) == pytest.approx(0.0, abs=1e-4)
     assert own.start.position[:2] == pytest.approx([50.0, 4.0], abs=0.01)  # midship is 50 m ahead of a = 140, b = 40
     assert hypot(*target.start.velocity) == pytest.approx(6.0 * KNOT, rel=1e-6)
-    assert degrees(target.start.attitude[2]) == pytest.approx(340.0, abs=0.02)
-    assert target.start.velocity[1] > 0.0  # the first leg leads 346 deg, to starboard of its heading
+    assert degrees(target.start.attitude[2]) == pytest.approx(345.4, abs=0.1)  # the first leg's, not the heading of 340
+    assert target.start.velocity[1] == 0.0
     text = (tmp_path / "new.toml").read_text(encoding="utf-8")
     assert "bends of their routes are left out" in text
     assert "wind is not carried over" in text
     assert "keep their speeds: the speeds of later legs are left out" in text
 
 
+def crossing(tmp_path: Path, heading: float) -> dict[str, Any]:
+    """Summary of an import in which a coaster on the course 185 deg meets own ship, near its bow."""
+    content = json.loads(OLD.read_text(encoding="utf-8"))
+    target = content["targetShips"][0]
+    target["initial"] |= {"position": {"lat": 58.765, "lon": 10.4904}, "heading": heading}
+    content["targetShips"] = [target]
+    path = tmp_path / "met.json"
+    path.write_text(json.dumps(content), encoding="utf-8")
+    out = tmp_path / "met.toml"
+    run = simulate(stored(traffic_scenario(path, out=out, duration=90.0, step=0.1), out), in_process=True)
+    assert run.events["collisions"]
+    return run.summary
+
+
+@pytest.mark.parametrize("heading", [182.0, 185.0])
+def test_imported_ships_that_collide_gain_no_energy_from_coasting(tmp_path: Path, heading: float) -> None:
+    """AIS gives a heading beside the course: what is lost in contact is all that is lost, and momentum stays."""
+    summary = crossing(tmp_path, heading)
+    energy, momentum = summary["energy"], summary["momentum"]
+    before, after = energy["before"]["total"], energy["after"]["total"]
+    assert energy["dissipated"] > 0.01 * before
+    assert after + energy["dissipated"] == pytest.approx(before, rel=1e-9)
+    assert momentum["closed"]
+    np.testing.assert_allclose(momentum["after"]["linear"], momentum["before"]["linear"], rtol=1e-9, atol=1.0)
+
+
+def test_a_ship_that_drifts_keeps_its_heading(tmp_path: Path) -> None:
+    content = json.loads(OLD.read_text(encoding="utf-8"))
+    content["targetShips"][0]["initial"] |= {"sog": 0.5, "heading": 95.0}
+    path = tmp_path / "adrift.json"
+    path.write_text(json.dumps(content), encoding="utf-8")
+    scenario = stored(traffic_scenario(path, out=tmp_path / "adrift.toml"), tmp_path / "adrift.toml")
+    assert degrees(scenario.ships["target_1"].start.attitude[2]) == pytest.approx(95.0, abs=0.02)
+    assert scenario.ships["target_1"].start.velocity[1] == pytest.approx(0.5 * KNOT, rel=1e-3)
+
+
 def test_what_is_left_out_is_told(tmp_path: Path) -> None:
     coasting = traffic_scenario(NEW, out=tmp_path / "x.toml").notes
     assert [note.split(":")[0] for note in coasting] == [
-        "The ships coast and keep their courses", "The ships coast and keep their speeds",
+        "The ships coast in water at rest", "The ships coast and keep their courses",
+        "The ships coast and keep their speeds",
         "The file's wind is not carried over", "The file's current is not carried over",
     ]  # fmt: skip
     sailing = traffic_scenario(NEW, out=tmp_path / "x.toml", ship="kvlcc2", step=0.5, hydrodynamics=True).notes
