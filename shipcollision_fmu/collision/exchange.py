@@ -30,6 +30,7 @@ ABSENT = BodyState.wall(np.zeros(3), 0.0)
 """Stands for the state of a quiet ship that is far from all others."""
 
 _NO_FORCE = (0.0,) * 6
+_NO_TURN, _NO_TILT = [0.0] * 3, [0.0] * 2
 
 
 class ShipExchange:
@@ -40,6 +41,7 @@ class ShipExchange:
     ) -> None:
         self._bodies, self._feedback, self._inputs, self._outputs = bodies, feedback, inputs, outputs
         self._centres = [body.bullet.r_bg.tolist() for body in bodies[: len(inputs)]]
+        self._laws = [body.coasting for body in bodies[: len(inputs)]]
         self.ledgers = [ImpulseLedger() for _ in inputs]
         self._last_received: list[ReceivedState | None] = [None] * len(inputs)  # of ships in an open collision
         self._readings: dict[int, Reading] = {}
@@ -106,16 +108,19 @@ class ShipExchange:
         for i, (out, received) in enumerate(zip(self._outputs, self._inputs, strict=True)):
             state = states[i]
             if state is ABSENT:
-                law = self._bodies[i].coasting
-                if law is not None:
-                    out.position[:], out.attitude[:], out.velocity[:], out.rate[:] = law.coast(
-                        received.position, received.attitude, received.velocity, received.rate, H
-                    )
-                else:
+                law = self._laws[i]
+                if law is None or (  # a course ahead without looking at the law: most ships in most steps
+                    law.keeps_course and received.rate == _NO_TURN and received.attitude[:2] == _NO_TILT
+                    and received.velocity[1:] == _NO_TILT and received.position[2] == 0.0
+                ):  # fmt: skip
                     out.position[:], out.attitude[:], out.velocity[:] = coast(
                         received.position, received.attitude, received.velocity, received.rate, self._centres[i], H
                     )
                     out.rate[:] = received.rate
+                else:
+                    out.position[:], out.attitude[:], out.velocity[:], out.rate[:] = law.coast(
+                        received.position, received.attitude, received.velocity, received.rate, H
+                    )
                 out.force[:] = _NO_FORCE
                 continue
             ledger = self.ledgers[i]

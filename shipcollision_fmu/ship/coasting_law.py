@@ -56,7 +56,9 @@ Motion = tuple[Seq, Seq, Seq, Seq]
 
 
 class CoastingLaw(Protocol):
-    """The motion of one ship between impulses."""
+    """The motion of one ship between impulses. keeps_course: a ship that goes ahead, upright, goes straight on."""
+
+    keeps_course: bool
 
     def coast(self, position: Seq, attitude: Seq, velocity: Seq, rate: Seq, h: float) -> Motion:
         """The motion after h [s]. Raises StepError for a step that is too long for the motion."""
@@ -81,7 +83,7 @@ def make_coasting(ship: Ship, degrees_of_freedom: int, law: str) -> CoastingLaw:
 
 class _Straight:
     def __init__(self, ship: Ship) -> None:
-        self._r_bg = ship.r_bg.tolist()
+        self._r_bg, self.keeps_course = ship.r_bg.tolist(), True
 
     def coast(self, position: Seq, attitude: Seq, velocity: Seq, rate: Seq, h: float) -> Motion:
         return (*coast(position, attitude, velocity, rate, self._r_bg, h), rate)
@@ -114,14 +116,14 @@ class _Plane:
         self._sea = _Sea(ship, 4) if restored else None
         self._plane = KirchhoffPlane(M, free_inverse(M, degrees_of_freedom), self._radius)
         self._c = float(free_inverse(M, degrees_of_freedom)[3, 3])
-        self._keeps_course = M[0, 1] == 0.0
+        self.keeps_course = bool(M[0, 1] == 0.0)
         self._centre = [float(M[1, 5] / M[1, 1]), float(-M[0, 5] / M[0, 0]), 0.0]
-        self._is_isotropic = degrees_of_freedom == 3 and M[0, 0] == M[1, 1] and self._keeps_course
+        self._is_isotropic = degrees_of_freedom == 3 and M[0, 0] == M[1, 1] and self.keeps_course
 
     def coast(self, position: Seq, attitude: Seq, velocity: Seq, rate: Seq, h: float) -> Motion:
         phi, theta, psi = attitude
         if phi == 0.0 == theta and (
-            self._is_isotropic or (velocity[1] == 0.0 == rate[0] and rate[1] == 0.0 == rate[2] and self._keeps_course)
+            self._is_isotropic or (velocity[1] == 0.0 == rate[0] and rate[1] == 0.0 == rate[2] and self.keeps_course)
         ):  # an isotropic body moves as if there were no water
             return (*coast(position, attitude, velocity, rate, self._centre, h), rate)
         u, v, w, p, q, r = _to_level(velocity, rate, phi, theta)
@@ -150,7 +152,7 @@ class _Plane:
     def is_straight(self, position: Seq, attitude: Seq, velocity: Seq, rate: Seq) -> bool:
         return (
             (velocity[1] == 0.0 or self._is_isotropic) and rate[0] == 0.0 == rate[1] and rate[2] == 0.0
-            and self._keeps_course and attitude[0] == 0.0 == attitude[1]
+            and self.keeps_course and attitude[0] == 0.0 == attitude[1]
         )  # fmt: skip
 
     def _kick(self, sea: _Sea, nu: Four, phi: float, dt: float) -> Four:
@@ -169,7 +171,7 @@ class _Space:
         self._yaw_radius = sqrt(float(min(M[4, 4], M[5, 5]) / M[0, 0]))
         self._sea = _Sea(ship, 6) if restored else None
         self._space = KirchhoffSpace(M, free_inverse(M, 6), self._roll_radius)
-        self._keeps_course = M[0, 1] == 0.0 == M[0, 2]
+        self.keeps_course = bool(M[0, 1] == 0.0 == M[0, 2])
         self._r_bg = ship.r_bg.tolist()
 
     def coast(self, position: Seq, attitude: Seq, velocity: Seq, rate: Seq, h: float) -> Motion:
@@ -195,7 +197,7 @@ class _Space:
 
     def is_straight(self, position: Seq, attitude: Seq, velocity: Seq, rate: Seq) -> bool:
         return (
-            rate[0] == 0.0 == rate[1] and rate[2] == 0.0 == velocity[1] and velocity[2] == 0.0 and self._keeps_course
+            rate[0] == 0.0 == rate[1] and rate[2] == 0.0 == velocity[1] and velocity[2] == 0.0 and self.keeps_course
             and (self._sea is None or (position[2] == 0.0 == attitude[0] and attitude[1] == 0.0))
         )  # fmt: skip
 
