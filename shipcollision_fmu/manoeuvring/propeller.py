@@ -18,7 +18,7 @@ the Wageningen B4-70 propeller with the same pull on the spot (ship/b_series.py)
 Thrust is continuous everywhere. Turning astern, the series pulls 0.74 of its thrust ahead on the spot, and half of the
 mirrored curve at J = -0.5. `astern_factor` scales what turning astern adds to the stopped propeller's drag: take it
 from the ship's own crash stop. With its default 1, full astern from service speed stops KVLCC2 within 16.8 L, the bulk
-carrier within 15.8 L, the container ships within 8.8 and 11 L; no crash stop of these ships was found to compare with.
+carrier within 12.3 L, the container ships within 8.8 and 7.5 L; no crash stop of these ships was found to compare with.
 Not modelled: air drawn to the propeller, the side force of its wash on the stern (a ship keeps its heading in a crash
 stop), and the change of the thrust deduction astern. The torque of an engine of known power limits the revolutions
 (torque_limit.py).

@@ -1,6 +1,6 @@
-"""Ships from four numbers beside published figures: GM, roll period, power and stopping.
+"""Ships from four numbers beside published figures: GM, roll period, power, stopping. Turning: estimated_ships.py.
 
-    python benchmarks/estimated_ships.py
+    python benchmarks/estimated_stopping.py
 
 Each ship is made from L, B, T, C_b and its type with `[manoeuvring] estimate = true`. Sources are named in the tables;
 "secondary" means that the publication itself was not at hand. Rows that miss are printed like the others.
