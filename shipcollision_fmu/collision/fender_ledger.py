@@ -69,8 +69,7 @@ class FenderLedger:
         compressed = compress_fender(fender, compression, -float(v[0]), float(W[0, 0]), stored, h)
         rubbing = solve_friction(W[1:, 1:], v[1:] + compressed.P * W[1:, 0], friction, compressed.P)
         P = compressed.P * contact.normal + rubbing @ axes[1:]
-        ((along, across),) = book_impulses([Impulse(contact, P)], states)
-        lost = along + across
+        lost = book_impulses([Impulse(contact, P)], states)[0].lost
         self._stored[pair] = compressed.stored
         self._dissipated += lost - (compressed.stored - stored)
         return ContactPoint.of(contact, P, lost, 0, 0)

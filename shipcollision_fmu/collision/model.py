@@ -46,6 +46,7 @@ from .interface import CollisionInputs, CollisionOutputs, CollisionParameters, S
 from .proximity import Proximity
 from .responses import RESPONSES
 from .ship_names import check_ship_names
+from .solvers.energy_split import split_losses
 from .totals import Totals
 
 __all__ = ["ShipCollision"]
@@ -183,9 +184,10 @@ class ShipCollision:
         """Book the impulses, scaled to passivity, and the energy that they cost. Returns the contact points with those
         of the impulses."""
         impulses, taken_off = enforce_passivity(solution.impulses, states)
-        energies = book_impulses(impulses, states)
+        booked, parameters = book_impulses(impulses, states), self.parameters
+        energies = split_losses(booked, states, parameters.friction, parameters.restitution)
         self._totals.add(solution, taken_off, energies)
-        shown = remove_self_stress(impulses, states, self.parameters.friction)
+        shown = remove_self_stress(impulses, states, parameters.friction)
         return merge_impulses(points, shown, energies, numbers)
 
     def _advance_others(self, H: float, states: Sequence[BodyState], near: Container[int]) -> None:

@@ -15,12 +15,14 @@ import pytest
 from shipcollision_fmu.collision import conservative_advancement, exchange, model, responses
 from shipcollision_fmu.collision.dynamics import impulse_ledger
 from shipcollision_fmu.collision.dynamics.body_state import BodyState
+from shipcollision_fmu.collision.dynamics.contact import Booked
 from shipcollision_fmu.collision.dynamics.impulse_ledger import ImpulseLedger, Reading
 from shipcollision_fmu.collision.geometry import detection
 from shipcollision_fmu.collision.geometry.bullet import Closest
 from shipcollision_fmu.collision.solvers import gauss_seidel
 from shipcollision_fmu.collision.solvers import held_motions as held_motions_solver
 from shipcollision_fmu.collision.solvers.aitken import Aitken
+from tests.collision import test_energy_split as energy_split
 from tests.collision import test_held_motions as held_motions
 from tests.collision import test_mechanisms as mechanisms
 from tests.collision import test_model as impacts
@@ -78,6 +80,12 @@ def bullets_normal(
     return 0, (touching[0].normal @ states[a].R).tolist()
 
 
+def split_across_the_normal(booked: Sequence[Booked], *_: object) -> list[tuple[float, float]]:
+    """In place of the split along the impact process: the parts of P.(v- + v+)/2 along and across the normal."""
+    along = [-0.5 * float(b.impulse.P @ (n := b.impulse.contact.normal) * (b.before + b.after) @ n) for b in booked]
+    return [(x, b.lost - x) for x, b in zip(along, booked, strict=True)]
+
+
 class Forgetful(dict[Any, Any]):
     """A dictionary that keeps nothing."""
 
@@ -107,6 +115,10 @@ ABLATIONS = {
     "held motions that yield to friction": Ablation(
         responses, "held_delassus", lambda *_: None,
         two(held_motions.test_a_struck_ship_rolls_in_four_degrees_of_freedom_as_in_six, "pgs", 3.0, 0.0, WEST, 2.0),
+    ),
+    "energy split along the impact process": Ablation(
+        model, "split_losses", split_across_the_normal,
+        two(energy_split.test_a_raked_stem_that_stops_sliding_on_a_side, 4),
     ),
     "slip of held motions at a sloping normal": Ablation(
         held_motions_solver, "ROUNDS", 0,

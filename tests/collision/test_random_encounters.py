@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable
+from dataclasses import replace
 from math import atan2, cos, degrees, isfinite, pi, sin
 
 import numpy as np
@@ -128,7 +129,7 @@ def check(world: MakeWorld, seed: int) -> bool:
     kinetic = w.energy(0) + w.energy(1)
     H, spent, touched, balance = 0.2, 0.0, False, Balance(w)
     for _ in range(round(duration / H)):
-        held = w.model.outputs.fender.stored
+        held, had = w.model.outputs.fender.stored, replace(w.model.outputs.energy)
         w.step(H)
         out = w.model.outputs
         spent += w.work[-1]
@@ -137,6 +138,8 @@ def check(world: MakeWorld, seed: int) -> bool:
             known = "fender" not in parameters["obstacles"]
             assert not known or abs(out.energy.dissipated + spent) <= 1e-9 * kinetic, (seed, w.t)
         assert spent <= most * kinetic, (seed, w.t, spent / kinetic)
+        assert out.energy.normal - had.normal >= -1e-9 * kinetic, (seed, w.t)
+        assert out.energy.tangential - had.tangential >= -1e-9 * kinetic, (seed, w.t)
         energies = [*vars(out.energy).values(), *vars(out.fender).values()]
         values = [*energies, out.clearance, *(x for s in out.ships for x in (
             *s.position, *s.attitude, *s.velocity, *s.rate, *s.impulse, *s.force))]  # fmt: skip

@@ -14,7 +14,7 @@ Energy lost at a contact, with v- and v+ the relative velocities before and afte
 
     lost = -P . (v- + v+)/2            summed over the contacts = T(nu-) - T(nu+),    T = 1/2 nu^T M nu      [J]
 
-The sum is an identity for any impulses, so the parts along and across the normal add up to the whole.
+The sum is an identity for any impulses. How it is split along and across the normal: solvers/energy_split.py.
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ from .body_state import BodyState
 from .contact_frame import contact_axes
 
 __all__ = [
-    "Contact", "Impulse", "book_impulses", "energy_velocities", "make_contact", "make_contacts", "mean_velocity",
-    "point_jacobian",
+    "Booked", "Contact", "Impulse", "book_impulses", "energy_velocities", "make_contact", "make_contacts",
+    "mean_velocity", "point_jacobian",
 ]  # fmt: skip
 
 
@@ -61,6 +61,17 @@ class Impulse:
 
     contact: Contact
     P: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Booked:
+    """An impulse, the relative velocities (3,) in n before and after all impulses of its instant, and the energy lost
+    [J]."""
+
+    impulse: Impulse
+    before: Array
+    after: Array
+    lost: float
 
 
 def point_jacobian(R_nb: Array, r_b: Array) -> Array:
@@ -109,11 +120,8 @@ def energy_velocities(contacts: Sequence[Contact], states: Sequence[BodyState]) 
     return [c.G_b @ states[c.b].nu_energy - c.G_a @ states[c.a].nu_energy for c in contacts]
 
 
-def book_impulses(impulses: Sequence[Impulse], states: Sequence[BodyState]) -> list[tuple[float, float]]:
-    """Add the impulses of one instant to the twists and to what is issued. Obstacles take none.
-
-    Returns the energy lost at each contact [J], (along the normal, across it).
-    """
+def book_impulses(impulses: Sequence[Impulse], states: Sequence[BodyState]) -> list[Booked]:
+    """Add the impulses of one instant to the twists and to what is issued. Obstacles take none."""
     contacts = [impulse.contact for impulse in impulses]
     before = energy_velocities(contacts, states)
     taken: dict[int, list[Array]] = {}
@@ -127,10 +135,6 @@ def book_impulses(impulses: Sequence[Impulse], states: Sequence[BodyState]) -> l
         if not states[body].fixed:
             states[body].book(J)
     after = energy_velocities(contacts, states)
-    return [_energy_lost(i.P, i.contact.normal, v, w) for i, v, w in zip(impulses, before, after, strict=True)]
-
-
-def _energy_lost(P: Array, normal: Array, before: Array, after: Array) -> tuple[float, float]:
-    mean = 0.5 * (before + after)
-    along = -float(P @ normal) * float(mean @ normal)
-    return along, -float(np.dot(P, mean)) - along
+    return [
+        Booked(i, v, w, -0.5 * float(i.P @ (v + w))) for i, v, w in zip(impulses, before, after, strict=True)
+    ]  # fmt: skip

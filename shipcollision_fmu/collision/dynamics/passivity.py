@@ -17,7 +17,7 @@ from ...ship.frames import Array
 from .body_state import BodyState
 from .contact import Impulse, energy_velocities
 
-__all__ = ["enforce_passivity"]
+__all__ = ["enforce_passivity", "group_impulses"]
 
 ROUNDING = 1e-9
 """Gain, as a share of the work of the impulses, that is rounding. With zero, exact elastic impacts would be scaled."""
@@ -27,7 +27,7 @@ def enforce_passivity(impulses: Sequence[Impulse], states: Sequence[BodyState]) 
     """(the impulses, scaled where they would add energy; the largest velocity [m/s] that a body lost by it)."""
     passive: list[Impulse] = []
     taken_off = 0.0
-    for group in _groups(impulses, states) if impulses else ():
+    for group in group_impulses(impulses, states) if impulses else ():
         s, speed = _scale(group, states)
         taken_off = max(taken_off, (1.0 - s) * speed)
         passive += group if s == 1.0 else [Impulse(i.contact, s * i.P) for i in group]
@@ -51,8 +51,8 @@ def _scale(group: Sequence[Impulse], states: Sequence[BodyState]) -> tuple[float
     return max(0.0, -2.0 * work / quadratic), max(hypot(*change[:3].tolist()) for change in changes.values())
 
 
-def _groups(impulses: Sequence[Impulse], states: Sequence[BodyState]) -> list[list[Impulse]]:
-    """Impulses by the groups of bodies that they connect."""
+def group_impulses(impulses: Sequence[Impulse], states: Sequence[BodyState]) -> list[list[Impulse]]:
+    """Impulses by the groups of bodies that they connect; obstacles connect none."""
     pairs = {(i.contact.a, i.contact.b) for i in impulses}
     if len(pairs) == 1:
         return [list(impulses)]
