@@ -13,15 +13,18 @@ Mirtich (1996), Impulse-based dynamic simulation of rigid body systems, calls th
 
 from __future__ import annotations
 
-from collections.abc import Container, Mapping, Sequence
-from math import ceil
+from collections.abc import Container, Iterator, Mapping, Sequence
+from math import ceil, hypot
+
+import numpy as np
 
 from ..errors import StepError
 from .bodies import Body
 from .contact_problem import ContactCaches
 from .dynamics.body_state import BodyState
 from .geometry.broad_phase import Pair
-from .geometry.detection import Detector
+from .geometry.detection import FAST, Detector
+from .proximity import NearPair
 
 __all__ = ["MAXIMUM_SUBSTEPS", "ConservativeAdvancement"]
 
@@ -32,19 +35,27 @@ NEVER = 10**9
 """Substeps after which a pair that does not approach is examined: beyond any step."""
 
 
+MOST_TOUCHES = 40
+"""First touches in a communication step at which the bodies stop. Beyond, hulls are examined at the ends of substeps
+only: a fast thin body may then pass another. Without a limit, a body that rattles between others takes any time."""
+
+
 class ConservativeAdvancement:
     """Substeps of one communication step of H [s], the pairs due at each, and the motion of the bodies up to it."""
 
     def __init__(
         self, H: float, substep: float, bodies: Sequence[Body], states: Sequence[BodyState], detector: Detector,
-        caches: ContactCaches, near: Mapping[Pair, float], with_fender: Container[Pair],
+        caches: ContactCaches, near: Mapping[Pair, NearPair], with_fender: Container[Pair],
     ) -> None:  # fmt: skip
-        """near: pairs that could touch within the step, and their gaps [m]. Raises StepError for too many substeps."""
+        """near: pairs that could touch within the step. Raises StepError for too many substeps."""
         self.count, self.h = divide_into_substeps(H, substep)
         self._H, self._bodies, self._states, self._detector, self._caches = H, bodies, states, detector, caches
         self._moving = [states[i] for i in {i for pair in near for i in pair} if not states[i].fixed]
         self._fenders = any(pair in with_fender for pair in near)
-        self._due = {pair: 0 if pair in with_fender else self._free_substeps(pair, gap) for pair, gap in near.items()}
+        self._approach = {pair: each.approach for pair, each in near.items()}  # bounds [m/s] until twists change
+        self._due = {pair: 0 if pair in with_fender else self._free_substeps(pair, near[pair].gap) for pair in near}
+        self._fast = {pair: FAST * detector.thickness(*pair) / self.h for pair in near}  # speed limits [m/s]
+        self._touches_left = MOST_TOUCHES
         self._pending_substeps = 0  # by which the predicted poses lag
 
     def pairs_due(self, substep: int) -> list[Pair]:
@@ -52,8 +63,33 @@ class ConservativeAdvancement:
         self._pending_substeps += 1
         return [pair for pair, due in self._due.items() if due <= substep]
 
-    def advance(self) -> None:
-        """Move the near bodies to the end of the substep."""
+    def advance(self, substep: int, pairs: list[Pair]) -> Iterator[tuple[float, list[Pair]]]:
+        """Move the near bodies through a substep, and stop at each first touch and at its end.
+
+        Yields (time [s] since the start of the step, pairs to be examined there). Twists may change in between.
+        """
+        if self._fenders:
+            self._approach.clear()
+        if not self._fast_pairs(pairs):
+            self._advance_pending()
+            yield (substep + 1) * self.h, pairs
+            return
+        self._pending_substeps -= 1
+        self._advance_pending()
+        passed = 0.0
+        while self._touches_left and (touch := self._first_touch(pairs, self.h - passed)) is not None:
+            self._touches_left -= 1
+            passed += touch
+            for state in self._moving:
+                state.advance(touch)
+            yield substep * self.h + passed, pairs
+            self._approach.clear()
+            pairs = list(self._due)
+        for state in self._moving:
+            state.advance(self.h - passed)
+        yield (substep + 1) * self.h, pairs
+
+    def _advance_pending(self) -> None:
         for state in self._moving:
             state.advance(self.h, self._pending_substeps)
         self._pending_substeps = 0
@@ -61,6 +97,7 @@ class ConservativeAdvancement:
     def reschedule(self, substep: int, examined: Sequence[Pair], touched: bool) -> None:
         """Set when the pairs examined at a substep are due again. touched: impulses were given."""
         if touched:
+            self._approach.clear()
             self._due = dict.fromkeys(self._due, substep + 1)
         elif not self._fenders:
             rest = (self.count - 1 - substep) * self.h
@@ -74,7 +111,37 @@ class ConservativeAdvancement:
             for state in self._moving:
                 state.advance(self._H)
         else:
-            self.advance()
+            self._advance_pending()
+
+    def _first_touch(self, pairs: Sequence[Pair], rest: float) -> float | None:
+        """Time [s] of the first touch of fast pairs within the rest [s] of the substep; None: there is none."""
+        first: float | None = None
+        for pair, speed in self._fast_pairs(pairs):
+            touch = self._detector.first_touch(
+                *pair, self._states, rest if first is None else first, speed, self._caches.last_normals
+            )
+            first = touch if touch is not None else first
+        return first
+
+    def _fast_pairs(self, pairs: Sequence[Pair]) -> list[tuple[Pair, float]]:
+        """Pairs that may come so near within a substep that their first touch is looked for (detection.FAST), and the
+        bound of their relative speed [m/s]."""
+        fast = []
+        for pair in pairs:
+            limit = self._fast[pair]
+            if self._approach_speed(pair) > limit and (speed := self._relative_speed(*pair)) > limit:
+                fast.append((pair, speed))
+        return fast
+
+    def _relative_speed(self, a: int, b: int) -> float:
+        """Bound [m/s] of the relative speed of any two points of the hulls."""
+        velocity, turning = np.zeros(3), 0.0
+        for i, sign in ((a, 1.0), (b, -1.0)):
+            if not self._states[i].fixed:
+                v, omega = self._states[i].predicted_motion()
+                velocity = velocity + sign * v
+                turning += 0.0 if omega is None else 2.0 * self._bodies[i].reach * hypot(*omega.tolist())
+        return hypot(*velocity.tolist()) + turning
 
     def _free_substeps(self, pair: Pair, gap: float) -> int:
         """Substeps in which a gap [m] cannot close."""
@@ -86,7 +153,9 @@ class ConservativeAdvancement:
 
     def _approach_speed(self, pair: Pair) -> float:
         """Bound V [m/s] of the speed at which two hulls come nearer."""
-        return sum(self._bodies[i].largest_speed(self._states[i]) for i in pair)
+        if pair not in self._approach:
+            self._approach[pair] = sum(self._bodies[i].largest_speed(self._states[i]) for i in pair)
+        return self._approach[pair]
 
 
 def divide_into_substeps(H: float, substep: float) -> tuple[int, float]:

@@ -43,7 +43,7 @@ from .fender_ledger import FenderLedger, select_fenders
 from .geometry.broad_phase import Pair
 from .geometry.detection import Detector
 from .interface import CollisionInputs, CollisionOutputs, CollisionParameters, ShipParameters, ShipPost, ShipState
-from .proximity import Proximity
+from .proximity import NearPair, Proximity
 from .responses import RESPONSES
 from .ship_names import check_ship_names
 from .solvers.energy_split import split_losses
@@ -137,9 +137,9 @@ class ShipCollision:
         return self._exchange.receive_others(t, H, active, met) + self._walls, candidates
 
     def _take_substeps(
-        self, t: float, H: float, near: dict[Pair, float], states: list[BodyState], detector: Detector
+        self, t: float, H: float, near: dict[Pair, NearPair], states: list[BodyState], detector: Detector
     ) -> list[ContactPoint]:
-        """Take the states through the step; the contact points of it. near: pairs and their gaps."""
+        """Take the states through the step; the contact points of it. near: the pairs."""
         self._collisions.close_old(t)
         self._caches.forget_parted(near)
         self._advance_others(H, states, {i for pair in near for i in pair})
@@ -156,11 +156,12 @@ class ShipCollision:
                 points = self._fenders.press(
                     fenders, detector, self._caches, states, self.parameters.friction, h, points
                 )
-            schedule.advance()
-            solution, numbers = self._respond(t + (substep + 1) * h, h, pairs, states, detector)
-            if solution.impulses:
-                points = self._book(solution, numbers, states, points)
-            schedule.reschedule(substep, pairs, bool(solution.impulses))
+            touched = False
+            for moment, examined in schedule.advance(substep, pairs):
+                solution, numbers = self._respond(t + moment, h, examined, states, detector)
+                if solution.impulses:
+                    points, touched = self._book(solution, numbers, states, points), True
+            schedule.reschedule(substep, pairs, touched)
         schedule.finish()
         return points
 

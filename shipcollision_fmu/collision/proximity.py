@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import hypot
+from typing import NamedTuple
 
 from .bodies import Body
 from .dynamics.body_state import BodyState
@@ -16,10 +17,17 @@ from .geometry.broad_phase import Pair, Rectangle, near_pairs
 from .geometry.detection import Detector
 from .interface import ShipState
 
-__all__ = ["Proximity"]
+__all__ = ["NearPair", "Proximity"]
 
 REACH_MARGIN = 0.1
 """Gap [m] within which a pair at rest still counts as near. With zero, rounding of the bounds could miss a contact."""
+
+
+class NearPair(NamedTuple):
+    """Bodies that could touch within a step. gap: between their hulls [m]; approach: bound of its speed [m/s]."""
+
+    gap: float
+    approach: float
 
 
 class Proximity:
@@ -54,14 +62,12 @@ class Proximity:
         not_received = {i for i, ship in enumerate(received) if _is_zero(ship)}
         return pairs if len(not_received) < 2 else [pair for pair in pairs if not not_received.issuperset(pair)]
 
-    def find_near(self, candidates: Sequence[Pair], states: Sequence[BodyState], H: float) -> dict[Pair, float]:
-        """Candidates whose hulls, or fenders, could touch within H [s], and their gaps [m]."""
+    def find_near(self, candidates: Sequence[Pair], states: Sequence[BodyState], H: float) -> dict[Pair, NearPair]:
+        """Candidates whose hulls, or fenders, could touch within H [s]."""
         if not candidates:
             return {}
-        motion = {
-            i: self._bodies[i].fender_thickness + H * self._bodies[i].largest_speed(states[i])
-            for i in {i for pair in candidates for i in pair}
-        }
+        speed = {i: self._bodies[i].largest_speed(states[i]) for i in {i for pair in candidates for i in pair}}
+        motion = {i: self._bodies[i].fender_thickness + H * v for i, v in speed.items()}
         near = {}
         for a, b in candidates:
             most = REACH_MARGIN + motion[a] + motion[b]
@@ -69,7 +75,7 @@ class Proximity:
                 self._bounds_distance(a, b, states) <= most
                 and (gap := self._detector.clearance(a, b, states, most)) < most
             ):
-                near[a, b] = gap
+                near[a, b] = NearPair(gap, speed[a] + speed[b])
         return near
 
     def measure_clearance(self, candidates: Sequence[Pair], states: Sequence[BodyState]) -> tuple[float, Pair]:

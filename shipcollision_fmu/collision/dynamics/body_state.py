@@ -140,10 +140,18 @@ class BodyState:
 
     def advance(self, h: float, substeps: int = 1) -> None:
         """Move the predicted pose on by so many substeps of h [s], along the chord of the step."""
+        for _ in range(substeps):
+            self.x, self.R = self.predict_pose(h)
+
+    def predict_pose(self, h: float) -> tuple[Array, Array]:
+        """Pose (x, R) h [s] after the predicted pose, along the chord of the step."""
+        return coast_pose(self.x, self.R, *self.predicted_motion(), self.r_bg, h)
+
+    def predicted_motion(self) -> Motion:
+        """Velocity of CG [m/s] and angular velocity [rad/s] of the predicted pose, in n."""
         if self._motion is None:
             self._motion = self._motion_of(self.nu_path)
-        for _ in range(substeps):
-            self.x, self.R = coast_pose(self.x, self.R, *self._motion, self.r_bg, h)
+        return self._motion
 
     def pose_after(self, nu: Array, h: float) -> tuple[Array, Array]:
         """Pose (x, R) h [s] after the pose of application, with the twist nu (6,) there and the expected bias."""

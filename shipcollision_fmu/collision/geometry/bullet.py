@@ -138,6 +138,24 @@ class BulletAdapter:
             self._overlaps[a, b] = gap
         return found
 
+    def closest_of_parts(
+        self, one: tuple[int, int, Array, Array], other: tuple[int, int, Array, Array], distance: float
+    ) -> tuple[float, Array] | None:
+        """(gap [m], normal (3,) from one to the other) of two convex parts; None: farther apart than `distance` [m].
+
+        one, other: ship, its part, and its pose: CO in n [m], R_nb.
+        """
+        (a, i, x_a, R_a), (b, j, x_b, R_b) = one, other
+        self._place(a, x_a, R_a)
+        self._place(b, x_b, R_b)
+        rows = self._p.getClosestPoints(
+            self._parts[a][i], self._parts[b][j], distance - 2 * MARGIN, physicsClientId=self._client
+        )
+        if not rows:
+            return None
+        row = min(rows, key=lambda r: float(r[8]))
+        return row[8] + 2 * MARGIN, -np.array(swap_axes(row[7]))
+
     def gap(self, a: int, b: int, states: Sequence[BodyState], cap: float) -> float:
         """Least distance [m] between ships a and b, negative in overlap, at most `cap`."""
         self._place(a, states[a].x, states[a].R)

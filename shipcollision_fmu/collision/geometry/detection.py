@@ -24,13 +24,22 @@ from ..dynamics.contact_frame import contact_axes
 from .bullet import MARGIN, BulletAdapter, Closest
 from .compound_hull import CompoundHull, merge_coplanar, select_supported
 from .contact_place import FEATURE_DEPTH, contact_manifold, facing_features
+from .first_touch import TOUCH, MovingHull, find_first_touch
 from .plan_overlap import least_overlap
+from .thickness import least_width
 
-__all__ = ["SHALLOW", "Detector", "LastNormals"]
+__all__ = ["FAST", "SHALLOW", "Detector", "LastNormals"]
 
 SHALLOW = 0.5
 """Overlap [m] down to which Bullet's normal is taken. Smaller than a step of a fast approach, it would be skipped.
 Beyond half the breadth of a hull, least overlap points to the wrong side."""
+
+SHALLOW_SHARE = 0.25
+"""Least share of the thinner hull's least width that is SHALLOW. With a half, least overlap points to either side."""
+
+FAST = 0.05
+"""Share of the thinner hull's least width by which hulls may come nearer in a substep without a search for the first
+touch. At a round pole of diameter D the normal turns by up to 2 FAST; with a half, the side that was met is lost."""
 
 SAME_POINT = 0.5
 """Contact points closer than this [m] are one point, found by several convex parts. With zero, it would count twice."""
@@ -53,6 +62,7 @@ class Detector:
     def __init__(self, hulls: Sequence[HullMesh]) -> None:
         self._hulls = tuple(hulls)
         self._compounds = [CompoundHull(hull) for hull in hulls]
+        self._widths = [least_width(hull) for hull in hulls]
         self._scales = [min(1.0, float(np.ptp(hull.vertices, axis=0).min()) / SMALL) for hull in hulls]
         self.bullet = BulletAdapter(hulls)
 
@@ -64,6 +74,21 @@ class Detector:
         """Whether two hulls touch or overlap."""
         return self.bullet.gap(a, b, states, MARGIN) <= 0.0
 
+    def thickness(self, a: int, b: int) -> float:
+        """Least width [m] of the thinner of two hulls (thickness.py)."""
+        return min(self._widths[a], self._widths[b])
+
+    def first_touch(
+        self, a: int, b: int, states: Sequence[BodyState], h: float, speed: float, last_normals: LastNormals
+    ) -> float | None:
+        """Time [s] after the predicted poses at which two hulls first touch within h [s] (first_touch.py).
+
+        speed: bound of the relative speed of any two points [m/s].
+        """
+        growth = max(2.0 * TOUCH, FAST * self.thickness(a, b))
+        one, other = (MovingHull.of(i, self._hulls[i].parts, states[i]) for i in (a, b))
+        return find_first_touch(self.bullet, one, other, h, speed, growth, last_normals.get((a, b)))
+
     def contacts(self, a: int, b: int, states: Sequence[BodyState], last_normals: LastNormals) -> list[Contact]:
         """Contact points of two hulls, gap <= 0. Updates `last_normals` while the overlap is shallow."""
         touching = [c for c in self.bullet.closest(a, b, states, 0.0) if c.gap <= 0.0]
@@ -74,7 +99,7 @@ class Detector:
         compound = not (one.whole and other.whole)
         if compound:
             touching = select_supported(touching, one, other, (states[a], states[b]))
-        shallow = min(c.gap for c in touching) > -SHALLOW
+        shallow = min(c.gap for c in touching) > -self._shallow(a, b)
         carried = None if shallow else last_normals.get((a, b))
         if carried is None and not shallow:  # deep inside each other from the start
             carried = last_normals[(a, b)] = self._plan_normal(a, b, touching, states)
@@ -108,7 +133,7 @@ class Detector:
             return None
         nearest = min(near, key=lambda c: c.gap)
         gap, normal = nearest.gap, nearest.normal
-        if gap <= -SHALLOW and (a, b) in last_normals:
+        if gap <= -self._shallow(a, b) and (a, b) in last_normals:
             normal = _turn_with_hull(last_normals[a, b], states[a], states[b])
         depth = max(self._scale(a, b) * FEATURE_DEPTH, distance - gap)
         feature_a, feature_b = self._features(a, b, nearest, normal, states, depth)
@@ -130,6 +155,9 @@ class Detector:
         in_b = np.vstack([self._placed_part(b, i, states) for i in sorted({c.part_b for c in touching})])
         _, normal, carrier = least_overlap(in_a, in_b)
         return carrier, (normal @ states[(a, b)[carrier]].R).tolist()
+
+    def _shallow(self, a: int, b: int) -> float:
+        return min(SHALLOW, SHALLOW_SHARE * self.thickness(a, b))
 
     def _scale(self, a: int, b: int) -> float:
         return min(self._scales[a], self._scales[b])

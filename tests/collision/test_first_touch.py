@@ -1,0 +1,117 @@
+"""First touch of fast and thin things: nothing passes through anything, and symmetric hits stop dead in every phase.
+
+A substep in which a boat moves by more than a pole's radius must still find the side of the pole that was met.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import product
+from math import cos, pi, sin
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.collision.conftest import World
+from tests.ship_files import ship_toml
+
+MakeWorld = Callable[..., World]
+Boats = Callable[..., str]
+
+MOTOR_BOAT = (12.0, 3.0, 0.45, 8e3, {"shape": "parametric", "depth": 2.0, "bow_length": 5.0, "stern_length": 3.0})
+DINGHY = (4.0, 1.5, 0.1, 500.0, {"shape": "box", "depth": 0.8})
+LOG = (10.0, 0.3, 0.2, 500.0, {"shape": "box", "depth": 0.3})
+FLARED = (12.0, 3.0, 0.45, 8e3, {
+    "shape": "parametric", "depth": 2.0, "bow_length": 3.0, "stern_length": 3.0, "flare_deg": 5.0,
+})  # fmt: skip
+
+
+@pytest.fixture
+def boat(tmp_path: Path) -> Boats:
+    """Writes the file of (L, B, T, mass, hull) without added mass and returns its path."""
+
+    def make(form: tuple, name: str = "boat") -> str:
+        L, B, T, mass, hull = form
+        path = tmp_path / f"{name}.toml"
+        added = {"m_x": 0.0, "m_y": 0.0, "m_z": 0.0, "j_x": 0.0, "j_y": 0.0, "j_z": 0.0, "z_y": 0.0}
+        path.write_text(
+            ship_toml(
+                ship={"name": name},
+                particulars={"L_pp": L, "B": B, "T": T, "mass": mass, "r_bg": [0.0, 0.0, 0.0]},
+                hull=hull,
+                added_mass=added,
+            )
+        )
+        return str(path)
+
+    return make
+
+
+def pole(diameter: float) -> str:
+    return f'[pole]\nkind = "pole"\nshape = "cylinder"\ndiameter = {diameter}\nposition = [0.0, 0.0]\n'
+
+
+def wall(thickness: float, heading_deg: float = 0.0) -> str:
+    return (
+        f'[wall]\nkind = "wall"\nshape = "box"\nlength = {thickness}\nbreadth = 60.0\nposition = [0.0, 0.0]\n'
+        f"heading_deg = {heading_deg}\n"
+    )
+
+
+def start(distance: float, speed: float, course: float = 0.0, drift: float = 0.0, rate: float = 0.0) -> dict:
+    """A ship so far before the origin [m] on its course [rad], pointing that much to starboard of it."""
+    c, s = cos(drift), sin(drift)
+    return {
+        "position": [-distance * cos(course), -distance * sin(course), 0.0],
+        "attitude": (0.0, 0.0, course + drift),
+        "nu": [speed * c, -speed * s, 0.0, 0.0, 0.0, rate],
+    }
+
+
+def foremost(w: World, half_length: float, course: float) -> float:
+    """How far the boat's middle is along its course, of a start before the origin [m]."""
+    return float(w.x[0][0] * cos(course) + w.x[0][1] * sin(course)) + half_length
+
+
+FEW = list(product([0.05, 0.2], [0.0, 0.3, 0.61], [30.0], [0.05], [0.05, 0.5]))
+"""(thickness [m], phase, speed [m/s], substep [s], step [s])"""
+MANY = list(product([0.05, 0.2, 1.0], [0.0, 0.13, 0.3, 0.48, 0.61, 0.77, 0.93], [2.0, 12.0, 25.0, 30.0, 120.0],
+                    [0.005, 0.01, 0.02, 0.05], [0.02, 0.1, 0.5]))  # fmt: skip
+PHASES = [
+    pytest.param(FEW, id="few"),
+    pytest.param(MANY[::11], id="many", marks=pytest.mark.slow),
+    pytest.param(MANY, id="all", marks=pytest.mark.soak),
+]
+
+
+def runs(phases: list) -> list[tuple]:
+    return [(size, 20.0 + phase * speed * min(h, H), speed, h, H) for size, phase, speed, h, H in phases]
+
+
+@pytest.mark.parametrize("form", [MOTOR_BOAT, FLARED], ids=["one part", "two parts"])
+@pytest.mark.parametrize("phases", PHASES)
+def test_a_boat_stops_dead_at_a_thin_pole(world: MakeWorld, boat: Boats, phases: list, form: tuple) -> None:
+    """Head-on in line with the pole, plastic: the impulse is m V, and nothing turns the boat."""
+    for size, distance, speed, h, H in runs(phases):
+        w = world([boat(form)], [start(distance, speed)], degrees_of_freedom=3, obstacles=pole(size), substep=h)
+        w.run(max(25.0 / speed, 2 * H), H)
+        case = (size, distance, speed, h, H)
+        assert w.model.outputs.collision_count == 1, case
+        assert w.model.outputs.ships[0].impulse[0] == pytest.approx(-form[3] * speed, rel=1e-6), case
+        assert np.abs(w.nu[0]).max() <= 1e-6 * speed, case
+        assert foremost(w, 0.5 * form[0], 0.0) <= -0.5 * size + 1e-2, case  # never beyond the pole's near side
+        w.model.close()
+
+
+@pytest.mark.parametrize("phases", PHASES)
+def test_a_dinghy_stops_dead_side_on_at_a_thin_wall(world: MakeWorld, boat: Boats, phases: list) -> None:
+    for size, distance, speed, h, H in runs(phases):
+        at = start(distance, speed, drift=pi / 2)
+        w = world([boat(DINGHY)], [at], degrees_of_freedom=3, obstacles=wall(size), substep=h)
+        w.run(max(25.0 / speed, 2 * H), H)
+        case = (size, distance, speed, h, H)
+        assert w.model.outputs.collision_count == 1, case
+        assert np.abs(w.nu[0]).max() <= 1e-6 * speed, case
+        assert foremost(w, 0.5 * DINGHY[1], 0.0) <= -0.5 * size + 1e-2, case
+        w.model.close()
