@@ -95,7 +95,7 @@ def test_a_boat_stops_dead_at_a_thin_pole(world: MakeWorld, boat: Boats, phases:
     """Head-on in line with the pole, plastic: the impulse is m V, and nothing turns the boat."""
     for size, distance, speed, h, H in runs(phases):
         w = world([boat(form)], [start(distance, speed)], degrees_of_freedom=3, obstacles=pole(size), substep=h)
-        w.run(max(25.0 / speed, 2 * H), H)
+        w.run(distance / speed + 2 * H, H)
         case = (size, distance, speed, h, H)
         assert w.model.outputs.collision_count == 1, case
         assert w.model.outputs.ships[0].impulse[0] == pytest.approx(-form[3] * speed, rel=1e-6), case
@@ -109,7 +109,7 @@ def test_a_dinghy_stops_dead_side_on_at_a_thin_wall(world: MakeWorld, boat: Boat
     for size, distance, speed, h, H in runs(phases):
         at = start(distance, speed, drift=pi / 2)
         w = world([boat(DINGHY)], [at], degrees_of_freedom=3, obstacles=wall(size), substep=h)
-        w.run(max(25.0 / speed, 2 * H), H)
+        w.run(distance / speed + 2 * H, H)
         case = (size, distance, speed, h, H)
         assert w.model.outputs.collision_count == 1, case
         assert np.abs(w.nu[0]).max() <= 1e-6 * speed, case
