@@ -37,6 +37,10 @@ Beyond half the breadth of a hull, least overlap points to the wrong side."""
 SHALLOW_SHARE = 0.25
 """Least share of the thinner hull's least width that is SHALLOW. With a half, least overlap points to either side."""
 
+FOLLOWS = 0.94
+"""Cosine of the angle, 20 degrees, by which the normal of least overlap may differ from the last normal of a thin hull
+that is in deep overlap. It then follows a curved side; with less, it follows a pole round to its other side."""
+
 FAST = 0.05
 """Share of the thinner hull's least width by which hulls may come nearer in a substep without a search for the first
 touch. At a round pole of diameter D the normal turns by up to 2 FAST; with a half, the side that was met is lost."""
@@ -99,7 +103,7 @@ class Detector:
         compound = not (one.whole and other.whole)
         if compound:
             touching = select_supported(touching, one, other, (states[a], states[b]))
-        shallow = min(c.gap for c in touching) > -self._shallow(a, b)
+        shallow = self._is_shallow(a, b, min(touching, key=lambda c: c.gap), states, last_normals)
         carried = None if shallow else last_normals.get((a, b))
         if carried is None and not shallow:  # deep inside each other from the start
             carried = last_normals[(a, b)] = self._plan_normal(a, b, touching, states)
@@ -155,6 +159,18 @@ class Detector:
         in_b = np.vstack([self._placed_part(b, i, states) for i in sorted({c.part_b for c in touching})])
         _, normal, carrier = least_overlap(in_a, in_b)
         return carrier, (normal @ states[(a, b)[carrier]].R).tolist()
+
+    def _is_shallow(
+        self, a: int, b: int, deepest: Closest, states: Sequence[BodyState], last_normals: LastNormals
+    ) -> bool:
+        """Whether Bullet's normals count. With a thin hull also in deep overlap, while they follow the last normal."""
+        limit = self._shallow(a, b)
+        if deepest.gap > -limit:
+            return True
+        if limit == SHALLOW or (a, b) not in last_normals:
+            return False
+        last = _turn_with_hull(last_normals[a, b], states[a], states[b])
+        return float(last @ deepest.normal) > FOLLOWS
 
     def _shallow(self, a: int, b: int) -> float:
         return min(SHALLOW, SHALLOW_SHARE * self.thickness(a, b))
