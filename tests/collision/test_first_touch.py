@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from shipcollision_fmu.collision.geometry.detection import Detector
 from tests.collision.conftest import World
 from tests.ship_files import ship_toml
 
@@ -74,7 +75,12 @@ def foremost(w: World, half_length: float, course: float) -> float:
     return float(w.x[0][0] * cos(course) + w.x[0][1] * sin(course)) + half_length
 
 
-FEW = list(product([0.05, 0.2], [0.0, 0.3, 0.61], [30.0], [0.05], [0.05, 0.5]))
+FEW = [
+    (0.05, 0.0, 30.0, 0.05, 0.05),
+    (0.2, 0.3, 30.0, 0.05, 0.05),
+    (0.05, 0.61, 30.0, 0.05, 0.5),
+    (0.2, 0.0, 25.0, 0.01, 0.1),
+]
 """(thickness [m], phase, speed [m/s], substep [s], step [s])"""
 MANY = list(product([0.05, 0.2, 1.0], [0.0, 0.13, 0.3, 0.48, 0.61, 0.77, 0.93], [2.0, 12.0, 25.0, 30.0, 120.0],
                     [0.005, 0.01, 0.02, 0.05], [0.02, 0.1, 0.5]))  # fmt: skip
@@ -114,4 +120,77 @@ def test_a_dinghy_stops_dead_side_on_at_a_thin_wall(world: MakeWorld, boat: Boat
         assert w.model.outputs.collision_count == 1, case
         assert np.abs(w.nu[0]).max() <= 1e-6 * speed, case
         assert foremost(w, 0.5 * DINGHY[1], 0.0) <= -0.5 * size + 1e-2, case
+        w.model.close()
+
+
+@pytest.mark.parametrize("phases", PHASES)
+def test_a_parallel_master_stops_a_boat_dead_where_it_is_then(world: MakeWorld, boat: Boats, phases: list) -> None:
+    """The impulse reaches the boat one step late, V H past the touch. It takes all of the speed and turns nothing, but
+    no model can put the boat back: from V H above the thickness on, the boat stands behind the pole, and is warned of.
+    """
+    for size, distance, speed, h, H in runs(phases):
+        w = world([boat(MOTOR_BOAT)], [start(distance, speed)], algorithm="jacobi", degrees_of_freedom=3,
+                  obstacles=pole(size), substep=h)  # fmt: skip
+        w.run(distance / speed + 4 * H, H)
+        case = (size, distance, speed, h, H)
+        assert w.model.outputs.collision_count == 1, case
+        assert np.abs(w.nu[0]).max() <= 1e-6 * speed, case
+        assert foremost(w, 6.0, 0.0) <= speed * H - 0.5 * size + 1e-2, case
+        w.model.close()
+
+
+def test_two_thin_boats_meet_whatever_their_speed(world: MakeWorld, boat: Boats) -> None:
+    """Two logs of 0.3 m cross each other's way side-on at up to 120 m/s, 6 m in a substep. A plastic impact of equal
+    masses: both keep the mean of their velocities."""
+    for speed, phase, h in product([60.0, 120.0], [0.1, 0.8], [0.05]):
+        at = [start(20.0 + phase * speed * h, speed, drift=pi / 2), start(0.0, 0.0, drift=pi / 2)]
+        w = world([boat(LOG)] * 2, at, degrees_of_freedom=3, substep=h, friction=0.0)
+        w.run(20.0 / speed + 4 * h, h)
+        assert w.model.outputs.collision_count == 1, (speed, phase, h)
+        for nu in w.nu:
+            np.testing.assert_allclose(nu, [0.0, -0.5 * speed, 0, 0, 0, 0], atol=1e-6 * speed)
+        w.model.close()
+
+
+def test_a_spinning_log_does_not_sweep_over_a_pole(world: MakeWorld, boat: Boats) -> None:
+    """A log of 10 m spins at 10 rad/s, 4.5 m from a pole of 0.05 m: there it moves by 2.2 m in a substep. Plastic: the
+    impulse P = omega r / (1/m + r^2/I) stops the place that was met, and the pole stays to starboard."""
+    r, omega, m = 4.5, 10.0, LOG[3]
+    for phase, h in product([0.0, 0.11, 0.3], [0.01, 0.05]):
+        at = start(r, 0.0, drift=-1.2 - phase, rate=omega)
+        w = world([boat(LOG)], [at], degrees_of_freedom=3, obstacles=pole(0.05), substep=h, friction=0.0)
+        w.run(0.3, h)
+        inertia = w.M[0][5, 5]
+        assert w.model.outputs.collision_count == 1, (phase, h)
+        assert (w.R[0].T @ -w.x[0])[1] > 0.15, (phase, h)
+        assert w.nu[0][5] == pytest.approx(omega * (1.0 - r * r / (inertia / m + r * r)), abs=0.02 * omega), (phase, h)
+        w.model.close()
+
+
+def test_a_log_that_was_hit_at_one_end_meets_with_the_other(world: MakeWorld, boat: Boats) -> None:
+    """Nearly flush with a wall of 0.1 m, at 25 m/s: one end touches, and the other follows within a substep of 0.05 s,
+    by 1.25 m if it were not looked for."""
+    for tilt in (0.02, -0.02, 0.05):
+        at = start(3.0, 25.0, drift=pi / 2 + tilt)
+        w = world([boat(LOG)], [at], degrees_of_freedom=3, obstacles=wall(0.1), substep=0.05, friction=0.0)
+        w.run(1.0, 0.05)
+        corners = w.x[0] + np.array([[s * 5.0, t * 0.15, 0.0] for s in (-1, 1) for t in (-1, 1)]) @ w.R[0].T
+        assert corners[:, 0].max() <= 0.0, tilt
+        assert w.model.outputs.collision_count == 1, tilt
+
+
+def test_slow_and_large_bodies_are_not_looked_after(
+    world: MakeWorld, boat: Boats, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A search for the first touch costs several closest points: it is kept for what may move by a twentieth of the
+    thinner hull in a substep."""
+    searched = []
+    search = Detector.first_touch
+    monkeypatch.setattr(Detector, "first_touch", lambda *args: (searched.append(args), search(*args))[1])
+    for speed, searches in ((4.0, False), (40.0, True)):
+        searched.clear()
+        w = world([boat(MOTOR_BOAT)], [start(9.0, speed)], degrees_of_freedom=3, obstacles=wall(5.0), substep=0.01)
+        w.run(2.0 / speed, 0.05)
+        assert w.model.outputs.collision_count == 1
+        assert bool(searched) is searches
         w.model.close()
