@@ -8,6 +8,9 @@ where V bounds the approach of any two points of the hulls. The pair is examined
 measured anew. After an impulse, every near pair is examined at the next substep, since the twists have changed. Pairs
 with a fender between them are examined at every substep.
 
+A pair is *fast* at a substep in which it may come nearer by more than a share of its thinner hull. Its first touch is
+then searched within the substep (geometry/first_touch.py), and the near bodies stop there to be examined.
+
 Mirtich (1996), Impulse-based dynamic simulation of rigid body systems, calls the scheme a collision scheduler.
 """
 
@@ -55,7 +58,7 @@ class ConservativeAdvancement:
         self._approach = {pair: each.approach for pair, each in near.items()}  # bounds [m/s] until twists change
         self._due = {pair: 0 if pair in with_fender else self._free_substeps(pair, near[pair].gap) for pair in near}
         self._fast = {pair: FAST * detector.thickness(*pair) / self.h for pair in near}  # speed limits [m/s]
-        self._touches_left = MOST_TOUCHES
+        self.touches_left = MOST_TOUCHES
         self._pending_substeps = 0  # by which the predicted poses lag
 
     def pairs_due(self, substep: int) -> list[Pair]:
@@ -77,8 +80,8 @@ class ConservativeAdvancement:
         self._pending_substeps -= 1
         self._advance_pending()
         passed = 0.0
-        while self._touches_left and (touch := self._first_touch(pairs, self.h - passed)) is not None:
-            self._touches_left -= 1
+        while self.touches_left and (touch := self._first_touch(pairs, self.h - passed)) is not None:
+            self.touches_left -= 1
             passed += touch
             for state in self._moving:
                 state.advance(touch)
@@ -104,6 +107,15 @@ class ConservativeAdvancement:
             for pair in examined:
                 gap = self._detector.clearance(*pair, self._states, rest * self._approach_speed(pair))
                 self._due[pair] = substep + 1 + self._free_substeps(pair, gap)
+
+    def describe_exhausted(self, t: float) -> str:
+        """The warning of the step from t [s] if it had more first touches than are looked for, or nothing."""
+        if self.touches_left:
+            return ""
+        return (
+            f"fast or thin bodies touched {MOST_TOUCHES} times in the step from t = {t:g} s by {self._H:g} s; later "
+            "touches in it may be missed: take shorter steps"
+        )
 
     def finish(self) -> None:
         """Move the near bodies to the end of the communication step."""

@@ -6,7 +6,7 @@ A communication step [t, t + H]:
     find pairs    whose hulls could touch within the step (proximity.py)
     take substeps of fixed length h, each at which a pair is due (conservative_advancement.py):
         press     compressed fenders, booked one by one (fender_ledger.py)
-        advance   the predicted poses of the near bodies
+        advance   the predicted poses of the near bodies, to the first touch of fast pairs or the end of the substep
         respond   to the contacts there, by one of the rival responses (responses.py)
         book      impulses into twists and ledgers, energy lost, contact points
     publish       poses, twists, impulses, mean forces, contacts, collisions
@@ -43,6 +43,7 @@ from .fender_ledger import FenderLedger, select_fenders
 from .geometry.broad_phase import Pair
 from .geometry.detection import Detector
 from .interface import CollisionInputs, CollisionOutputs, CollisionParameters, ShipParameters, ShipPost, ShipState
+from .late_impulses import describe_late_impulses
 from .proximity import NearPair, Proximity
 from .responses import RESPONSES
 from .ship_names import check_ship_names
@@ -121,7 +122,7 @@ class ShipCollision:
             except Exception:
                 self.set_state(saved)
                 raise
-            self.warning = self._totals.describe_unconverged(t, H)
+            self._warn(t, H, near, detector)
         else:
             points = []
             self._collisions.close_old(t)
@@ -163,7 +164,16 @@ class ShipCollision:
                     points, touched = self._book(solution, numbers, states, points), True
             schedule.reschedule(substep, pairs, touched)
         schedule.finish()
+        self.warning = schedule.describe_exhausted(t)
         return points
+
+    def _warn(self, t: float, H: float, near: dict[Pair, NearPair], detector: Detector) -> None:
+        """Say what could not be right in the step."""
+        warnings = [self.warning, self._totals.describe_unconverged(t, H)]
+        if late := self._exchange.late_speeds:
+            names = [body.name for body in self._bodies]
+            warnings.append(describe_late_impulses(t, H, late, near, names, detector.thickness))
+        self.warning = "; ".join(filter(None, warnings))
 
     def _respond(
         self, t: float, h: float, pairs: list[Pair], states: list[BodyState], detector: Detector

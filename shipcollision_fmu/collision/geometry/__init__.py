@@ -3,6 +3,8 @@
     broad_phase      pairs of bodies whose rectangles in the plane overlap
     bullet           the adapter of pybullet: closest points of convex parts, and a step of Bullet's own dynamics
     detection        contacts of two hulls, from Bullet's closest points
+    first_touch      the time at which moving hulls touch first
+    thickness        least width of a hull
     compound_hull    hulls of several convex parts: inner faces give no contact
     contact_place    places and heights at which two parts touch: common corners of the features that face each other
     clipping         intersection of polygons, edges and points in a plane

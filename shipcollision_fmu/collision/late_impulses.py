@@ -1,0 +1,34 @@
+"""Impulses that come too late: under a parallel master a ship moves on for a step after the impact.
+
+A sequential master applies the impulse predicted for a step at its start, and hulls never overlap. Under a parallel
+master a ship that an impulse stops from the speed V moves V H past the first touch. It is stopped there, with the right
+impulse. Where V H exceeds the thinner hull, the ship then stands on the far side of what it hit. No model can put it
+back: poses belong to the ship model.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+
+from .geometry.broad_phase import Pair
+
+__all__ = ["describe_late_impulses"]
+
+
+def describe_late_impulses(
+    t: float, H: float, late_speeds: Mapping[int, float], near: Iterable[Pair], names: Sequence[str],
+    thickness: Callable[[int, int], float],
+) -> str:  # fmt: skip
+    """The warning of the step from t by H [s] if impulses come later than hulls are thick, or nothing.
+
+    late_speeds: by body, the speed [m/s] that a pending impulse takes; thickness: of the thinner of two hulls [m].
+    """
+    for a, b in near:
+        way, thin = H * max(late_speeds.get(a, 0.0), late_speeds.get(b, 0.0)), thickness(a, b)
+        if way > thin:
+            return (
+                f"an impulse between {names[a]!r} and {names[b]!r} was applied one step late, at t = {t:g} s: they "
+                f"moved {way:.2g} m on, and the thinner of them is {thin:.2g} m thick, so that one may have passed the "
+                f"other; take steps below {H * thin / way:.1g} s, or a master that steps the collision model first"
+            )
+    return ""
