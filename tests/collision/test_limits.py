@@ -89,3 +89,50 @@ def test_where_slip_is_oblique_bullets_pyramid_explains_the_difference(
     size = np.linalg.norm(taken["pgs"])
     assert np.linalg.norm(taken["bullet"] - box) <= 0.02 * size
     assert 0.02 * size < np.linalg.norm(taken["bullet"] - taken["pgs"]) <= 0.085 * size
+
+
+LINES = [
+    ("plumb stem, square", SHIP, (20.0, -115.2), pi / 2, (5.0, 0.0)),
+    ("plumb stem, oblique", SHIP, (0.0, -120.0), pi / 3, (5.0, 0.0)),
+    ("corner on side", BOX, (-20.0, -115.0), pi / 3, (5.0, 0.0)),
+]
+
+
+def answers(
+    make_ship: Make, world: MakeWorld, hull: str, place: tuple[float, float], heading: float, speed: tuple[float, float]
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """What bullet differs by from pgs without friction: (impulse of the first substep as a share, speeds of both ships
+    1 s later over the closing speed, yaw rates 1 s later over the larger one)."""
+    ships = [make_ship("struck", hull, NO_ADDED_MASS), make_ship("striking", hull, NO_ADDED_MASS)]
+    start = [
+        {"position": (0, 0, 0), "nu": (0, 0, 0, 0, 0, 0)},
+        {"position": (*place, 0.0), "attitude": (0, 0, heading), "nu": (*speed, 0, 0, 0, 0)},
+    ]
+    first, later = [], []
+    for response in ("pgs", "bullet"):
+        w = world(ships, start, response=response, friction=0.0, restitution=0.0, substep=1 / 60)
+        while not w.model.outputs.contact_count and w.t < 8.0:
+            w.step(1 / 60)
+        first.append(np.array(w.model.outputs.ships[0].impulse[:3]))
+        w.run(1.0, 1 / 60)
+        later.append(np.array(w.nu))
+    off = np.abs(later[1] - later[0])
+    impulse = np.linalg.norm(first[1] - first[0]) / np.linalg.norm(first[0])
+    return impulse, off[:, :3].max() / np.hypot(*speed), off[:, 5].max() / np.abs(later[0][:, 5]).max()
+
+
+@pytest.mark.parametrize("case", LINES, ids=[case[0] for case in LINES])
+def test_bullet_meets_a_line_at_one_end_first(make_ship: Make, world: MakeWorld, case: tuple) -> None:
+    """Bullet gives one point of a line of contact, and its dynamics meet the line at that end: the first impulse is a
+    fifth to a third off, and the ships pitch and roll. The substeps that follow meet the other end. A second later
+    the speeds are within 8 % of the closing speed, and the yaw rates within 13 %. `pgs` has both ends at once."""
+    impulse, speed, yaw = answers(make_ship, world, *case[1:])
+    assert 0.15 <= impulse <= 0.35
+    assert 0.01 <= speed <= 0.08
+    assert 0.08 <= yaw <= 0.13
+
+
+def test_bullet_meets_sides_that_lie_flush_as_one(make_ship: Make, world: MakeWorld) -> None:
+    impulse, speed, _ = answers(make_ship, world, BOX, (0.0, -30.2), 0.0, (0.0, 3.0))
+    assert impulse <= 1e-6
+    assert speed <= 1e-6
