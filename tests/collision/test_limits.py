@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from shipcollision_fmu.ship.frames import rotation, skew
-from tests.collision.conftest import NO_ADDED_MASS, SHIP, World
+from tests.collision.conftest import BOX, NO_ADDED_MASS, SHIP, World
 
 Make, MakeWorld = Callable[..., str], Callable[..., World]
 
