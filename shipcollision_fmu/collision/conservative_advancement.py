@@ -109,9 +109,7 @@ class ConservativeAdvancement:
                 self._due[pair] = substep + 1 + self._free_substeps(pair, gap)
 
     def describe_exhausted(self, t: float) -> str:
-        """The warning of the step from t [s] if it had more first touches than are looked for, or nothing."""
-        if self.touches_left:
-            return ""
+        """The warning of the step from t [s] if it had more first touches than are looked for."""
         return (
             f"fast or thin bodies touched {MOST_TOUCHES} times in the step from t = {t:g} s by {self._H:g} s; later "
             "touches in it may be missed: take shorter steps"

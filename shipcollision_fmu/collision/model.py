@@ -164,7 +164,8 @@ class ShipCollision:
                     points, touched = self._book(solution, numbers, states, points), True
             schedule.reschedule(substep, pairs, touched)
         schedule.finish()
-        self.warning = schedule.describe_exhausted(t)
+        if not schedule.touches_left:
+            self.warning = schedule.describe_exhausted(t)
         return points
 
     def _warn(self, t: float, H: float, near: dict[Pair, NearPair], detector: Detector) -> None:
