@@ -45,14 +45,14 @@ class ShipExchange:
         self.ledgers = [ImpulseLedger() for _ in inputs]
         self._last_received: list[ReceivedState | None] = [None] * len(inputs)  # of ships in an open collision
         self._readings: dict[int, Reading] = {}
-        self.late_speeds: dict[int, float] = {}  # by ship, what an impulse takes that a parallel master applies now
+        self.delayed_speeds: dict[int, float] = {}  # by ship, what an impulse takes that a parallel master applies now
 
     # -- receive --------------------------------------------------------------------------------------
 
     def receive_active(self, t: float, H: float) -> list[BodyState | None]:
         """States at the start t of a step of H [s]; None for quiet ships."""
         self._readings.clear()
-        self.late_speeds.clear()
+        self.delayed_speeds.clear()
         self._delay = any(ledger.one_step_delay for ledger in self.ledgers)
         return [
             None
@@ -80,7 +80,7 @@ class ShipExchange:
         applied = np.array(received.impulse_applied)
         reading = self.ledgers[i].read(feedback, x, state.R, nu, applied, M_inverse, body.reach, H)
         if reading.one_step_delay and reading.pending.any():
-            self.late_speeds[i] = float(np.linalg.norm((reading.nu - nu)[:3]))
+            self.delayed_speeds[i] = float(np.linalg.norm((reading.nu - nu)[:3]))
         nu = reading.nu + M_inverse @ reading.deficit if reading.deficit.any() else reading.nu
         if (before := self._last_received[i]) is not None and feedback == "ledger":
             forces = estimate_other_forces(

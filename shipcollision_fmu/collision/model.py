@@ -34,6 +34,7 @@ from .collisions import Collisions, Numbers
 from .conservative_advancement import ConservativeAdvancement
 from .contact_points import ContactPoint, fill_contacts, fit_contact_points, merge_impulses
 from .contact_problem import ContactCaches, ContactProblem, ContactSolution
+from .delayed_impulses import describe_delayed_impulses
 from .dynamics.body_state import BodyState
 from .dynamics.contact import book_impulses
 from .dynamics.passivity import enforce_passivity
@@ -43,7 +44,6 @@ from .fender_ledger import FenderLedger, select_fenders
 from .geometry.broad_phase import Pair
 from .geometry.detection import Detector
 from .interface import CollisionInputs, CollisionOutputs, CollisionParameters, ShipParameters, ShipPost, ShipState
-from .late_impulses import describe_late_impulses
 from .proximity import NearPair, Proximity
 from .responses import RESPONSES
 from .ship_names import check_ship_names
@@ -171,9 +171,9 @@ class ShipCollision:
     def _warn(self, t: float, H: float, near: dict[Pair, NearPair], detector: Detector) -> None:
         """Say what could not be right in the step."""
         warnings = [self.warning, self._totals.describe_unconverged(t, H)]
-        if late := self._exchange.late_speeds:
+        if delayed := self._exchange.delayed_speeds:
             names = [body.name for body in self._bodies]
-            warnings.append(describe_late_impulses(t, H, late, near, names, detector.thickness))
+            warnings.append(describe_delayed_impulses(t, H, delayed, near, names, detector.thickness))
         self.warning = "; ".join(filter(None, warnings))
 
     def _respond(

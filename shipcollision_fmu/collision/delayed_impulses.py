@@ -12,19 +12,19 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from .geometry.broad_phase import Pair
 
-__all__ = ["describe_late_impulses"]
+__all__ = ["describe_delayed_impulses"]
 
 
-def describe_late_impulses(
-    t: float, H: float, late_speeds: Mapping[int, float], near: Iterable[Pair], names: Sequence[str],
+def describe_delayed_impulses(
+    t: float, H: float, delayed_speeds: Mapping[int, float], near: Iterable[Pair], names: Sequence[str],
     thickness: Callable[[int, int], float],
 ) -> str:  # fmt: skip
     """The warning of the step from t by H [s] if impulses come later than hulls are thick, or nothing.
 
-    late_speeds: by body, the speed [m/s] that a pending impulse takes; thickness: of the thinner of two hulls [m].
+    delayed_speeds: by body, the speed [m/s] that a pending impulse takes; thickness: of the thinner of two hulls [m].
     """
     for a, b in near:
-        way, thin = H * max(late_speeds.get(a, 0.0), late_speeds.get(b, 0.0)), thickness(a, b)
+        way, thin = H * max(delayed_speeds.get(a, 0.0), delayed_speeds.get(b, 0.0)), thickness(a, b)
         if way > thin:
             return (
                 f"an impulse between {names[a]!r} and {names[b]!r} was applied one step late, at t = {t:g} s: they "
