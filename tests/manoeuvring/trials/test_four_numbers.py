@@ -1,9 +1,9 @@
 """Ships from four numbers turn as published ships do, and as ships do at all; figures: benchmarks/estimated_ships.py.
 
 Limits. Advance and tactical diameter: 30 %. The three published circles of KVLCC2 spread over 20 %, and predictions
-from main dimensions at the SIMMAN 2008 workshop scattered by about a quarter (recalled). Drift: 5 deg; speed kept: 0.15;
-first overshoots: a factor of 2, as they scattered at that workshop. The steady radius of the tanker of 190 000 dwt is
-missed by 39 %, so radii are not held to a limit.
+from main dimensions at the SIMMAN 2008 workshop scattered by about a quarter (recalled). Drift: 5 deg; speed kept:
+0.15; first overshoots: a factor of 2, as they scattered at that workshop. The steady radius of the tanker of 190 000
+dwt is missed by 39 %, so radii are not held to a limit.
 """
 
 from __future__ import annotations
