@@ -42,5 +42,5 @@ def estimated_toml(
     """Text of the file of a ship from four numbers."""
     return ship_toml(
         ship={"name": "Four numbers", "kind": kind}, hull={"depth": 1.5 * T}, manoeuvring={"estimate": True},
-        particulars={"L_pp": L, "B": B, "T": T, "mass": 1025.0 * L * B * T * C_b}, **tables,
+        particulars={"L_pp": L, "B": B, "T": T, "mass": 1025.0 * L * B * T * C_b, "r_bg": None}, **tables,
     )  # fmt: skip
