@@ -11,6 +11,7 @@ from .dynamics.contact import Impulse
 from .geometry.bullet import BulletBody
 from .geometry.detection import Detector, LastNormals
 from .solvers.warm_start import WarmStarts
+from .solvers.work_limit import StepWork
 
 __all__ = ["ContactCaches", "ContactProblem", "ContactSolution"]
 
@@ -46,11 +47,13 @@ class ContactCaches:
     """What is carried from substep to substep, and updated by the responses.
 
     last_normals: normals of the last shallow contacts, used in deep overlap (detection.py); warm_starts: impulses of
-    the substep before, from which the solver starts (warm_start.py).
+    the substep before, from which the solver starts (warm_start.py); work: what the solver may still do in this
+    communication step (work_limit.py), renewed by every step and no part of the state.
     """
 
     last_normals: LastNormals = field(default_factory=dict)
     warm_starts: WarmStarts = field(default_factory=dict)
+    work: StepWork = field(default_factory=StepWork)
 
     def forget_parted(self, near: Container[tuple[int, int]]) -> None:
         """Drop the impulses of the pairs that are not near each other in this communication step.

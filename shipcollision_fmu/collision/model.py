@@ -143,7 +143,9 @@ class ShipCollision:
         """Take the states through the step; the contact points of it. near: the pairs."""
         self._collisions.close_old(t)
         self._caches.forget_parted(near)
-        self._advance_others(H, states, {i for pair in near for i in pair})
+        met = {i for pair in near for i in pair}
+        self._caches.work.renew(sum(not states[i].fixed for i in met), H)
+        self._advance_others(H, states, met)
         fenders = select_fenders(self._bodies, list(near))
         schedule = ConservativeAdvancement(
             H, self.parameters.substep, self._bodies, states, detector, self._caches, near, fenders

@@ -51,12 +51,14 @@ def respond_pgs(problem: ContactProblem, caches: ContactCaches) -> ContactSoluti
     if velocity[0::3].min() >= -AT_REST:  # touching, but parting, or stopped in the substep before
         return ContactSolution([Impulse(c, np.zeros(3)) for c in contacts])
     W, H, slip = delassus(contacts, states), held_delassus(contacts, states), None
+    work = caches.work.lend()
     if H is not None:
-        W, slip = yield_to_friction(W, velocity, problem.friction, H)
+        W, slip = yield_to_friction(W, velocity, problem.friction, H, work)
     solution = solve_poisson_impact(
         W, velocity, problem.friction, problem.restitution,
-        guess_impulses(contacts, [c.axes for c in contacts], caches.warm_starts), slip,
+        guess_impulses(contacts, [c.axes for c in contacts], caches.warm_starts), slip, work,
     )  # fmt: skip
+    caches.work.settle(work)
     impulses = [Impulse(c, c.axes.T @ P) for c, P in zip(contacts, solution.P, strict=True)]
     keep_impulses(impulses, caches.warm_starts)
     return ContactSolution(impulses, solution.residual, solution.sweeps)

@@ -133,15 +133,15 @@ ABLATIONS = {
         one("berthed", mechanisms.test_a_ship_at_rest_at_a_quay_costs_one_sweep_per_substep),
     ),
     "Alart-Curnier and ACLM": Ablation(
-        gauss_seidel, "_solve_together", lambda W, v, mu, P, tolerance: P,
+        gauss_seidel, "_solve_together", lambda W, v, mu, P, *rest: P,
         two(mechanisms.test_three_ships_abreast_at_a_quay_are_solved),
     ),
     "Alart-Curnier": Ablation(
-        gauss_seidel, "solve_alart_curnier", lambda W, v, mu, P, tolerance: P,
+        gauss_seidel, "solve_alart_curnier", lambda W, v, mu, P, *rest: P,
         lambda fixture: patches.test_wedges_are_solved_by_newtons_method_and_aclm_in_turns((9, 6, 4, 1.0)),
     ),
     "ACLM": Ablation(
-        gauss_seidel, "solve_aclm", lambda W, v, mu, P, tolerance: P,
+        gauss_seidel, "solve_aclm", lambda W, v, mu, P, *rest: P,
         lambda fixture: patches.test_wedges_are_solved_by_newtons_method_and_aclm_in_turns((26, 6, 4, 1.0)),
     ),
     "resultant of a patch": Ablation(

@@ -22,6 +22,8 @@ import numpy as np
 
 from ...ship.frames import Array
 from .contact_law import law_residual
+from .small_blocks import MOST_ROWS, multiply
+from .work_limit import WorkLimit
 
 __all__ = ["solve_aclm"]
 
@@ -37,23 +39,34 @@ CLOSER = 1e-3
 smaller share costs gradient steps."""
 
 
-def solve_aclm(W: Array, v: Array, mu: float, P: Array, tolerance: float) -> Array:
+def solve_aclm(W: Array, v: Array, mu: float, P: Array, tolerance: float, work: WorkLimit | None = None) -> Array:
     """Impulses (k, 3) [N s] after some updates from P (k, 3): mostly with a smaller residual (law_residual) than P.
 
-    W (3k, 3k) [1/kg], v (3k,) [m/s] in contact axes; tolerance [m/s]: the residual at which the updates end.
+    W (3k, 3k) [1/kg], v (3k,) [m/s] in contact axes; tolerance [m/s]: the residual at which the updates end;
+    work: the bound on what the solver may do.
     """
-    steepest = float(np.linalg.eigvalsh(W)[-1])
+    work = work or WorkLimit()
+    steepest = _largest_eigenvalue(W)
     for _ in range(MAX_FIXED_POINTS):
         residual = law_residual(W, v, mu, P)
-        if residual <= tolerance:
+        if residual <= tolerance or work.is_spent:
             break
-        after = (v + W @ P.ravel()).reshape(-1, 3)
+        after = (v + multiply(W, P.ravel())).reshape(-1, 3)
         sliding_speed = np.hypot(after[:, 1], after[:, 2])
-        P = _solve_convex(W, v, mu, sliding_speed, P, steepest, max(CLOSER * residual, 0.1 * tolerance))
+        P = _solve_convex(W, v, mu, sliding_speed, P, steepest, max(CLOSER * residual, 0.1 * tolerance), work)
     return P
 
 
-def _solve_convex(W: Array, v: Array, mu: float, s: Array, P: Array, steepest: float, tolerance: float) -> Array:
+def _largest_eigenvalue(W: Array) -> float:
+    """The largest eigenvalue of W [1/kg], or a bound of it where its system is large."""
+    if len(W) <= MOST_ROWS:
+        return float(np.linalg.eigvalsh(W)[-1])
+    return float(np.abs(W).sum(axis=1).max())
+
+
+def _solve_convex(
+    W: Array, v: Array, mu: float, s: Array, P: Array, steepest: float, tolerance: float, work: WorkLimit
+) -> Array:
     """Impulses (k, 3) of the convex problem with sliding speeds s (k,) [m/s].
 
     steepest: largest eigenvalue of W [1/kg]; tolerance [m/s]: change of velocity in a step at which the steps end.
@@ -62,7 +75,7 @@ def _solve_convex(W: Array, v: Array, mu: float, s: Array, P: Array, steepest: f
     shifted[0::3] += mu * s
     ahead, t = P, 1.0
     for _ in range(MAX_GRADIENT_STEPS):
-        gradient = (W @ ahead.ravel() + shifted).reshape(-1, 3)
+        gradient = (multiply(W, ahead.ravel()) + shifted).reshape(-1, 3)
         new = _project_on_cones(ahead - gradient / steepest, mu)
         step = new - P
         if float((gradient * step).sum()) > 0.0:
@@ -70,7 +83,8 @@ def _solve_convex(W: Array, v: Array, mu: float, s: Array, P: Array, steepest: f
         t_new = 0.5 * (1.0 + (1.0 + 4.0 * t * t) ** 0.5)
         ahead = new + (t - 1.0) / t_new * step
         P, t = new, t_new
-        if float(np.abs(step).max()) * steepest <= tolerance:
+        work.spend_gradient_step(len(P))
+        if float(np.abs(step).max()) * steepest <= tolerance or work.is_spent:
             break
     return P
 

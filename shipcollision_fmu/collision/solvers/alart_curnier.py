@@ -21,10 +21,15 @@ Optim. 14:877-898 (proximal point method). Siconos: NSN_AC, within PROX.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
+from numpy.typing import NDArray
 
 from ...ship.frames import Array
 from .contact_law import law_residual
+from .small_blocks import multiply, solve_system
+from .work_limit import WorkLimit
 
 __all__ = ["solve_alart_curnier"]
 
@@ -35,20 +40,28 @@ MAX_STEPS = 15
 """Bound on Newton's steps for one weight. Fewer than ten cost time: 5 twice as much, on 1 080 patches of two ships."""
 
 
-def solve_alart_curnier(W: Array, v: Array, mu: float, P: Array, tolerance: float) -> Array:
+_UNIT, _ROW = np.eye(3), np.arange(3)
+
+
+def solve_alart_curnier(
+    W: Array, v: Array, mu: float, P: Array, tolerance: float, work: WorkLimit | None = None
+) -> Array:
     """Impulses (k, 3) [N s] with a residual (law_residual) of at most `tolerance` [m/s], or the best that were found.
 
-    W (3k, 3k) [1/kg], v (3k,) [m/s] in contact axes; P (k, 3): first guess.
+    W (3k, 3k) [1/kg], v (3k,) [m/s] in contact axes; P (k, 3): first guess; work: the bound on what the
+    solver may do.
     """
+    work = work or WorkLimit()
     D = np.diag(W)
+    D = np.where(D > 0.0, D, np.repeat(D[0::3], 3))  # also along tangents in which no ship moves
     best, least = P, law_residual(W, v, mu, P)
     for w in PROXIMAL_WEIGHTS:
-        P = _solve_newton(W + np.diag(w * D), v - w * D * P.ravel(), mu, P, 0.3 * tolerance)
+        P = _solve_newton(W + np.diag(w * D), v - w * D * P.ravel(), mu, P, 0.3 * tolerance, work)
         inside = _clip_to_cones(P, mu)
         residual = law_residual(W, v, mu, inside)
         if residual < least:
             best, least = inside, residual
-        if least <= tolerance:
+        if least <= tolerance or work.is_spent:
             break
     return best
 
@@ -61,52 +74,79 @@ def _clip_to_cones(P: Array, mu: float) -> Array:
     return np.column_stack([normal, P[:, 1:] * share[:, None]])
 
 
-def _solve_newton(W: Array, v: Array, mu: float, P: Array, tolerance: float) -> Array:
+def _solve_newton(W: Array, v: Array, mu: float, P: Array, tolerance: float, work: WorkLimit) -> Array:
     """Impulses (k, 3) at which every equation holds to `tolerance` [m/s], or the best on the way."""
     stiff = np.diag(W).reshape(-1, 3)
-    rho = 1.0 / np.column_stack([stiff[:, 0], *[np.maximum(stiff[:, 1:].max(axis=1), 1e-300)] * 2])
+    rho = 1.0 / np.column_stack([stiff[:, 0], np.maximum(stiff[:, 1:].max(axis=1), 1e-300)])
     best, least = P, np.inf
     for _ in range(MAX_STEPS):
-        error, slope = _evaluate_equations(W, v, mu, P, rho)
-        size = float(np.abs(error).max())
+        equations = _evaluate_equations(P, (v + multiply(W, P.ravel())).reshape(-1, 3), mu, rho)
+        size = float(np.abs(equations.error).max())
         if size < least:
             best, least = P, size
-        if size <= tolerance:
+        if size <= tolerance or work.is_spent:
             break
+        work.spend_newton_step(len(P), int(np.count_nonzero(equations.closed)))
         try:
-            P = P - np.linalg.lstsq(slope, error, rcond=1e-13)[0].reshape(-1, 3)
-        except np.linalg.LinAlgError:  # the step before led to infinity
+            P = P - _newton_step(W, equations, rho)
+        except np.linalg.LinAlgError:  # the step before led to infinity, or to a singular system
+            break
+        if not np.isfinite(P).all():
             break
     return best
 
 
-def _evaluate_equations(W: Array, v: Array, mu: float, P: Array, rho: Array) -> tuple[Array, Array]:
-    """Error of the equations (3k,) [m/s] and its derivative by P (3k, 3k) [1/kg]."""
+class Equations(NamedTuple):
+    """Error (k, 3) [m/s] and its derivatives: by own P A (k, 3, 3) [1/kg], by own v B (k, 3, 3). closed (k,): contacts
+    that touch; of the others the equation is P / rho = 0."""
+
+    error: Array
+    A: Array
+    B: Array
+    closed: NDArray[np.bool_]
+
+
+def _evaluate_equations(P: Array, after: Array, mu: float, rho: Array) -> Equations:
+    """The equations at impulses P (k, 3) that leave the velocities `after` (k, 3); rho (k, 2): along and across."""
     k = len(P)
-    after = (v + W @ P.ravel()).reshape(k, 3)
     s, t = P[:, 0] - rho[:, 0] * after[:, 0], P[:, 1:] - rho[:, 1:] * after[:, 1:]
-    error, slope = np.empty((k, 3)), np.empty((3 * k, 3 * k))
-    for i in range(k):
-        n, across = 3 * i, slice(3 * i + 1, 3 * i + 3)
-        if s[i] <= 0.0:  # apart
-            error[i] = P[i] / rho[i]
-            slope[n : n + 3] = 0.0
-            slope[n, n], slope[n + 1, n + 1], slope[n + 2, n + 2] = 1.0 / rho[i]
-            continue
-        error[i, 0], slope[n] = after[i, 0], W[n]
-        size, radius = float(np.hypot(*t[i])), mu * float(s[i])
-        if size <= radius:  # stick
-            error[i, 1:], slope[across] = after[i, 1:], W[across]
-            continue
-        unit = t[i] / size  # slide
-        error[i, 1:] = (P[i, 1:] - radius * unit) / rho[i, 1:]
-        ds, dt = -rho[i, 0] * W[n], -rho[i, 1:, None] * W[across]
-        ds[n] += 1.0
-        dt[0, n + 1] += 1.0
-        dt[1, n + 2] += 1.0
-        turned = radius / size * (dt - np.outer(unit, unit @ dt))
-        own = -(mu * np.outer(unit, ds) + turned)
-        own[0, n + 1] += 1.0
-        own[1, n + 2] += 1.0
-        slope[across] = own / rho[i, 1:, None]
-    return error.ravel(), slope
+    size, radius = np.hypot(t[:, 0], t[:, 1]), mu * s
+    closed = s > 0.0
+    error, A, B = np.where(closed[:, None], after, 0.0), np.zeros((k, 3, 3)), np.zeros((k, 3, 3))
+    error[~closed] = P[~closed] / rho[~closed][:, [0, 1, 1]]
+    B[:] = _UNIT
+    slide = np.flatnonzero(closed & (size > radius))
+    if len(slide):
+        size, radius, rho_n, rho_t = size[slide], radius[slide], rho[slide, 0], rho[slide, 1]
+        unit = t[slide] / size[:, None]
+        share = radius / size
+        error[slide, 1:] = (P[slide, 1:] - radius[:, None] * unit) / rho_t[:, None]
+        turning = share[:, None, None] * (_UNIT[1:, 1:] - unit[:, :, None] * unit[:, None, :])
+        A[slide, 1:, 1:] = (_UNIT[1:, 1:] - turning) / rho_t[:, None, None]
+        A[slide, 1:, 0] = -mu * unit / rho_t[:, None]
+        B[slide, 1:, 1:] = turning
+        B[slide, 1:, 0] = mu * unit * (rho_n / rho_t)[:, None]
+    return Equations(error, A, B, closed)
+
+
+def _newton_step(W: Array, equations: Equations, rho: Array) -> Array:
+    """Newton's step (k, 3): what is taken off P. A contact that is apart loses its impulse; the others are solved."""
+    error, A, B, closed = equations
+    k = len(error)
+    step = error * rho[:, [0, 1, 1]]
+    touching = np.flatnonzero(closed)
+    if not len(touching):
+        return step
+    W_closed, lost = W, np.zeros(0)
+    if len(touching) < k:
+        rows = (3 * touching[:, None] + _ROW).ravel()
+        W_rows = W[rows]
+        lost = np.where(closed[:, None], 0.0, step).ravel()
+        error = error[touching] - np.einsum("kab,kb->ka", B[touching], multiply(W_rows, lost).reshape(-1, 3))
+        W_closed, A, B = W_rows[:, rows], A[touching], B[touching]
+    n = len(touching)
+    slope = B @ W_closed.reshape(n, 3, 3 * n)
+    each = np.arange(n)
+    slope.reshape(n, 3, n, 3)[each, :, each, :] += A
+    step[touching] = solve_system(slope.reshape(3 * n, 3 * n), error.ravel()).reshape(-1, 3)
+    return step

@@ -21,6 +21,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...ship.frames import Array
+from .small_blocks import multiply
 
 __all__ = ["ContactBlock", "law_residual", "solve_friction_in_disc"]
 
@@ -79,7 +80,7 @@ def law_residual(W: Array, v: Array, mu: float, P: Array) -> float:
     Of a contact it is the larger of |min(W_nn P_n, v_n)| and of what friction misses its projection on the disc by (the
     natural map of the complementarity problem). W (3k, 3k) [1/kg], v (3k,) [m/s] before, P (k, 3) [N s], any tangents.
     """
-    after, stiff = (v + W @ P.ravel()).reshape(-1, 3), np.diag(W).reshape(-1, 3).tolist()
+    after, stiff = (v + multiply(W, P.ravel())).reshape(-1, 3), np.diag(W).reshape(-1, 3).tolist()
     if not np.isfinite(after).all():
         return inf
     worst = 0.0

@@ -27,6 +27,8 @@ import numpy as np
 
 from ...ship.frames import Array
 from .gauss_seidel import solve_gauss_seidel
+from .poisson_restitution import LEAST_REBOUNDING_APPROACH
+from .work_limit import WorkLimit
 
 __all__ = ["HeldFriction", "yield_to_friction"]
 
@@ -43,8 +45,9 @@ class HeldFriction(NamedTuple):
     slip: Array
 
 
-def yield_to_friction(W: Array, v: Array, mu: float, H: Array) -> HeldFriction:
-    """The operator and the slip that friction meets. W, H (3k, 3k) [1/kg] and v (3k,) [m/s] before, in contact axes."""
+def yield_to_friction(W: Array, v: Array, mu: float, H: Array, work: WorkLimit | None = None) -> HeldFriction:
+    """The operator and the slip that friction meets. W, H (3k, 3k) [1/kg] and v (3k,) [m/s] before, in contact axes;
+    work: as in solve_gauss_seidel."""
     H_n, W_t = H[:, 0::3].copy(), H.copy()
     H_n[0::3] = 0.0
     W_t[0::3], W_t[:, 0::3] = 0.0, 0.0
@@ -52,7 +55,8 @@ def yield_to_friction(W: Array, v: Array, mu: float, H: Array) -> HeldFriction:
     slip = np.zeros(len(v))
     if mu > 0.0 and H_n.any():
         P, friction = None, 0.0
+        scale = max(-float(v[0::3].min()), LEAST_REBOUNDING_APPROACH)
         for _ in range(ROUNDS):
-            P = solve_gauss_seidel(W_t, v + slip, friction, P).P
+            P = solve_gauss_seidel(W_t, v + slip, friction, P, scale, work).P
             slip, friction = H_n @ P[:, 0], mu
     return HeldFriction(W_t, slip)
