@@ -160,8 +160,9 @@ class FenderOutput:
 @dataclass
 class SolverOutput:
     """How well contact was solved. residual: by how much the law of contact was missed in the step, at worst, as a
-    share of the approach; sweeps: most of a substep; unconverged: substeps so far with a residual above 1e-9; scaled:
-    substeps so far whose impulses were scaled back so as not to add energy, by more than 0.1 mm/s of a ship."""
+    share of the approach, or of 1 mm/s if that is more; sweeps: most of a substep; unconverged: substeps so far with a
+    residual above 1e-9; scaled: substeps so far whose impulses were scaled back so as not to add energy, by more than
+    0.1 mm/s of a ship."""
 
     residual: float = 0.0
     sweeps: int = 0

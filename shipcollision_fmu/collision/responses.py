@@ -52,12 +52,10 @@ def respond_pgs(problem: ContactProblem, caches: ContactCaches) -> ContactSoluti
         return ContactSolution([Impulse(c, np.zeros(3)) for c in contacts])
     W, H, slip = delassus(contacts, states), held_delassus(contacts, states), None
     work = caches.work.lend()
+    start = guess_impulses(contacts, [c.axes for c in contacts], caches.warm_starts)
     if H is not None:
-        W, slip = yield_to_friction(W, velocity, problem.friction, H, work)
-    solution = solve_poisson_impact(
-        W, velocity, problem.friction, problem.restitution,
-        guess_impulses(contacts, [c.axes for c in contacts], caches.warm_starts), slip, work,
-    )  # fmt: skip
+        W, slip, start = yield_to_friction(W, velocity, problem.friction, H, start, work)
+    solution = solve_poisson_impact(W, velocity, problem.friction, problem.restitution, start, slip, work)
     caches.work.settle(work)
     impulses = [Impulse(c, c.axes.T @ P) for c, P in zip(contacts, solution.P, strict=True)]
     keep_impulses(impulses, caches.warm_starts)
@@ -69,8 +67,8 @@ def respond_closed_form(problem: ContactProblem, caches: ContactCaches) -> Conta
 
     The pair that approaches fastest is answered first, with the twists that the impacts before it left: the order in
     which ships are named does not matter. A pair is answered again when the impact of another one has left it closing.
-    Contacts that a substep leaves closing, by the friction of the resultant or after MAX_ANSWERS, are solved in the
-    next.
+    Contacts that a substep leaves closing, by the friction of the resultant, after MAX_ANSWERS or when the work of the
+    step is spent, are solved in the next.
     """
     states = list(problem.states)
     touching = [
@@ -79,20 +77,23 @@ def respond_closed_form(problem: ContactProblem, caches: ContactCaches) -> Conta
         if (contacts := problem.detector.contacts(a, b, states, caches.last_normals))
     ]
     least = AT_REST_SHARE * max((pair.measure_approach(states) for pair in touching), default=0.0)
-    for _ in range(MAX_ANSWERS * len(touching)):
+    work = caches.work.lend()
+    for answers in range(MAX_ANSWERS * len(touching)):
         pair = max(touching, key=TouchingPair.urgency)
-        if pair.approach <= least:
+        if pair.approach <= least or (work.is_spent and answers >= len(touching)):
             break
-        contact = pair.reduce(states)
+        contact = pair.reduce(states, work)
         W, velocity = delassus([contact], states), approach_velocities([contact], states)
         H = held_delassus([contact], states)
         process = solve_impact_process(W, velocity, problem.friction, problem.restitution, H)
         P = contact.axes.T @ process.P
         _apply_to_states(contact, P, states)
         pair.take(P)
+        work.spend_impact_process()
         for other in touching:
             if other is not pair and other.shares_ship(pair, states):
                 other.measure_approach(states)
+    caches.work.settle(work)
     return ContactSolution([impulse for pair in touching for impulse in pair.impulses()])
 
 

@@ -52,13 +52,14 @@ class Totals:
             self.energy_tangential += across
 
     def describe_unconverged(self, t: float, H: float) -> str:
-        """The warning of the step from t by H [s] if contact was not solved exactly in it, or nothing."""
-        if not self.unconverged_in_step:
+        """The warning of the step from t by H [s] if contact was not solved exactly in it for the first time, or
+        nothing. The count goes on in solver.unconverged."""
+        if not self.unconverged_in_step or self.unconverged > self.unconverged_in_step:
             return ""
         return (
             f"contact was not solved to {CONVERGED:g} of the approach {self.unconverged_in_step} times in the step "
             f"from t = {t:g} s by {H:g} s, at worst to {self.residual:.2g}: its impulses are less exact "
-            "(solver.residual)"
+            "(solver.residual); later ones are counted in solver.unconverged"
         )
 
     def fill(self, out: CollisionOutputs) -> None:

@@ -11,7 +11,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from shipcollision_fmu.collision.solvers import aclm_fixed_point, alart_curnier
+from shipcollision_fmu.collision import responses
+from shipcollision_fmu.collision.solvers import aclm_fixed_point, alart_curnier, work_limit
+from shipcollision_fmu.ship.loading.library import load_ship
 from tests.collision.conftest import World
 from tests.ship_files import ship_toml
 
@@ -74,3 +76,80 @@ def test_ships_pressed_on_each_other_and_a_quay(
     assert out.solver.unconverged <= 2
     assert abs(w.x[1][1] - 18.8) < 1e-2
     assert abs(w.x[0][1]) < 1e-2
+
+
+@pytest.mark.parametrize("ship", ["kvlcc2"])
+def test_two_ships_moored_alongside_at_a_small_restitution(world: MakeWorld, last_resort: list[int], ship: str) -> None:
+    """Two tankers side by side at a quay in a breeze on their sides, with e = 0.05."""
+    particulars = load_ship(ship)
+    B, M = particulars.B, 3.2e8
+    quay = QUAY.replace("38.2", str(1.5 * B + 10.0))
+    start = [{"position": (0.0, 0.0, 0.0), "nu": np.zeros(6)}, {"position": (3.0, B, 0.0), "nu": np.zeros(6)}]
+    w = world([ship] * 2, start, obstacles=quay, friction=0.3, restitution=0.05)
+    gained = np.array([0.0, 0.1 * 1e6 / M, 0.0, 0.0, 0.0, 0.0])
+    for _ in range(10):
+        for i in range(2):
+            w.nu[i] = w.nu[i] + gained
+        last_resort[0] = 0
+        w.step(0.1)
+        assert last_resort[0] <= MOST
+    assert w.model.outputs.solver.unconverged == 0
+
+
+def test_ships_wedged_in_a_lock(world: MakeWorld, tmp_path: Any, last_resort: list[int]) -> None:
+    """Three flush boxes between two walls, each pushed another way and turned: no energy comes from contact, momentum
+    along the lock balances but for the walls' friction, and the work is bounded."""
+    path = tmp_path / "box.toml"
+    path.write_text(
+        ship_toml(
+            particulars={
+                "L_pp": 82.5, "B": 18.8, "T": 7.6, "mass": 4e6, "allow_inconsistent": "a light ship in a deep hull",
+            },
+            hull={"depth": 12.0},
+        )
+    )  # fmt: skip
+    walls = QUAY.replace("38.2", str(2.5 * 18.8 + 10.0)) + QUAY.replace("[quay]", "\n[side]").replace(
+        "38.2", str(-0.5 * 18.8 - 10.0)
+    )
+    start = [{"position": (3.0 * i, 18.8 * i, 0.0), "nu": np.zeros(6)} for i in range(3)]
+    w = world([str(path)] * 3, start, obstacles=walls, friction=0.6, restitution=0.5)
+    push = [np.array([1e5, 1e6, 0.0, 0.0, 0.0, 1e7]), np.array([-1e5, -1e6, 0.0, 0.0, 0.0, -1e7]), np.zeros(6)]
+    for _ in range(10):
+        for i in range(3):
+            w.nu[i] = w.nu[i] + 0.1 * w.upright[i] @ push[i]
+        last_resort[0], had = 0, sum(w.energy(i) for i in range(3))
+        w.step(0.1)
+        assert last_resort[0] <= MOST
+        assert w.work[-1] <= 1e-6 * had + 1e-3, "energy from contact"
+        assert all(-1e-2 < x[1] - 18.8 * i < 1e-2 for i, x in enumerate(w.x)), "in a wall, or in each other"
+
+
+def test_closed_form_answers_a_bounded_number_of_impacts(
+    world: MakeWorld, tmp_path: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """When the work of a step is spent, every pair is still answered once in each substep."""
+    path = tmp_path / "box.toml"
+    path.write_text(
+        ship_toml(
+            particulars={
+                "L_pp": 82.5, "B": 18.8, "T": 7.6, "mass": 4e6, "allow_inconsistent": "a light ship in a deep hull",
+            },
+            hull={"depth": 12.0},
+        )
+    )  # fmt: skip
+    answers = [0]
+    plain = responses.solve_impact_process
+
+    def counted(*args: Any) -> Any:
+        answers[0] += 1
+        return plain(*args)
+
+    monkeypatch.setattr(responses, "solve_impact_process", counted)
+    monkeypatch.setattr(work_limit, "FOUR_SHIPS", 0.0)
+    quay = QUAY.replace("38.2", str(3.5 * 18.8 + 10.0))
+    start = [{"position": (3.0 * i, 18.8 * i, 0.0), "nu": np.array([0.0, 1.0 - 0.3 * i, 0, 0, 0, 0])} for i in range(4)]
+    w = world([str(path)] * 4, start, obstacles=quay, friction=0.3, restitution=0.9, response="closed_form")
+    had = sum(w.energy(i) for i in range(4))
+    w.step(0.1)
+    assert 4 <= answers[0] <= 4 * 10
+    assert w.work[-1] <= 1e-6 * had, "energy from contact"

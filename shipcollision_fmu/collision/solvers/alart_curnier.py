@@ -33,12 +33,19 @@ from .work_limit import WorkLimit
 
 __all__ = ["solve_alart_curnier"]
 
+WARM_WEIGHTS = (1e-7, 1e-10)
+"""Weights that are tried first. From the impulses of the substep before, half of all patches are solved so in some four
+steps instead of eight."""
+
 PROXIMAL_WEIGHTS = tuple(10.0**-k for k in range(2, 14))
-"""Weights w, one after the other. Without any, all patches tried are solved as well, with twice the calls of ACLM."""
+"""Weights w, one after the other. Without any, all patches tried are solved as well, with twice the calls of ACLM. With
+half as many, more patches of jammed rafts are left unsolved."""
+
+MAX_WARM_STEPS = 6
+"""Bound on Newton's steps for one of the weights that are tried first: more are wasted where these do not work."""
 
 MAX_STEPS = 15
 """Bound on Newton's steps for one weight. Fewer than ten cost time: 5 twice as much, on 1 080 patches of two ships."""
-
 
 _UNIT, _ROW = np.eye(3), np.arange(3)
 
@@ -55,8 +62,11 @@ def solve_alart_curnier(
     D = np.diag(W)
     D = np.where(D > 0.0, D, np.repeat(D[0::3], 3))  # also along tangents in which no ship moves
     best, least = P, law_residual(W, v, mu, P)
-    for w in PROXIMAL_WEIGHTS:
-        P = _solve_newton(W + np.diag(w * D), v - w * D * P.ravel(), mu, P, 0.3 * tolerance, work)
+    warm = [(w, MAX_WARM_STEPS) for w in WARM_WEIGHTS]
+    for i, (w, steps) in enumerate(warm + [(w, MAX_STEPS) for w in PROXIMAL_WEIGHTS]):
+        if i == len(warm):
+            P = best
+        P = _solve_newton(W + np.diag(w * D), v - w * D * P.ravel(), mu, P, 0.3 * tolerance, work, steps)
         inside = _clip_to_cones(P, mu)
         residual = law_residual(W, v, mu, inside)
         if residual < least:
@@ -74,12 +84,13 @@ def _clip_to_cones(P: Array, mu: float) -> Array:
     return np.column_stack([normal, P[:, 1:] * share[:, None]])
 
 
-def _solve_newton(W: Array, v: Array, mu: float, P: Array, tolerance: float, work: WorkLimit) -> Array:
-    """Impulses (k, 3) at which every equation holds to `tolerance` [m/s], or the best on the way."""
+def _solve_newton(W: Array, v: Array, mu: float, P: Array, tolerance: float, work: WorkLimit, steps: int) -> Array:
+    """Impulses (k, 3) at which every equation holds to `tolerance` [m/s] after at most so many steps, or the best on
+    the way."""
     stiff = np.diag(W).reshape(-1, 3)
     rho = 1.0 / np.column_stack([stiff[:, 0], np.maximum(stiff[:, 1:].max(axis=1), 1e-300)])
     best, least = P, np.inf
-    for _ in range(MAX_STEPS):
+    for _ in range(steps):
         equations = _evaluate_equations(P, (v + multiply(W, P.ravel())).reshape(-1, 3), mu, rho)
         size = float(np.abs(equations.error).max())
         if size < least:

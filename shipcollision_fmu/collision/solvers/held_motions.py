@@ -39,24 +39,27 @@ the roll of a struck ship is off by a third."""
 
 
 class HeldFriction(NamedTuple):
-    """W + H_tt (3k, 3k) [1/kg], and the slip H_tn P_n (3k,) [m/s]."""
+    """W + H_tt (3k, 3k) [1/kg], the slip H_tn P_n (3k,) [m/s], and impulses (k, 3) [N s] to start from, or None."""
 
     W: Array
     slip: Array
+    start: Array | None
 
 
-def yield_to_friction(W: Array, v: Array, mu: float, H: Array, work: WorkLimit | None = None) -> HeldFriction:
+def yield_to_friction(
+    W: Array, v: Array, mu: float, H: Array, start: Array | None = None, work: WorkLimit | None = None
+) -> HeldFriction:
     """The operator and the slip that friction meets. W, H (3k, 3k) [1/kg] and v (3k,) [m/s] before, in contact axes;
-    work: as in solve_gauss_seidel."""
+    start, work: as in solve_gauss_seidel."""
     H_n, W_t = H[:, 0::3].copy(), H.copy()
     H_n[0::3] = 0.0
     W_t[0::3], W_t[:, 0::3] = 0.0, 0.0
     W_t += W
     slip = np.zeros(len(v))
     if mu > 0.0 and H_n.any():
-        P, friction = None, 0.0
+        friction = 0.0
         scale = max(-float(v[0::3].min()), LEAST_REBOUNDING_APPROACH)
         for _ in range(ROUNDS):
-            P = solve_gauss_seidel(W_t, v + slip, friction, P, scale, work).P
-            slip, friction = H_n @ P[:, 0], mu
-    return HeldFriction(W_t, slip)
+            start = solve_gauss_seidel(W_t, v + slip, friction, start, scale, work).P
+            slip, friction = H_n @ start[:, 0], mu
+    return HeldFriction(W_t, slip, start)

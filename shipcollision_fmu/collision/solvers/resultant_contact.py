@@ -20,18 +20,25 @@ from ..dynamics.body_state import BodyState
 from ..dynamics.contact import Contact, make_contact
 from ..dynamics.delassus import approach_velocities, delassus
 from .gauss_seidel import solve_gauss_seidel
+from .work_limit import WorkLimit
 
 __all__ = ["reduce_to_resultant"]
 
 
-def reduce_to_resultant(contacts: Sequence[Contact], states: Sequence[BodyState]) -> Contact | None:
-    """One contact in place of all contacts of a pair, with the deepest gap; None when none of them approaches."""
+def reduce_to_resultant(
+    contacts: Sequence[Contact], states: Sequence[BodyState], work: WorkLimit | None = None
+) -> Contact | None:
+    """One contact in place of all contacts of a pair, with the deepest gap; None when none of them approaches.
+
+    work: the bound on what the solver may do. An approximate resultant lies between the same contacts."""
     velocity = approach_velocities(contacts, states)
     if velocity[0::3].min() >= 0.0:
         return None
     if len(contacts) == 1:
         return contacts[0]
-    share = solve_gauss_seidel(delassus(contacts, states), velocity, 0.0).P[:, 0]
+    share = solve_gauss_seidel(delassus(contacts, states), velocity, 0.0, work=work).P[:, 0]
+    if not share.any():  # the solver ended before it was begun
+        share = np.maximum(-velocity[0::3], 0.0)
     share = share / share.sum()
     point = sum((w * c.point for w, c in zip(share, contacts, strict=True)), np.zeros(3))
     normal = sum((w * c.normal for w, c in zip(share, contacts, strict=True)), np.zeros(3))

@@ -15,6 +15,7 @@ from ..dynamics.body_state import BodyState
 from ..dynamics.contact import Contact, Impulse
 from ..dynamics.delassus import approach_velocities
 from .resultant_contact import reduce_to_resultant
+from .work_limit import WorkLimit
 
 __all__ = ["TouchingPair"]
 
@@ -39,10 +40,10 @@ class TouchingPair:
         depends on names."""
         return float(f"{self.approach:.8e}"), self._middle
 
-    def reduce(self, states: Sequence[BodyState]) -> Contact:
+    def reduce(self, states: Sequence[BodyState], work: WorkLimit) -> Contact:
         """The one contact at which it is answered."""
         if self._resultant is None:
-            self._resultant = reduce_to_resultant(self._contacts, states)
+            self._resultant = reduce_to_resultant(self._contacts, states, work)
         assert self._resultant is not None  # only a pair that approaches is answered
         return self._resultant
 

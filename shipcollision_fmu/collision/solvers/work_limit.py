@@ -11,11 +11,11 @@ from math import inf
 
 __all__ = ["StepWork", "WorkLimit"]
 
-FOUR_SHIPS = 32_000.0
+FOUR_SHIPS = 26_000.0
 """Work [us, nominal] of all solves in a step of 0.1 s with up to four ships. The rest of such a step takes up to some
 40 ms. Larger: steps of more than 100 ms. Smaller: hard patches, as of wedged ships, end before they are solved."""
 
-FURTHER_SHIP = 25_000.0
+FURTHER_SHIP = 20_000.0
 """Work [us, nominal] for each ship beyond four."""
 
 SHARE = 0.25
@@ -45,11 +45,23 @@ class WorkLimit:
 
     def spend_newton_step(self, contacts: int, closed: int) -> None:
         """A step of Newton's method with a linear system of 3 rows for every closed contact."""
-        self.left -= 90.0 + 2.0 * contacts + 0.15 * closed**2 + 0.001 * closed**3
+        self.left -= self._newton_step(contacts, closed)
+
+    def reserve_newton_steps(self, steps: int, contacts: int) -> None:
+        """Allow so many steps of Newton's method, though the work be spent."""
+        self.left = max(self.left, steps * self._newton_step(contacts, contacts))
+
+    @staticmethod
+    def _newton_step(contacts: int, closed: int) -> float:
+        return 90.0 + 2.0 * contacts + 0.15 * closed**2 + 0.001 * closed**3
 
     def spend_gradient_step(self, contacts: int) -> None:
         """A step of the projected gradient method."""
         self.left -= 30.0 + 0.006 * contacts**2
+
+    def spend_impact_process(self) -> None:
+        """The impact process of one contact, with its contact's axes and operator."""
+        self.left -= 600.0
 
 
 class StepWork:
@@ -69,4 +81,4 @@ class StepWork:
     def settle(self, lent: WorkLimit) -> None:
         """Take off what the solve has spent."""
         if self._left < inf:
-            self._left = max(0.0, self._left - (SHARE * self._left - lent.left))
+            self._left = max(0.0, self._left - max(0.0, SHARE * self._left - lent.left))
