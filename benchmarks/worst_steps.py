@@ -60,6 +60,7 @@ class Case:
     restitution: float = 0.0
     degrees_of_freedom: int = 6
     parallel: bool = False
+    coasting: str = "straight"
 
     def describe(self) -> str:
         """The inputs in one line."""
@@ -154,6 +155,7 @@ def run_case(case: Case, folder: Path, steps: int) -> list[tuple[float, float, i
         path.write_text(SHIP_FILE.format(L=L, B=B, T=T, depth=depth, mass=mass, shape=shape, taper=taper))
         ship, (north, east, heading), (surge, sway, yaw) = ships[i], case.starts[i], case.speeds[i]
         p.ships[i].ship = ship.parameters.ship = str(path)
+        p.ships[i].coasting = ship.parameters.coasting = case.coasting
         p.ships[i].degrees_of_freedom = ship.parameters.degrees_of_freedom = case.degrees_of_freedom
         ship.parameters.initial_position[:2] = [north, east]
         ship.parameters.initial_attitude[2] = radians(heading)

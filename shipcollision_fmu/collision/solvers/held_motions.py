@@ -60,6 +60,7 @@ def yield_to_friction(
         friction = 0.0
         scale = max(-float(v[0::3].min()), LEAST_REBOUNDING_APPROACH)
         for _ in range(ROUNDS):
-            start = solve_gauss_seidel(W_t, v + slip, friction, start, scale, work).P
+            if work is None or not work.is_spent or start is None:
+                start = solve_gauss_seidel(W_t, v + slip, friction, start, scale, work).P
             slip, friction = H_n @ start[:, 0], mu
     return HeldFriction(W_t, slip, start)

@@ -11,11 +11,11 @@ from math import inf
 
 __all__ = ["StepWork", "WorkLimit"]
 
-FOUR_SHIPS = 26_000.0
+FOUR_SHIPS = 20_000.0
 """Work [us, nominal] of all solves in a step of 0.1 s with up to four ships. The rest of such a step takes up to some
 40 ms. Larger: steps of more than 100 ms. Smaller: hard patches, as of wedged ships, end before they are solved."""
 
-FURTHER_SHIP = 20_000.0
+FURTHER_SHIP = 15_000.0
 """Work [us, nominal] for each ship beyond four."""
 
 SHARE = 0.25
