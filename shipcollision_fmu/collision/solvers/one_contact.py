@@ -17,18 +17,11 @@ More and Sorensen (1983), SIAM J. Sci. Stat. Comput. 4:553-572 (the quadratic fo
 
 from __future__ import annotations
 
-from math import atan2, cos, hypot, sin, sqrt
+from math import atan2, cos, hypot, sin
 
 from .contact_law import ContactBlock, solve_friction_in_disc
 
 __all__ = ["solve_one_contact"]
-
-RANK = 1e-9
-"""Share of W_nn below which the mobility along the normal, with both tangents held by friction, is rounding.
-
-Larger: ships that can just part are given the least impulse of ships that cannot. Smaller: the impulse of held ships is
-divided by rounding.
-"""
 
 ROUNDING = 1e-14
 """Approach, as a share of the approach before, that counts as stopped. Smaller: the bracket never closes."""
@@ -56,34 +49,16 @@ def solve_one_contact(W: ContactBlock, v: Row, mu: float, start_angle: float | N
 
 
 def _solve_stick(W: ContactBlock, v: Row, mu: float) -> Row | None:
-    """The least impulse in the cone that stops all three directions; None if there is none."""
+    """The impulse that stops all three directions; None if it is not in the cone."""
     v_n, v_1, v_2 = v
     if (W.h_1 == 0.0 and v_1 != 0.0) or (W.h_2 == 0.0 and v_2 != 0.0):
         return None
     rest = W.W_nn - W.w_1 * W.w_1 * W.h_1 - W.w_2 * W.w_2 * W.h_2
-    left = v_n - W.w_1 * W.h_1 * v_1 - W.w_2 * W.h_2 * v_2  # approach that is left when friction holds both tangents
-    held = rest <= RANK * W.W_nn
-    if held and abs(left) > RANK * hypot(v_n, v_1, v_2):
+    if rest <= ROUNDING * W.W_nn:  # friction that holds both tangents holds the normal
         return None
-    P_n = _solve_least_stick(W, v_1, v_2, mu) if held else -left / rest
+    P_n = (W.w_1 * W.h_1 * v_1 + W.w_2 * W.h_2 * v_2 - v_n) / rest
     P_1, P_2 = -(v_1 + W.w_1 * P_n) * W.h_1, -(v_2 + W.w_2 * P_n) * W.h_2
-    size, most = hypot(P_1, P_2), mu * P_n
-    if held and most > 0.0 and abs(size - most) <= 1e-6 * most:  # on the cone, but for rounding
-        P_1, P_2 = P_1 * most / size, P_2 * most / size
-    elif size > most:
-        return None
-    return P_n, P_1, P_2
-
-
-def _solve_least_stick(W: ContactBlock, v_1: float, v_2: float, mu: float) -> float:
-    """The least P_n [N s] for which friction that stops the slip is in the cone; 0: there is none.
-
-    For ships that P_n and this friction together do not move along the normal.
-    """
-    x, y, dx, dy = v_1 * W.h_1, v_2 * W.h_2, W.w_1 * W.h_1, W.w_2 * W.h_2
-    a, b, c = dx * dx + dy * dy - mu * mu, x * dx + y * dy, x * x + y * y
-    square = b * b - a * c
-    return c / (sqrt(square) - b) if square >= 0.0 and sqrt(square) > b else 0.0
+    return (P_n, P_1, P_2) if hypot(P_1, P_2) <= mu * P_n else None
 
 
 def _solve_slide(W: ContactBlock, v: Row, mu: float, angle: float) -> tuple[Row, float] | None:
