@@ -33,7 +33,7 @@ def build_collision(
     """The collision of that number as JSON-able data, from its contact rows and all ships' velocity gains."""
     first_rows = rows[rows["time"] == rows["time"][0]]
     strongest = pick_strongest(first_rows)
-    start = record.starts.get(number) or _reckon_start(first_rows, record, obstacles)
+    start = record.starts.get(number) or _reckon_start(number, first_rows, record, obstacles)
     impulse = sum((row_vector(row, "impulse", NED) for row in rows), start=np.zeros(3))
     pair = [str(strongest["ship_a"]), str(strongest["ship_b"])]
     first_point = _first_point(strongest, start, record)
@@ -57,10 +57,11 @@ def build_collision(
     }
 
 
-def _reckon_start(rows: Rows, record: Record, obstacles: Mapping[str, float]) -> CollisionStart:
+def _reckon_start(number: int, rows: Rows, record: Record, obstacles: Mapping[str, float]) -> CollisionStart:
     """The start of a collision that the FMU does not show, because another one began in the same step.
 
-    From the states at the start of that step, and the contact points at its end.
+    From the states at the start of that step, and the contact points at its end. Collisions are numbered in the order
+    of their starts: it began no later than any with a higher number.
     """
     states = states_before(rows[0], record, obstacles)
     closing = 0.0
@@ -69,7 +70,8 @@ def _reckon_start(rows: Rows, record: Record, obstacles: Mapping[str, float]) ->
         closing = max(closing, float((v_a - v_b) @ row_vector(row, "normal", NED)))
     n, e, d = (sum((row_vector(row, None, NED) for row in rows), start=np.zeros(3)) / len(rows)).tolist()
     angle = heading_angle(*(state.R_nb for state in states))
-    return CollisionStart(float(rows["time"][0]), closing, angle, (n, e, d))
+    later = (start.time for other, start in record.starts.items() if other > number)
+    return CollisionStart(min([float(rows["time"][0]), *later]), closing, angle, (n, e, d))
 
 
 def _first_point(row: Any, start: CollisionStart, record: Record) -> dict[str, list[float]]:

@@ -17,12 +17,13 @@ from shipcollision_fmu.collision.dynamics import impulse_ledger
 from shipcollision_fmu.collision.dynamics.body_state import BodyState
 from shipcollision_fmu.collision.dynamics.contact import Booked
 from shipcollision_fmu.collision.dynamics.impulse_ledger import ImpulseLedger, Reading
-from shipcollision_fmu.collision.geometry import detection
+from shipcollision_fmu.collision.geometry import detection, first_touch
 from shipcollision_fmu.collision.geometry.bullet import Closest
 from shipcollision_fmu.collision.solvers import gauss_seidel
 from shipcollision_fmu.collision.solvers import held_motions as held_motions_solver
 from shipcollision_fmu.collision.solvers.aitken import Aitken
 from tests.collision import test_energy_split as energy_split
+from tests.collision import test_first_touch as touches
 from tests.collision import test_held_motions as held_motions
 from tests.collision import test_mechanisms as mechanisms
 from tests.collision import test_model as impacts
@@ -33,10 +34,11 @@ from tests.collision import test_similarity as similarity
 from tests.collision.geometry import test_compound_hull as compound
 from tests.collision.geometry.test_compound_hull import pair, sailed
 from tests.collision.solvers import test_gauss_seidel as patches
+from tests.collision.test_first_touch import boat
 from tests.collision.test_held_motions import WEST
 from tests.collision.test_quay import berthed
 
-__all__ = ["berthed", "pair", "sailed"]
+__all__ = ["berthed", "boat", "pair", "sailed"]
 
 Fixture = Callable[[str], Any]
 NOTHING = np.zeros(6)
@@ -188,6 +190,22 @@ ABLATIONS = {
         ),
     ),
     # -- geometry
+    "first touch": Ablation(
+        detection.Detector, "first_touch", lambda *_: None,
+        lambda fixture: touches.test_a_boat_stops_dead_at_a_thin_pole(
+            fixture("world"), fixture("boat"), touches.FEW, touches.MOTOR_BOAT
+        ),
+    ),
+    "touching on at another place": Ablation(
+        first_touch._Parts, "_touch_on", lambda *_: None,
+        lambda fixture: touches.test_a_log_that_was_hit_at_one_end_meets_with_the_other(
+            fixture("world"), fixture("boat")
+        ),
+    ),
+    "normals that follow a thin hull": Ablation(
+        detection, "FOLLOWS", 2.0,
+        lambda fixture: touches.test_a_ship_slides_along_a_pole_that_is_inside_it(fixture("world"), fixture("boat")),
+    ),
     "overlap in plan": Ablation(
         detection.Detector, "_plan_normal", bullets_normal,
         two(mechanisms.test_a_ship_put_deep_inside_another_is_stopped_sideways, "pgs"),

@@ -215,3 +215,26 @@ def test_more_touches_than_are_looked_for_are_warned_of(
     w.step(0.1)
     assert "touched 40 times in the step from t = 0 s by 0.1 s" in w.model.warning
     assert len(examined) <= 2 * (40 + 10)
+
+
+SHIP = (100.0, 15.0, 5.0, 5e6, {"shape": "parametric", "depth": 9.0, "bow_length": 25.0, "stern_length": 15.0})
+
+
+@pytest.mark.slow
+def test_a_ship_slides_along_a_pole_that_is_inside_it(world: MakeWorld, boat: Boats) -> None:
+    """Under a parallel master a turning ship strikes a pole of 0.5 m at 15 m/s, with steps of 0.02 s. It
+    overlaps by up to 0.3 m from then on, and slides along. The normal follows the side; that of the first touch, of
+    the pole, let the ship in by 7.7 m."""
+    at = {
+        "position": [30.61305, 83.14091, 0.0], "attitude": (0.0, 0.0, 0.4546444),
+        "nu": [-10.1125, -11.07868, 0.0, 0.0, 0.0, -0.02],
+    }  # fmt: skip
+    obstacles = pole(0.5) + "heading_deg = 304.55328\n"
+    w = world([boat(SHIP)], [at], algorithm="jacobi", degrees_of_freedom=3, obstacles=obstacles, substep=0.02)
+    w.run(5.0, 0.02)
+    clearances = []
+    for _ in range(200):
+        w.step(0.02)
+        clearances.append(w.model.outputs.clearance)
+    assert w.model.outputs.collision_count == 1
+    assert min(clearances) >= -0.35

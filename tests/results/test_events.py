@@ -94,7 +94,7 @@ def test_a_ship_hit_from_both_sides_at_once_takes_its_share_from_each() -> None:
     assert second["delta_v"]["middle"][1] == pytest.approx(on_a, rel=1e-12)
     # The FMU showed the start of the second one only. Left's side moves at 1.5 m/s, middle's stern, 20 m abaft, comes
     # towards it at 20 x 0.02 m/s.
-    assert first["start"] == 0.5
+    assert first["start"] == 0.2  # numbered in the order of their starts, it began no later
     assert first["closing_speed"] == pytest.approx(1.5 + 0.4)
     assert first["angle"] == 0.0
     assert second["start"] == 0.2
@@ -136,6 +136,7 @@ def test_a_start_beside_another_against_an_obstacle_that_stands_across() -> None
     assert first["closing_speed"] == pytest.approx(2.0)
     assert first["relative_velocity"] == pytest.approx([0.0, 2.0, 0.0])
     assert first["angle"] == pytest.approx(pi / 2)
+    assert first["start"] == 0.2  # of two that begin in one step, the first begins no later than the second
 
 
 FLEET = 4
@@ -172,7 +173,23 @@ def test_pairs_that_meet_in_one_step_lose_nothing(tmp_path: Path) -> None:
         assert collision["angle"] == pytest.approx(pi)
         for gained in collision["delta_v"].values():
             assert np.linalg.norm(gained) == pytest.approx(5.0, rel=1e-9)
+    assert len({c["start"] for c in collisions}) == 1  # images of each other start alike: 8 m at 10 m/s
+    assert collisions[0]["start"] == pytest.approx(0.8, abs=0.011)
     assert sum(c["energy"] for c in collisions) == pytest.approx(run.summary["energy"]["dissipated"], rel=1e-9)
+
+
+def test_a_cause_starts_before_its_effect(tmp_path: Path) -> None:
+    """Three KCS in a row: the first strikes the second, which reaches the third 0.01 m on in the same step."""
+    text = HEAD_ON.replace("duration = 2.0", "duration = 7.0").replace("step = 0.5", "step = 0.05")
+    for name, north, speed in (("a", 0.0, 5.0), ("b", 260.0, 0.0), ("c", 490.01, 0.0)):
+        text += (
+            f'[ships.{name}]\nship = "kcs"\nposition = [{north}, 0.0]\nheading_deg = 0.0\nspeed = {speed}\n'
+            "hydrodynamics = false\ndegrees_of_freedom = 3\n"
+        )
+    (tmp_path / "row.toml").write_text(text)
+    cause, effect = simulate(load_scenario(tmp_path / "row.toml"), in_process=True).events["collisions"][:2]
+    assert [(c["ship_a"], c["ship_b"]) for c in (cause, effect)] == [("a", "b"), ("b", "c")]
+    assert 6.0 <= cause["start"] <= effect["start"] <= 6.0 + 3 * 0.01
 
 
 BOX = ship_toml(
