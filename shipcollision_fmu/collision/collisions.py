@@ -91,6 +91,10 @@ class Collisions:
         """Bodies in an open collision with any other."""
         return {body for pair, state in self._pairs.items() if state.collision for body in pair}
 
+    def open_pairs(self) -> list[Pair]:
+        """Pairs in an open collision."""
+        return [pair for pair, state in self._pairs.items() if state.collision]
+
     def get_state(self) -> dict[str, Any]:
         """All of it as plain data."""
         pairs = [[a, b, p.collision, p.scratch, p.last_contact] for (a, b), p in self._pairs.items()]

@@ -16,14 +16,14 @@ __all__ = ["describe_delayed_impulses"]
 
 
 def describe_delayed_impulses(
-    t: float, H: float, delayed_speeds: Mapping[int, float], near: Iterable[Pair], names: Sequence[str],
+    t: float, H: float, delayed_speeds: Mapping[int, float], colliding: Iterable[Pair], names: Sequence[str],
     thickness: Callable[[int, int], float],
 ) -> str:  # fmt: skip
     """The warning of the step from t by H [s] if impulses come later than hulls are thick, or nothing.
 
-    delayed_speeds: by body, the speed [m/s] that a pending impulse takes; thickness: of the thinner of two hulls [m].
+    colliding: pairs in an open collision; delayed_speeds: by body, the speed [m/s] that a pending impulse takes; thickness: of the thinner of two hulls [m].
     """
-    for a, b in near:
+    for a, b in colliding:
         way, thin = H * max(delayed_speeds.get(a, 0.0), delayed_speeds.get(b, 0.0)), thickness(a, b)
         if way > thin:
             return (

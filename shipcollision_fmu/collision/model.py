@@ -122,12 +122,14 @@ class ShipCollision:
             except Exception:
                 self.set_state(saved)
                 raise
-            self._warn(t, H, near, detector)
+            self.warning = "; ".join(filter(None, (self.warning, self._totals.describe_unconverged(t, H))))
         else:
             points = []
             self._collisions.close_old(t)
             self._caches.forget_parted(())
             self._advance_others(H, states, ())
+        if self._exchange.delayed_speeds:
+            self._warn_of_delay(t, H, detector)
         self._publish(t, H, states, points, candidates)
 
     def _receive(self, t: float, H: float) -> tuple[list[BodyState], list[Pair]]:
@@ -170,13 +172,11 @@ class ShipCollision:
             self.warning = schedule.describe_exhausted(t)
         return points
 
-    def _warn(self, t: float, H: float, near: dict[Pair, NearPair], detector: Detector) -> None:
-        """Say what could not be right in the step."""
-        warnings = [self.warning, self._totals.describe_unconverged(t, H)]
-        if delayed := self._exchange.delayed_speeds:
-            names = [body.name for body in self._bodies]
-            warnings.append(describe_delayed_impulses(t, H, delayed, near, names, detector.thickness))
-        self.warning = "; ".join(filter(None, warnings))
+    def _warn_of_delay(self, t: float, H: float, detector: Detector) -> None:
+        """Say where a ship may have passed what it hit, since its master applied the impulse one step late."""
+        delayed, names = self._exchange.delayed_speeds, [body.name for body in self._bodies]
+        said = describe_delayed_impulses(t, H, delayed, self._collisions.open_pairs(), names, detector.thickness)
+        self.warning = "; ".join(filter(None, (self.warning, said)))
 
     def _respond(
         self, t: float, h: float, pairs: list[Pair], states: list[BodyState], detector: Detector
