@@ -21,7 +21,8 @@ def describe_delayed_impulses(
 ) -> str:  # fmt: skip
     """The warning of the step from t by H [s] if impulses come later than hulls are thick, or nothing.
 
-    colliding: pairs in an open collision; delayed_speeds: by body, the speed [m/s] that a pending impulse takes; thickness: of the thinner of two hulls [m].
+    delayed_speeds: by body, the speed [m/s] that a pending impulse takes; colliding: pairs in an open collision;
+    thickness: of the thinner of two hulls [m].
     """
     for a, b in colliding:
         way, thin = H * max(delayed_speeds.get(a, 0.0), delayed_speeds.get(b, 0.0)), thickness(a, b)
