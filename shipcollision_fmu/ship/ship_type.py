@@ -81,7 +81,9 @@ _TYPE_BY_WORD = {
     "cruise": "passenger liner", "fishing": "fishing vessel", "trawler": "fishing vessel", "tug": "tug",
     "drill": "drilling vessel", "diving": "diving support vessel", "supply": "offshore supply vessel",
     "research": "research vessel", "destroyer": "destroyer", "frigate": "destroyer", "corvette": "destroyer",
-    "warship": "destroyer", "tender": "tender", "pilot": "tender", "speed boat": "speed boat",
+    "warship": "destroyer", "offshore": "offshore supply vessel", "tender": "tender", "pilot": "tender",
+    "launch": "tender", "patrol": "tender",
+    "pleasure": "speed boat", "high speed": "speed boat", "speed boat": "speed boat",
     "speedboat": "speed boat", "motor boat": "speed boat", "yacht": "speed boat", "high-speed": "speed boat",
 }  # fmt: skip
 """The type for a word in [ship] kind; the first that is found counts."""

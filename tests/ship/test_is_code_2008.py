@@ -106,7 +106,9 @@ def test_without_hydrostatics_CG_is_at_the_waterline() -> None:
     ("kind", "name"),
     [("tanker (VLCC)", "tanker, loaded"), ("RoPax ferry", "ferry"), ("general cargo", "cargo vessel, loaded"),
      ("Container ship", "container ship, loaded"), ("harbour tug", "tug"), ("stern trawler", "fishing vessel"),
-     ("cargo vessel, container on deck", "cargo vessel, container on deck"), ("anything", "cargo vessel, loaded")],
+     ("cargo vessel, container on deck", "cargo vessel, container on deck"), ("anything", "cargo vessel, loaded"),
+     ("Pleasure craft", "speed boat"),
+     ("High speed craft", "speed boat"), ("Offshore vessel", "offshore supply vessel")],
 )  # fmt: skip
 def test_the_type_is_found_in_the_kind(kind: str, name: str) -> None:
     assert find_ship_type(kind) == SHIP_TYPES[name]
