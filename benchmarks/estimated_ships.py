@@ -4,8 +4,8 @@
 
 Each ship is estimated from L, B, T, C_b and its kind, and sails at the speed of the published test: 35 deg of rudder to
 starboard, deep water at rest, 3 degrees of freedom. Sources and their grades are those of
-tests/oracles/published_turning.py; tests/manoeuvring/trials/test_four_numbers.py holds the claim. Stopping distances
-depend on the engine and are not compared here.
+tests/oracles/published_turning.py; tests/manoeuvring/trials/test_four_numbers.py holds the claim. GM, roll period,
+power and stopping distances are compared by estimated_stopping.py.
 """
 
 from __future__ import annotations
