@@ -71,7 +71,9 @@ def encounter(rng: random.Random) -> tuple[list[str], list[dict], dict]:
     # Drawn last, so that a seed keeps its geometry.
     parameters["restitution"] = rng.choice([0.0, 0.3, 1.0])
     if rng.random() < 0.3 and SMALL.isdisjoint(names):  # ships, heeled and rolling, with what is held at rest
-        parameters["degrees_of_freedom"] = 4
+        # By Kirchhoff's equations, which both sides know: a straight course in 4 degrees of freedom has no law of the
+        # package, and what a ship on its beam ends then does, the model would take for forces (6e-6 of T in seed 1999).
+        parameters |= {"degrees_of_freedom": 4, "coasting": "free"}
         for start in starts:
             attitude, (u, v, _, _, _, r) = (rng.uniform(-0.2, 0.2), 0.0, start["attitude"][2]), start["nu"]
             level = level_axes(attitude) @ [u, v, 0.0, rng.uniform(-0.05, 0.05), 0.0, r]
