@@ -48,13 +48,16 @@ def test_a_vlcc_from_four_numbers_does_not_spin() -> None:
 
 
 BIG = ("tanker", "container", "cargo", "natural gas", "car carrier", "passenger", "ferry", "drilling", "destroyer")
-GRID = [(name, L) for name in TYPES for L in (10.0, 60.0, 200.0, 400.0) if L < 400.0 or any(w in name for w in BIG)]
-"""Working craft and boats of 400 m are left out: a trawler of that length would still turn about its stem."""
+GRID = [
+    *((name, L, 3) for name in TYPES for L in (10.0, 60.0, 200.0, 400.0) if L < 400.0 or any(w in name for w in BIG)),
+    *((name, 60.0, degrees_of_freedom) for name in TYPES for degrees_of_freedom in (4, 6)),
+]
+"""Type, length [m], degrees of freedom. Working craft and boats of 400 m are left out: a trawler of that length would
+still turn about its stem."""
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("degrees_of_freedom", [3, 4, 6])
-@pytest.mark.parametrize(("ship_type", "L"), GRID)
+@pytest.mark.parametrize(("ship_type", "L", "degrees_of_freedom"), GRID)
 def test_every_type_turns_as_ships_do(ship_type: str, L: float, degrees_of_freedom: int) -> None:
     """IMO MSC.137(76): advance 4.5 L, tactical diameter 5 L. Drift: 22.5 L/R + 1.45 deg (Principles of Naval
     Architecture III, recalled) and 6 deg. No ship spins, or loses all of its way."""
