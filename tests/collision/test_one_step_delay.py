@@ -61,7 +61,10 @@ def late_impulse(world: MakeWorld, ship: str, V: tuple[float, float], e: float, 
 def test_ships_that_go_on_together_feel_the_same(
     make_ship: Make, world: MakeWorld, V: tuple[float, float], e: float
 ) -> None:
-    """Galilei: a common velocity changes nothing but the places, with added mass too as far as the first impulse."""
+    """Galilei: a common velocity changes nothing but the places, with added mass too as far as the first impulse.
+
+    It holds for ships that coast straight. By Kirchhoff's equations it does not: the water is at rest.
+    """
     for added_mass in (NO_ADDED_MASS, "m_x = 0.05\nm_y = 0.9"):
         ship = make_ship("ship", added_mass=added_mass)
         at_rest, P = late_impulse(world, ship, (0.0, 0.0), e, 0.5)

@@ -112,7 +112,7 @@ class Balance:
         return [np.array(o.impulse) - a for o, a in zip(self.w.model.outputs.ships, self.w.applied, strict=True)]
 
 
-def check(world: MakeWorld, seed: int) -> bool:
+def check(world: MakeWorld, seed: int, coasting: str = "straight") -> bool:
     """Run one encounter; whether the hulls touched. Nothing is NaN, and no energy is gained.
 
     With a sequential master in no step, but what a fender held before; without a fender the energy lost is what the
@@ -124,7 +124,9 @@ def check(world: MakeWorld, seed: int) -> bool:
     """
     names, starts, parameters = encounter(random.Random(seed))
     duration = parameters.pop("time")
-    w = world(names, starts, **parameters)
+    if coasting == "kirchhoff" and parameters["degrees_of_freedom"] > 3:
+        coasting = "free"  # the ships of Guan et al. (2014) have masses that do not float
+    w = world(names, starts, coasting=coasting, **parameters)
     sequential, alone = parameters["algorithm"] == "gauss-seidel", not parameters["obstacles"]
     kind = "plastic" if parameters["restitution"] == 0.0 else "ships" if SMALL.isdisjoint(names) else "small"
     most = 1e-9 if sequential else PARALLEL[kind]
@@ -159,6 +161,11 @@ def check(world: MakeWorld, seed: int) -> bool:
 
 def test_ten_random_encounters(world: MakeWorld) -> None:
     assert sum(check(world, seed) for seed in range(10)) > 1
+
+
+@pytest.mark.slow
+def test_random_encounters_of_ships_that_coast_by_kirchhoffs_equations(world: MakeWorld) -> None:
+    assert sum(check(world, seed, "kirchhoff") for seed in range(40)) > 10
 
 
 @pytest.mark.parametrize("count", [30, pytest.param(120, marks=pytest.mark.slow)])
