@@ -22,6 +22,7 @@ from shipcollision_fmu.collision.geometry.bullet import Closest
 from shipcollision_fmu.collision.solvers import gauss_seidel
 from shipcollision_fmu.collision.solvers import held_motions as held_motions_solver
 from shipcollision_fmu.collision.solvers.aitken import Aitken
+from tests.collision import test_coasting_ships as coasting_ships
 from tests.collision import test_energy_split as energy_split
 from tests.collision import test_first_touch as touches
 from tests.collision import test_held_motions as held_motions
@@ -177,7 +178,15 @@ ABLATIONS = {
     ),
     "one-step delay": Ablation(
         ImpulseLedger, "read", without_in_readings(one_step_delay=False),
-        two(delay.test_a_ship_springs_between_two_walls_without_losing_or_gaining, 3, "jacobi"),
+        two(delay.test_a_ship_springs_between_two_walls_without_losing_or_gaining, 3, "straight", "jacobi"),
+    ),
+    "law of coasting": Ablation(
+        exchange, "_follow", lambda *_: None,
+        two(coasting_ships.test_both_models_find_the_same_motion, 3, True),
+    ),
+    "law of coasting of a ship with a one-step delay": Ablation(
+        exchange, "_follow", lambda *_: None,
+        two(delay.test_a_ship_springs_between_two_walls_without_losing_or_gaining, 3, "kirchhoff", "jacobi"),
     ),
     "no deficit for bodies out of range": Ablation(
         impulse_ledger, "_is_out_of_range", lambda *_: False,
