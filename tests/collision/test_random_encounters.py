@@ -126,7 +126,7 @@ def check(world: MakeWorld, seed: int, coasting: str = "straight") -> bool:
     duration = parameters.pop("time")
     if coasting == "kirchhoff" and parameters["degrees_of_freedom"] > 3:
         coasting = "free"  # the ships of Guan et al. (2014) have masses that do not float
-    w = world(names, starts, coasting=coasting, **parameters)
+    w = world(names, starts, **{"coasting": coasting, **parameters})
     sequential, alone = parameters["algorithm"] == "gauss-seidel", not parameters["obstacles"]
     kind = "plastic" if parameters["restitution"] == 0.0 else "ships" if SMALL.isdisjoint(names) else "small"
     most = 1e-9 if sequential else PARALLEL[kind]
