@@ -98,8 +98,7 @@ def test_every_patch_is_solved(scatter: float) -> None:
 
 @pytest.mark.parametrize("case", [(35, 3, 4, 1.0), (22, 6, 4, 1.0), (26, 6, 4, 1.0), (11, 8, 6, 1.0), (9, 6, 4, 1.0)])
 def test_wedges_are_solved_by_newtons_method_and_aclm_in_turns(case: tuple[int, int, int, float]) -> None:
-    """Patches with normals up to a wedge apart. Newton's method alone leaves the first four unsolved, ACLM alone the
-    fifth."""
+    """Patches with normals up to a wedge apart. Newton's method alone leaves the first unsolved, ACLM the last."""
     seed, k, dof, mu = case
     assert solve_gauss_seidel(*random_patch(seed, k, dof, 0.5), mu).residual <= 1e-10
 
