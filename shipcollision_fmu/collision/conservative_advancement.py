@@ -24,7 +24,7 @@ import numpy as np
 from ..errors import StepError
 from .bodies import Body
 from .contact_problem import ContactCaches
-from .dynamics.body_state import BodyState
+from .dynamics.body_state import BodyState, advance_bodies
 from .geometry.broad_phase import Pair
 from .geometry.detection import FAST, Detector
 from .proximity import NearPair
@@ -83,18 +83,15 @@ class ConservativeAdvancement:
         while self.touches_left and (touch := self._first_touch(pairs, self.h - passed)) is not None:
             self.touches_left -= 1
             passed += touch
-            for state in self._moving:
-                state.advance(touch)
+            advance_bodies(self._moving, touch)
             yield substep * self.h + passed, pairs
             self._approach.clear()
             pairs = list(self._due)
-        for state in self._moving:
-            state.advance(self.h - passed)
+        advance_bodies(self._moving, self.h - passed)
         yield (substep + 1) * self.h, pairs
 
     def _advance_pending(self) -> None:
-        for state in self._moving:
-            state.advance(self.h, self._pending_substeps)
+        advance_bodies(self._moving, self.h, self._pending_substeps)
         self._pending_substeps = 0
 
     def reschedule(self, substep: int, examined: Sequence[Pair], touched: bool) -> None:
@@ -118,8 +115,7 @@ class ConservativeAdvancement:
     def finish(self) -> None:
         """Move the near bodies to the end of the communication step."""
         if self._pending_substeps == self.count:
-            for state in self._moving:
-                state.advance(self._H)
+            advance_bodies(self._moving, self._H)
         else:
             self._advance_pending()
 

@@ -41,6 +41,11 @@ class ContactSolution:
     residual: float = 0.0
     sweeps: int = 0
 
+    @property
+    def moves_nothing(self) -> bool:
+        """Whether the contacts part, or rest since an earlier substep: nothing was solved."""
+        return self.sweeps == 0 and self.residual == 0.0 and not any(impulse.P.any() for impulse in self.impulses)
+
 
 @dataclass
 class ContactCaches:

@@ -197,6 +197,9 @@ class ShipCollision:
     ) -> list[ContactPoint]:
         """Book the impulses, scaled to passivity, and the energy that they cost. Returns the contact points with those
         of the impulses."""
+        if solution.moves_nothing:
+            idle = solution.impulses
+            return merge_impulses(points, idle, [(0.0, 0.0)] * len(idle), numbers)
         impulses, taken_off = enforce_passivity(solution.impulses, states)
         booked, parameters = book_impulses(impulses, states), self.parameters
         energies = split_losses(booked, states, parameters.friction, parameters.restitution)

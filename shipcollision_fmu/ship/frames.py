@@ -28,6 +28,7 @@ __all__ = [
     "attitude_from_quaternion",
     "attitude_from_rotation",
     "pose_w",
+    "poses_w",
     "quaternion",
     "quaternion_w",
     "rotation",
@@ -145,6 +146,13 @@ def swapped_rows(vectors: Sequence[Sequence[float]]) -> Array:
 def pose_w(x: Array, R_nb: Array) -> tuple[tuple[float, float, float], tuple[float, float, float, float]]:
     """Bullet's pose of a body at x (3,) in n with R_nb: (position in w, quaternion of quaternion_w)."""
     return swap_axes(x), quaternion_w(R_nb)
+
+
+def poses_w(
+    poses: Sequence[tuple[Array, Array]],
+) -> list[tuple[tuple[float, float, float], tuple[float, float, float, float]]]:
+    """Bullet's poses of bodies at (x, R_nb), each as pose_w gives it."""
+    return [pose_w(x, R_nb) for x, R_nb in poses]
 
 
 def quaternion_w(R_nb: Array) -> tuple[float, float, float, float]:

@@ -134,7 +134,7 @@ def test_what_is_in_an_fmu(built: dict[str, Path]) -> None:
             assert wanted in names
         assert not [n for n in names if re.search(r"__pycache__|\.pyc$|/scenarios/|/fmu_src/", n)]
         carried = {n.split("/")[2] for n in names if n.startswith("resources/shipcollision_fmu/")}
-        assert carried == {"__init__.py", "collision", "errors.py", "fmi", "manoeuvring", "ship"}
+        assert carried == {"__init__.py", "collision", "errors.py", "files.py", "fmi", "manoeuvring", "ship"}
 
 
 def test_requirements_are_those_of_the_project() -> None:

@@ -25,7 +25,7 @@ step, in which the law takes part.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -34,7 +34,7 @@ from ...ship.coasting import coast_pose
 from ...ship.frames import Array, rotation, skew
 from .other_forces import OtherForces, rotation_vector_of
 
-__all__ = ["BodyState"]
+__all__ = ["BodyState", "advance_bodies"]
 
 Motion = tuple[Array, Array | None]
 """Velocity of CG [m/s] and angular velocity [rad/s] (3,), both in n; None for a body that does not turn."""
@@ -193,3 +193,9 @@ class BodyState:
         """Body coordinates [m] of the point p_n (in n) at the predicted pose; (3,)."""
         r_b: Array = self.R.T @ (p_n - self.x)
         return r_b
+
+
+def advance_bodies(states: Iterable[BodyState], h: float, substeps: int = 1) -> None:
+    """Move the predicted poses of several bodies on by so many substeps of h [s]."""
+    for state in states:
+        state.advance(h, substeps)

@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import HostError
-from ...ship.frames import SWAP, Array, pose_w, swap_axes, swapped_rows
+from ...ship.frames import SWAP, Array, pose_w, poses_w, swap_axes, swapped_rows
 from ...ship.hull.solid import HullMesh
 from ..dynamics.body_state import BodyState
 
@@ -107,23 +107,24 @@ class BulletAdapter:
             _give_back_memory()
         self._client = -1
 
-    def _place(self, ship: int, x: Array, R_nb: Array) -> None:
-        """Put a ship's parts at CO = x (3,) in n [m] with the attitude R_nb. A pose that is the same object as before
-        moves nothing."""
-        before = self._placed[ship]
-        if before is not None and before[0] is x and before[1] is R_nb:
-            return
-        self._placed[ship] = x, R_nb
-        self._overlaps = {pair: gap for pair, gap in self._overlaps.items() if ship not in pair}
-        position, orientation = pose_w(x, R_nb)
-        for body in self._parts[ship]:
-            self._p.resetBasePositionAndOrientation(body, position, orientation, physicsClientId=self._client)
+    def _place(self, *placed: tuple[int, Array, Array]) -> None:
+        """Put the parts of ships at CO = x (3,) in n [m] with the attitude R_nb, each given as (ship, x, R_nb). A pose
+        that is the same object as before moves nothing."""
+        moved = []
+        for ship, x, R_nb in placed:
+            before = self._placed[ship]
+            if before is None or before[0] is not x or before[1] is not R_nb:
+                moved.append((ship, x, R_nb))
+        for (ship, x, R_nb), (position, orientation) in zip(moved, poses_w([pose[1:] for pose in moved]), strict=True):
+            self._placed[ship] = x, R_nb
+            self._overlaps = {pair: gap for pair, gap in self._overlaps.items() if ship not in pair}
+            for body in self._parts[ship]:
+                self._p.resetBasePositionAndOrientation(body, position, orientation, physicsClientId=self._client)
 
     def closest(self, a: int, b: int, states: Sequence[BodyState], distance: float) -> list[Closest]:
         """Closest points of every pair of parts of ships a and b not farther apart than `distance` [m]."""
         found = []
-        self._place(a, states[a].x, states[a].R)
-        self._place(b, states[b].x, states[b].R)
+        self._place((a, states[a].x, states[a].R), (b, states[b].x, states[b].R))
         for i, part_a in enumerate(self._parts[a]):
             for j, part_b in enumerate(self._parts[b]):
                 for row in self._p.getClosestPoints(
@@ -146,8 +147,7 @@ class BulletAdapter:
         one, other: ship, its part, and its pose: CO in n [m], R_nb.
         """
         (a, i, x_a, R_a), (b, j, x_b, R_b) = one, other
-        self._place(a, x_a, R_a)
-        self._place(b, x_b, R_b)
+        self._place((a, x_a, R_a), (b, x_b, R_b))
         rows = self._p.getClosestPoints(
             self._parts[a][i], self._parts[b][j], distance - 2 * MARGIN, physicsClientId=self._client
         )
@@ -158,8 +158,7 @@ class BulletAdapter:
 
     def gap(self, a: int, b: int, states: Sequence[BodyState], cap: float) -> float:
         """Least distance [m] between ships a and b, negative in overlap, at most `cap`."""
-        self._place(a, states[a].x, states[a].R)
-        self._place(b, states[b].x, states[b].R)
+        self._place((a, states[a].x, states[a].R), (b, states[b].x, states[b].R))
         if (a, b) in self._overlaps:
             return min(cap, self._overlaps[a, b])
         least = cap
