@@ -118,7 +118,8 @@ def estimate_losses(W: Array, v: Array, mu: float, e: float, H: Array | None = N
     """(energy_normal, energy_tangential) of solve_impact_process [J], at a small part of its cost.
 
     Exact where the slip keeps its direction until it stops, and from there on. A slip that turns is followed in steps,
-    in each of which friction has one direction. The parts are then accurate to 1 % of their sum, mostly to 0.1 %.
+    in each of which friction has one direction. The share of friction is then accurate to 1 %, mostly to 0.1 %, and the
+    sum to some per cent.
     """
     speed, W_nn = -float(v[0]), float(W[0, 0])
     if speed <= REST or W_nn <= 0.0:
