@@ -71,6 +71,7 @@ def test_what_was_taken_back_left_no_trace(example: ModuleType, unpacked: dict[s
     assert speeds["own"] < 2.9  # she was stopped, partly
 
 
+@pytest.mark.slow
 def test_the_command() -> None:
     done = subprocess.run(
         [sys.executable, "-W", "error", EXAMPLE, "--finest", "0.001"],

@@ -168,7 +168,7 @@ def test_random_encounters_of_ships_that_coast_by_kirchhoffs_equations(world: Ma
     assert sum(check(world, seed, "kirchhoff") for seed in range(40)) > 10
 
 
-@pytest.mark.parametrize("count", [30, pytest.param(120, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [10, pytest.param(120, marks=pytest.mark.slow)])
 def test_a_parallel_master_that_is_known_gains_nothing_and_loses_what_the_model_says(
     world: MakeWorld, count: int
 ) -> None:

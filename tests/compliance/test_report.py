@@ -23,7 +23,7 @@ from shipcollision_fmu.errors import InputError
     ("name", "fmi"),
     [
         ("ShipCollision", 2),
-        ("ShipManoeuvring", 3),
+        pytest.param("ShipManoeuvring", 3, marks=pytest.mark.slow),
         pytest.param("ShipCollision", 3, marks=pytest.mark.slow),
         pytest.param("ShipManoeuvring", 2, marks=pytest.mark.slow),
     ],

@@ -105,6 +105,7 @@ def sailing(ship: Component) -> Callable[[int], None]:
     return piece
 
 
+@pytest.mark.slow
 def test_collisions_cost_the_same_after_others(make: Make, tmp_path: Path) -> None:
     (tmp_path / "barge.toml").write_text(BARGE, encoding="utf-8")
     counts = calls(visiting(make("ShipCollision"), tmp_path / "barge.toml"), 5, 5)

@@ -181,6 +181,7 @@ def test_same_bytes_from_files_found_in_another_order(
         assert path.read_bytes() == built[name].read_bytes()
 
 
+@pytest.mark.slow
 def test_other_ships_make_another_fmu(built: dict[str, Path], tmp_path: Path) -> None:
     three = build_fmus(tmp_path, ships=("own", "target", "third"))
     assert validate_fmu(str(three["ShipCollision"])) == []

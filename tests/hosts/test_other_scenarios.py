@@ -72,6 +72,7 @@ def differences(host: str, told: Scenario, folder: Path, gone: Path | None = Non
     return np.abs(rows[seen] - ours[seen]) / np.where(vectors > 0.0, vectors, 1.0), ours
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("host", [host for host in MASTERS if host == "libcosim-osp"])
 def test_orders_in_time_reach_the_ship_in_libcosim(tmp_path: Path, host: str) -> None:
     scenario = parse_scenario(ORDERS, "orders.toml")

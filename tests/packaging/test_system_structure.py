@@ -120,6 +120,7 @@ def test_a_ship_file_travels_with_what_it_extends(scenario_file: Write, tmp_path
     assert pack_ship("own", "kcs") == ("kcs", {})
 
 
+@pytest.mark.slow
 def test_a_mesh_travels_with_its_ship(tmp_path: Path) -> None:
     source = find_models() / "ships" / "mesh_example.toml"
     place, files = pack_ship("own", str(source))

@@ -140,7 +140,10 @@ def test_the_sides_are_seen_in_their_ships_colours(page: Page, scene: Scene) -> 
     assert red[0] > 1.8 * red[2]
 
 
-@pytest.mark.parametrize(("before", "after"), [((500, 440), (1400, 900)), ((1400, 600), (500, 900))])
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [((500, 440), (1400, 900)), pytest.param((1400, 600), (500, 900), marks=pytest.mark.slow)],
+)
 def test_the_overview_is_fitted_again_when_the_window_changes(
     browser: Chrome, guan2014: Path, before: tuple[int, int], after: tuple[int, int]
 ) -> None:

@@ -159,6 +159,7 @@ def sailed(make_ship: Callable[..., str], world: Callable[..., Any], monkeypatch
     return sail
 
 
+@pytest.mark.slow
 def test_a_stem_slides_along_five_pieces_as_along_one(sailed: Any) -> None:
     """Pressed on the side while it slides 60 m across two joints, without friction: no impulse along the side."""
     start = [

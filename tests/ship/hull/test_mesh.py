@@ -236,6 +236,7 @@ def test_a_missing_package_is_named(read: Read, monkeypatch: pytest.MonkeyPatch,
 # -- convex parts -----------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_flared_hull_is_cut_into_convex_parts_that_hold_it(read: Read) -> None:
     got = read(FLARED)
     assert 2 <= len(got.parts) <= 16

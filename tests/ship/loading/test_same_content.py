@@ -122,6 +122,7 @@ def test_a_mesh_that_changes_gives_another_ship_and_hull(counts: Counter[str], t
     assert np.ptp(solid(longer).vertices[:, 0]) == pytest.approx(1.001 * 120.0, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_options_of_a_mesh_give_another_ship_and_hull(tmp_path: Path) -> None:
     mesh = settled(tmp_path / "hull.obj", EXAMPLE.read_text(encoding="utf-8"))
     one, other = load_ship(mesh_ship(mesh)), load_ship(mesh_ship(mesh, origin=[60100.0, 0.0, 7000.0]))

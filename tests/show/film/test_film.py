@@ -86,7 +86,7 @@ def test_water_hides_by_beer_and_lambert() -> None:
     assert sea.find_clarity(np.zeros(1))[0] == 1.0
 
 
-@pytest.mark.parametrize("run", ["guan2014", "kvlcc2_crossing"])
+@pytest.mark.parametrize("run", ["guan2014", pytest.param("kvlcc2_crossing", marks=pytest.mark.slow)])
 def test_the_camera_sees_the_first_contact(run: str, request: pytest.FixtureRequest) -> None:
     """In the middle of the picture, and no hull between: what is seen there is no nearer than a ship's breadth."""
     scene = load_scene(request.getfixturevalue(run))
