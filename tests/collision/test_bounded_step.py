@@ -6,6 +6,7 @@ Work is counted in Newton's steps and gradient steps of the solvers of last reso
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -22,6 +23,21 @@ MakeWorld = Callable[..., World]
 QUAY = '[quay]\nkind = "quay"\nshape = "box"\nlength = 600.0\nbreadth = 20.0\nposition = [0.0, 38.2]'
 MOST = 400
 """Steps of Newton's method and of the gradient method in a communication step; 51 s were half a million."""
+
+
+@pytest.fixture
+def box(tmp_path: Path) -> str:
+    """Path of the file of a box 82.5 x 18.8 m."""
+    path = tmp_path / "box.toml"
+    path.write_text(
+        ship_toml(
+            particulars={
+                "L_pp": 82.5, "B": 18.8, "T": 7.6, "mass": 4e6, "allow_inconsistent": "a light ship in a deep hull",
+            },
+            hull={"depth": 12.0},
+        )
+    )  # fmt: skip
+    return str(path)
 
 
 @pytest.fixture
@@ -47,20 +63,11 @@ def last_resort(monkeypatch: pytest.MonkeyPatch) -> list[int]:
 
 @pytest.mark.parametrize("restitution", [0.05, 0.1, 0.5, 1.0])
 def test_ships_pressed_on_each_other_and_a_quay(
-    world: MakeWorld, tmp_path: Any, last_resort: list[int], restitution: float
+    world: MakeWorld, box: str, last_resort: list[int], restitution: float
 ) -> None:
     """Two flush boxes at a quay with a side force on each; the laws hold in every step."""
-    path = tmp_path / "box.toml"
-    path.write_text(
-        ship_toml(
-            particulars={
-                "L_pp": 82.5, "B": 18.8, "T": 7.6, "mass": 4e6, "allow_inconsistent": "a light ship in a deep hull",
-            },
-            hull={"depth": 12.0},
-        )
-    )  # fmt: skip
     start = [{"position": (0.0, 0.0, 0.0), "nu": np.zeros(6)}, {"position": (3.0, 18.8, 0.0), "nu": np.zeros(6)}]
-    w = world([str(path)] * 2, start, obstacles=QUAY, friction=0.3, restitution=restitution)
+    w = world([box] * 2, start, obstacles=QUAY, friction=0.3, restitution=restitution)
     force, lost = np.array([0.0, 1e5, 0.0, 0.0, 0.0, 0.0]), 0.0
     for _ in range(25):
         for i in range(2):
@@ -78,14 +85,12 @@ def test_ships_pressed_on_each_other_and_a_quay(
     assert abs(w.x[0][1]) < 1e-2
 
 
-@pytest.mark.parametrize("ship", ["kvlcc2"])
-def test_two_ships_moored_alongside_at_a_small_restitution(world: MakeWorld, last_resort: list[int], ship: str) -> None:
+def test_two_ships_moored_alongside_at_a_small_restitution(world: MakeWorld, last_resort: list[int]) -> None:
     """Two tankers side by side at a quay in a breeze on their sides, with e = 0.05."""
-    particulars = load_ship(ship)
-    B, M = particulars.B, 3.2e8
+    B, M = load_ship("kvlcc2").B, 3.2e8
     quay = QUAY.replace("38.2", str(1.5 * B + 10.0))
     start = [{"position": (0.0, 0.0, 0.0), "nu": np.zeros(6)}, {"position": (3.0, B, 0.0), "nu": np.zeros(6)}]
-    w = world([ship] * 2, start, obstacles=quay, friction=0.3, restitution=0.05)
+    w = world(["kvlcc2"] * 2, start, obstacles=quay, friction=0.3, restitution=0.05)
     gained = np.array([0.0, 0.1 * 1e6 / M, 0.0, 0.0, 0.0, 0.0])
     for _ in range(10):
         for i in range(2):
@@ -96,23 +101,14 @@ def test_two_ships_moored_alongside_at_a_small_restitution(world: MakeWorld, las
     assert w.model.outputs.solver.unconverged == 0
 
 
-def test_ships_wedged_in_a_lock(world: MakeWorld, tmp_path: Any, last_resort: list[int]) -> None:
-    """Three flush boxes between two walls, each pushed another way and turned: no energy comes from contact, momentum
-    along the lock balances but for the walls' friction, and the work is bounded."""
-    path = tmp_path / "box.toml"
-    path.write_text(
-        ship_toml(
-            particulars={
-                "L_pp": 82.5, "B": 18.8, "T": 7.6, "mass": 4e6, "allow_inconsistent": "a light ship in a deep hull",
-            },
-            hull={"depth": 12.0},
-        )
-    )  # fmt: skip
+def test_ships_wedged_in_a_lock(world: MakeWorld, box: str, last_resort: list[int]) -> None:
+    """Three flush boxes between two walls, each pushed another way and turned: no energy comes from contact, all
+    stay in place, and the work is bounded."""
     walls = QUAY.replace("38.2", str(2.5 * 18.8 + 10.0)) + QUAY.replace("[quay]", "\n[side]").replace(
         "38.2", str(-0.5 * 18.8 - 10.0)
     )
     start = [{"position": (3.0 * i, 18.8 * i, 0.0), "nu": np.zeros(6)} for i in range(3)]
-    w = world([str(path)] * 3, start, obstacles=walls, friction=0.6, restitution=0.5)
+    w = world([box] * 3, start, obstacles=walls, friction=0.6, restitution=0.5)
     push = [np.array([1e5, 1e6, 0.0, 0.0, 0.0, 1e7]), np.array([-1e5, -1e6, 0.0, 0.0, 0.0, -1e7]), np.zeros(6)]
     for _ in range(10):
         for i in range(3):
@@ -125,18 +121,9 @@ def test_ships_wedged_in_a_lock(world: MakeWorld, tmp_path: Any, last_resort: li
 
 
 def test_closed_form_answers_a_bounded_number_of_impacts(
-    world: MakeWorld, tmp_path: Any, monkeypatch: pytest.MonkeyPatch
+    world: MakeWorld, box: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """When the work of a step is spent, every pair is still answered once in each substep."""
-    path = tmp_path / "box.toml"
-    path.write_text(
-        ship_toml(
-            particulars={
-                "L_pp": 82.5, "B": 18.8, "T": 7.6, "mass": 4e6, "allow_inconsistent": "a light ship in a deep hull",
-            },
-            hull={"depth": 12.0},
-        )
-    )  # fmt: skip
     answers = [0]
     plain = responses.solve_impact_process
 
@@ -148,7 +135,7 @@ def test_closed_form_answers_a_bounded_number_of_impacts(
     monkeypatch.setattr(work_limit, "FOUR_SHIPS", 0.0)
     quay = QUAY.replace("38.2", str(3.5 * 18.8 + 10.0))
     start = [{"position": (3.0 * i, 18.8 * i, 0.0), "nu": np.array([0.0, 1.0 - 0.3 * i, 0, 0, 0, 0])} for i in range(4)]
-    w = world([str(path)] * 4, start, obstacles=quay, friction=0.3, restitution=0.9, response="closed_form")
+    w = world([box] * 4, start, obstacles=quay, friction=0.3, restitution=0.9, response="closed_form")
     had = sum(w.energy(i) for i in range(4))
     w.step(0.1)
     assert 4 <= answers[0] <= 4 * 10
