@@ -32,7 +32,7 @@ def main(solid: str, made: str, threshold: str, max_parts: str, seed: str, longe
     for i, (vertices, triangles) in enumerate(found):
         p, faces = _turn_outward(np.array(vertices, dtype=float), np.array(triangles, dtype=np.int64))
         arrays |= {f"v{i}": p, f"t{i}": faces}
-    np.savez(made, **arrays)  # type: ignore[arg-type] - the stub takes names for flags
+    np.savez(made, **arrays)  # type: ignore[arg-type]  # the stub takes names for flags
 
 
 def _turn_outward(vertices: Array, triangles: Indices) -> tuple[Array, Indices]:

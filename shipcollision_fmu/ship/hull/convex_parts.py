@@ -184,7 +184,7 @@ def _pack(cut: Cut) -> bytes:
     for i, (vertices, triangles) in enumerate(cut.parts):
         arrays |= {f"v{i}": vertices, f"t{i}": triangles}
     file = BytesIO()
-    np.savez(file, **arrays)  # type: ignore[arg-type] - the stub takes names for flags
+    np.savez(file, **arrays)  # type: ignore[arg-type]  # the stub takes names for flags
     return file.getvalue()
 
 
