@@ -15,17 +15,26 @@ __all__ = ["build", "package", "validate"]
 @click.command()
 @click.option("--out", type=PATH, default=Path("build"), show_default=True, help="Folder.")
 @click.option("--fmi", type=FMI, default="2", show_default=True, help="Version of FMI.")
-def build(out: Path, fmi: str) -> None:
+@click.option("--scalar", is_flag=True, help="With --fmi 3: the variables of FMI 2.0, without arrays.")
+@click.option(
+    "--ships", metavar="NAME,...", default="own,target", show_default=True,
+    help="Ships of ShipCollision; one is enough where it meets obstacles.",
+)  # fmt: skip
+def build(out: Path, fmi: str, scalar: bool, ships: str) -> None:
     """Build ShipCollision.fmu and ShipManoeuvring.fmu.
 
     With --fmi 3 they are called ShipCollision.fmi3.fmu and ShipManoeuvring.fmi3.fmu, so that both versions may lie in
-    one folder. FMI 3.0 needs `pip install 'shipcollision-fmu[fmi3]'`.
+    one folder. FMI 3.0 needs `pip install 'shipcollision-fmu[fmi3]'`. For hosts that do not pass arrays, such as
+    OMSimulator and Ecos, --scalar makes ShipCollision.fmi3-scalar.fmu and ShipManoeuvring.fmi3-scalar.fmu.
     """
     from ..cosim.fmu_files import require_pybullet
     from ..fmi.builder.package import build_fmus
 
+    if scalar and fmi != "3":
+        raise click.UsageError("--scalar is for FMI 3.0: FMI 2.0 has no arrays; add --fmi 3 or leave it out")
     require_pybullet()
-    for path in build_fmus(out, fmi=int(fmi)).values():
+    names = tuple(name.strip() for name in ships.split(","))
+    for path in build_fmus(out, ships=names, fmi=int(fmi), scalar=scalar).values():
         click.echo(path)
 
 

@@ -4,6 +4,8 @@
     contact[1].gap, contact[2].gap, ...                    ->  contact.gap[8]
     contact[1].normal.north, ..., contact[8].normal.down   ->  contact.normal[8, 3], row by row
 
+Hosts that do not pass arrays take the scalar flavour: every line of the table is a variable, with its name there.
+
 **The value reference in FMI 3.0 is the position here plus 1; 0 is the time**, which is a variable in FMI 3.0.
 """
 
@@ -41,11 +43,13 @@ class ArrayVariable:
         return len(self.references)
 
 
-def gather_arrays(table: Table) -> tuple[ArrayVariable, ...]:
-    """The variables of FMI 3.0, in the order in which the table first mentions them.
+def gather_arrays(table: Table, scalar: bool = False) -> tuple[ArrayVariable, ...]:
+    """The variables of FMI 3.0, in the order in which the table first mentions them; one for each line when `scalar`.
 
     Raises ValueError for an array whose elements do not belong together, or are not as many as its shape says.
     """
+    if scalar:
+        return tuple(ArrayVariable(line.name, (), line.description, (k,), line) for k, line in enumerate(table))
     gathered: dict[str, list[int]] = {}
     for reference, line in enumerate(table):
         gathered.setdefault(line.name if line.array is None else line.array.name, []).append(reference)

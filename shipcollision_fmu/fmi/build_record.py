@@ -4,7 +4,8 @@ All FMUs in a process share one interpreter and its imported modules: the second
 name silently runs the first one's code, and a package that the host has imported before wins over both. So every FMU
 carries a record of the sources it was built from, and refuses to run on others.
 
-    resources/build.json    {"model", "version", "contents", "inputs", "ships", "guid", "wrapper"}
+    resources/build.json    {"model", "version", "contents", "inputs", "ships", "guid", "wrapper",
+                             "scalar"}
 
 `contents` is a digest of the packed sources and ship data, `inputs` one of everything the file was made from, `wrapper`
 the package and version whose binaries call the slave: an FMU of somebody else may bring another version of it.
@@ -62,6 +63,8 @@ class BuildRecord:
     ships: tuple[str, ...]
     guid: str
     wrapper: str
+    scalar: bool = False
+    """FMI 3.0 without arrays."""
 
     def to_json(self) -> str:
         """As it is stored."""

@@ -10,21 +10,30 @@ from typing import Any
 from .variable_access import Model, VariableAccess
 from .variables import Table
 
-__all__ = ["SHIPS", "Interface"]
+__all__ = ["REQUIREMENTS", "SHIPS", "Interface"]
 
 SHIPS = ("own", "target")
 """Names of the ships in the default build."""
+REQUIREMENTS = ("numpy>=1.24", "pydantic>=2.7", "tomli>=2.0; python_version < '3.11'")
+"""What every slave imports besides what it carries."""
 
 
 @dataclass(frozen=True)
 class Interface:
-    """An FMU, before it is one. `table` and `model` take the names of the ships; a model of one ship ignores them."""
+    """An FMU, before it is one. `table` and `model` take the names of the ships; a model of one ship ignores them.
+
+    `requirements` are the packages that the host's Python must have, `pythons` the versions of CPython and `systems`
+    the systems for which they have wheels: there is no library for another system.
+    """
 
     name: str
     description: str
     table: Callable[[tuple[str, ...]], Table]
     model: Callable[[tuple[str, ...]], Model]
     step_size: float = 0.05
+    requirements: tuple[str, ...] = REQUIREMENTS
+    pythons: tuple[str, str] = ("3.10", "3.13")
+    systems: tuple[str, ...] = ("linux", "win")
 
     def make_access(
         self, ships: tuple[str, ...] = SHIPS, start: Mapping[str, Any] | None = None, files: Path | None = None

@@ -14,7 +14,7 @@ from ..collision.interface import contact_point_count
 from ..collision.model import ShipCollision
 from ..collision.responses import RESPONSES
 from ..ship.coasting_law import COASTING
-from .interface import SHIPS, Interface
+from .interface import REQUIREMENTS, SHIPS, Interface
 from .names import (
     APPLIED,
     ATTITUDE,
@@ -351,4 +351,7 @@ INTERFACE = Interface(
     description="Ships collide: states in, post-impact states, impulses, contact points and energy out.",
     table=table,
     model=ShipCollision,
+    requirements=(*REQUIREMENTS, "pybullet>=3.2.5"),
+    pythons=("3.10", "3.11"),  # pybullet 3.2.7 has wheels for no later one, and for Linux alone
+    systems=("linux",),
 )

@@ -41,23 +41,19 @@ class ModelSlave(SlaveBase, Fmi2Slave):  # type: ignore[misc]  # pythonfmu has n
 
     def get_real(self, vrs: list[int]) -> list[float]:
         """Values of Reals; NaN when refused."""
-        values = self.get_values(self.access.get_real, vrs)
-        return [math.nan] * len(vrs) if values is None else values
+        return self.get_values(self.access.get_real, vrs, ("Real",), math.nan)
 
     def get_integer(self, vrs: list[int]) -> list[int]:
         """Values of Integers and Enumerations; 0 when refused."""
-        values = self.get_values(self.access.get_integer, vrs)
-        return [0] * len(vrs) if values is None else values
+        return self.get_values(self.access.get_integer, vrs, ("Integer", "Enumeration"), 0)
 
     def get_boolean(self, vrs: list[int]) -> list[bool]:
         """Values of Booleans; false when refused."""
-        values = self.get_values(self.access.get_boolean, vrs)
-        return [False] * len(vrs) if values is None else values
+        return self.get_values(self.access.get_boolean, vrs, ("Boolean",), False)
 
     def get_string(self, vrs: list[int]) -> list[str]:
         """Values of Strings; empty when refused."""
-        values = self.get_values(self.access.get_string, vrs)
-        return [""] * len(vrs) if values is None else values
+        return self.get_values(self.access.get_string, vrs, ("String",), "")
 
     def set_real(self, vrs: list[int], values: list[float]) -> None:
         """Set Reals."""

@@ -30,8 +30,10 @@ from typing import Any, ClassVar, TypeVar
 
 from ..errors import InputError, ShipCollisionError, StepError
 from .build_record import confirm_build, read_start_values
+from .experiment import Experiment
 from .interface import SHIPS, Interface
 from .variable_access import VariableAccess
+from .variables import Kind
 from .wrapper_library import make_library_safe
 
 __all__ = ["LOG_CATEGORIES", "STDERR", "SlaveBase", "state_from_bytes", "state_to_bytes", "take_reference"]
@@ -77,18 +79,20 @@ class SlaveBase:
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self._ships: tuple[str, ...] = SHIPS
+        self._scalar = False
         self._start: dict[str, Any] = {}
         self.guid = ""
         if self.resources is not None:
             make_library_safe(str(self.resources))
             record = confirm_build(str(self.resources), self.wrapper)
-            self._ships, self.guid = record.ships, record.guid
+            self._ships, self.guid, self._scalar = record.ships, record.guid, record.scalar
             self._start = read_start_values(str(self.resources))
         made_from = self.interface
         self._made_from: Interface = import_module(made_from).INTERFACE if isinstance(made_from, str) else made_from
         files = None if self.resources is None else Path(str(self.resources))
         self.access = self._made_from.make_access(self._ships, self._start, files)
         self._phase = INSTANTIATED
+        self.experiment = Experiment()
         self._refused = ""  # why a call was refused that no status has reported yet
         self._unanswered = ""  # why the last get was refused
 
@@ -101,6 +105,16 @@ class SlaveBase:
         raise NotImplementedError
 
     # In time. ------------------------------------------------------------------------------
+
+    def setup_experiment(
+        self, start_time: float, stop_time: float | None = None, tolerance: float | None = None
+    ) -> None:
+        """Start and stop of the simulation [s]. The models have tolerances of their own."""
+        del tolerance
+        if self._phase not in (INSTANTIATED, INITIALISING):
+            self._refuse(InputError(f"the experiment cannot be set up: the instance is {self._phase}; reset it"))
+        elif warning := self.experiment.set_up(start_time, stop_time):
+            self._warn(warning)
 
     def enter_initialization_mode(self) -> None:
         """From here on start values are final, but for corrections."""
@@ -130,8 +144,7 @@ class SlaveBase:
 
     def _pass_warning_on(self) -> None:
         if warning := self.access.warning:
-            self.warn(warning)
-            self._print(f"warning: {warning}")
+            self._warn(warning)
 
     def terminate(self) -> None:
         """The last values stay readable; there are no more steps."""
@@ -143,7 +156,11 @@ class SlaveBase:
             if not self._refused:
                 if self._phase == TERMINATED:
                     raise StepError(f"{self._made_from.name} is terminated at t = {t:g} s: reset it or restore a state")
+                gap = self.experiment.check_step(t, h)
                 self.access.do_step(t, h)
+                self.experiment.finish_step(t, h)
+                if gap:
+                    self._warn(gap)
                 self._pass_warning_on()
                 return True
             line = f"no step at t = {t} s after a refused call: {self._refused}"
@@ -155,22 +172,32 @@ class SlaveBase:
 
     # Values. ------------------------------------------------------------------------------
 
-    def get_values(self, get: Callable[[Sequence[int]], list[T]], references: Sequence[int]) -> list[T] | None:
-        """What a getter gives; None when it refuses, which is logged.
+    def get_values(
+        self, get: Callable[[Sequence[int]], list[T]], references: Sequence[int], kinds: tuple[Kind, ...], missing: T
+    ) -> list[T]:
+        """What a getter gives for references in the table; `missing` in place of what it refuses, which is logged.
 
-        During initialisation parameters may still be corrected, so it is then only logged, and once: a host asks for
-        dozens of variables, one by one.
+        A reference that is wrong costs its own value and no other. During initialisation parameters may still be
+        corrected, so a refusal is then only logged, and once: a host asks for dozens of variables, one by one.
         """
         try:
             return get(references)
         except BaseException as error:
-            line = _line(error)
-            if self.access.running:
-                self._refused = line
-            if self.access.running or line != self._unanswered:
-                self._log(line)
-            self._unanswered = line
-            return None
+            self._note_unanswered(error)
+        served = [self.access.serves(reference, kinds) for reference in references]
+        if all(served) or not any(served):
+            return [missing] * len(references)
+        right = [reference for reference, fine in zip(references, served, strict=True) if fine]
+        values = iter(self.get_values(get, right, kinds, missing))
+        return [next(values) if fine else missing for fine in served]
+
+    def _note_unanswered(self, error: BaseException) -> None:
+        line = _line(error)
+        if self.access.running:
+            self._refused = line
+        if self.access.running or line != self._unanswered:
+            self._log(line)
+        self._unanswered = line
 
     def set_values(self, put: Callable[[Sequence[int], Any], object], references: list[int], values: list[Any]) -> None:
         """Give values to a setter; its refusal is logged and discards the next step."""
@@ -183,7 +210,7 @@ class SlaveBase:
 
     def _get_fmu_state(self) -> dict[str, Any]:
         try:
-            return {**self.access.save(), "phase": self._phase}
+            return {**self.access.save(), "phase": self._phase, "experiment": self.experiment.get_state()}
         except BaseException as error:
             self._refuse(error)
             return {"of": f"nothing: {_line(error)}"}
@@ -193,6 +220,8 @@ class SlaveBase:
             self.access.restore(state)
             phase = state.get("phase", RUNNING if self.access.running else INSTANTIATED)
             self._phase, self._refused = str(phase), ""
+            if "experiment" in state:  # the state of a run in process has none
+                self.experiment.set_state(state["experiment"])
         except BaseException as error:
             self._refuse(error)
 
@@ -217,6 +246,10 @@ class SlaveBase:
     def _refuse(self, error: BaseException) -> None:
         self._refused = _line(error)
         self._log(self._refused)
+
+    def _warn(self, line: str) -> None:
+        self.warn(line)
+        self._print(f"warning: {line}")
 
     def _log(self, line: str) -> None:
         self.report(line)

@@ -13,9 +13,9 @@ crashes: those answers are longer than they need be.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from ctypes import c_uint64
-from typing import Any
+from typing import Any, TypeVar
 
 import pythonfmu3
 from pythonfmu3.enums import Fmi3Status
@@ -28,8 +28,15 @@ from .variables import Kind
 
 __all__ = ["ModelSlave3"]
 
+T = TypeVar("T")
+
 _SPARE = 256
 """Values beyond what an answer must have."""
+_GETTERS: dict[Kind, str] = {
+    "Real": "get_real", "Integer": "get_integer", "Enumeration": "get_integer", "Boolean": "get_boolean",
+    "String": "get_string",
+}  # fmt: skip
+"""Getters of a VariableAccess by kind."""
 _PLANS = 1000
 """So many sets of value references are remembered."""
 
@@ -41,47 +48,44 @@ class ModelSlave3(SlaveBase, Fmi3Slave):  # type: ignore[misc]  # pythonfmu3 has
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        self._arrays = gather_arrays(self.access.table)
+        self._arrays = gather_arrays(self.access.table, self._scalar)
         self._plans: dict[tuple[str | int, ...], list[int]] = {}
-        self._time = 0.0
 
     def do_step(self, current_time: float, step_size: float) -> Fmi3StepResult:
         """One step; fmi3Discard when it could not be made."""
-        if not self.try_step(current_time, step_size):
-            return Fmi3StepResult(status=Fmi3Status.discard)
-        self._time = current_time + step_size
-        return Fmi3StepResult(status=Fmi3Status.ok)
+        made = self.try_step(current_time, step_size)
+        return Fmi3StepResult(status=Fmi3Status.ok if made else Fmi3Status.discard)
 
     # Values. ------------------------------------------------------------------------------
 
     def get_float64(self, vrs: list[int]) -> list[float]:
         """Values of Float64; NaN when refused."""
         if TIME in vrs:
-            return [value for vr in vrs for value in ([self._time] if vr == TIME else self._float64([vr]))]
-        return self._float64(vrs)
+            time = [self.experiment.time]
+            return [value for vr in vrs for value in (time if vr == TIME else self._values([vr], "Real", math.nan))]
+        return self._values(vrs, "Real", math.nan)
 
     def get_int32(self, vrs: list[int]) -> list[int]:
         """Values of Int32; 0 when refused."""
-        return self._numbers(vrs, "Integer")
+        return self._values(vrs, "Integer", 0)
 
     def get_int64(self, vrs: list[int]) -> list[int]:
         """Values of Enumerations; 0 when refused."""
-        return self._numbers(vrs, "Enumeration")
+        return self._values(vrs, "Enumeration", 0)
 
     def get_boolean(self, vrs: list[int]) -> list[bool]:
         """Values of Booleans; false when refused."""
-        values = self.get_values(lambda vrs: self.access.get_boolean(self._scalars(vrs, "Boolean")), vrs)
-        return (values or []) + [False] * self._spare(values)
+        return self._values(vrs, "Boolean", False) + [False] * _SPARE
 
     def get_string(self, vrs: list[int]) -> list[str]:
         """Values of Strings; empty when refused."""
-        values = self.get_values(lambda vrs: self.access.get_string(self._scalars(vrs, "String")), vrs)
-        return (values or []) + [""] * self._spare(values)
+        return self._values(vrs, "String", "") + [""] * _SPARE
 
     def get_uint64(self, vrs: list[int]) -> list[c_uint64]:
         """There are none."""
-        self.get_values(lambda vrs: self._no_uint64(), vrs)
-        return [c_uint64(0)] * self._spare(None)
+        if vrs:
+            self._note_unanswered(self._no_uint64())
+        return [c_uint64(0)] * (_SPARE + len(self.access.table))
 
     def set_float64(self, vrs: list[int], values: list[float]) -> None:
         """Set Float64."""
@@ -107,7 +111,9 @@ class ModelSlave3(SlaveBase, Fmi3Slave):  # type: ignore[misc]  # pythonfmu3 has
 
     def set_uint64(self, vrs: list[int], values: list[int]) -> None:
         """There are none."""
-        self.set_values(lambda vrs, values: self._no_uint64(), vrs, values)
+        del values
+        if vrs:
+            self._refuse(self._no_uint64())
 
     # What only model exchange has. A host that calls it all the same gets an answer, and the next step fails. -------
 
@@ -139,16 +145,6 @@ class ModelSlave3(SlaveBase, Fmi3Slave):  # type: ignore[misc]  # pythonfmu3 has
         """There is no event mode."""
         return self._no("event mode")
 
-    # The whole state. ------------------------------------------------------------------------------
-
-    def _get_fmu_state(self) -> dict[str, Any]:
-        return {**super()._get_fmu_state(), "time": self._time}
-
-    def _set_fmu_state(self, state: dict[str, Any]) -> None:
-        super()._set_fmu_state(state)
-        if not self._refused:
-            self._time = float(state.get("time", math.nan))  # a state of the FMI 2.0 slave has none
-
     # Inside. ------------------------------------------------------------------------------
 
     def report(self, line: str) -> None:
@@ -159,17 +155,24 @@ class ModelSlave3(SlaveBase, Fmi3Slave):  # type: ignore[misc]  # pythonfmu3 has
         """Log a line as a warning."""
         self.log(line, Fmi3Status.warning)
 
-    def _float64(self, vrs: Sequence[int]) -> list[float]:
-        values = self.get_values(lambda vrs: self.access.get_real(self._scalars(vrs, "Real")), vrs)
-        return [math.nan] * self._spare(None) if values is None else values
+    def _values(self, vrs: list[int], kind: Kind, missing: T) -> list[T]:
+        """Values of all elements, one after the other; `missing` for a reference that is wrong.
 
-    def _numbers(self, vrs: list[int], kind: Kind) -> list[int]:
-        values = self.get_values(lambda vrs: self.access.get_integer(self._scalars(vrs, kind)), vrs)
-        return [0] * self._spare(None) if values is None else values
-
-    def _spare(self, values: Sequence[Any] | None) -> int:
-        """Values to add to an answer. After a refusal the number that the host expects is unknown: all of the table."""
-        return _SPARE if values is not None else _SPARE + len(self.access.table)
+        How many values the host expects of that one is unknown where it is no variable at all: the answer is longer
+        than it need be.
+        """
+        get: Callable[[Sequence[int]], list[Any]] = getattr(self.access, _GETTERS[kind])
+        try:
+            return self.get_values(get, self._scalars(vrs, kind), (kind,), missing)
+        except InputError as error:
+            self._note_unanswered(error)
+        values: list[T] = []
+        for vr in vrs:
+            if 1 <= vr <= len(self._arrays) and self._arrays[vr - TIME - 1].line.kind == kind:
+                values += self.get_values(get, self._scalars([vr], kind), (kind,), missing)
+            else:
+                values += [missing] * (self._arrays[vr - TIME - 1].size if 1 <= vr <= len(self._arrays) else 1)
+        return values + [missing] * (_SPARE + len(self.access.table))
 
     def _scalars(self, vrs: Sequence[int], kind: Kind) -> list[int]:
         """References in the table of all elements, one after the other. Raises InputError for one of another kind."""
@@ -198,5 +201,5 @@ class ModelSlave3(SlaveBase, Fmi3Slave):  # type: ignore[misc]  # pythonfmu3 has
         self._refuse(InputError(f"{self._made_from.name} is for co-simulation and has no {what}"))
         return [math.nan] * number
 
-    def _no_uint64(self) -> list[Any]:
-        raise InputError(f"{self._made_from.name} has no variables of type UInt64")
+    def _no_uint64(self) -> InputError:
+        return InputError(f"{self._made_from.name} has no variables of type UInt64")

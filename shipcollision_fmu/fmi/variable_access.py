@@ -102,6 +102,10 @@ class VariableAccess:
         except KeyError as error:
             raise InputError(f"{self.name} has no variable {error.args[0]!r}") from None
 
+    def serves(self, reference: int, kinds: Sequence[Kind]) -> bool:
+        """Whether there is a variable of one of these kinds with that value reference."""
+        return any(reference in self._get[kind] for kind in kinds)
+
     # Reading. ------------------------------------------------------------------------------
 
     def get_real(self, references: Sequence[int]) -> list[float]:
@@ -296,7 +300,7 @@ class VariableAccess:
         if self._dirty:
             self._refresh(references)
         for reference in references:
-            if not any(reference in self._get[kind] for kind in kinds):
+            if not self.serves(reference, kinds):
                 raise self._no_such(kinds[0], reference)
         return references
 

@@ -50,12 +50,22 @@ def dummy_fmu(dummy: ModuleType, tmp_path_factory: pytest.TempPathFactory) -> Pa
 @pytest.fixture(scope="session")
 def unpacked3(dummy: ModuleType, tmp_path_factory: pytest.TempPathFactory, _tidy_path: None) -> Path:
     """The dummy for FMI 3.0: the same text with the other base."""
+    return _unpacked_for_fmi3(dummy, tmp_path_factory.mktemp("fmu3"), scalar=False)
+
+
+@pytest.fixture(scope="session")
+def unpacked_scalar(dummy: ModuleType, tmp_path_factory: pytest.TempPathFactory, _tidy_path: None) -> Path:
+    """The same without arrays."""
+    return _unpacked_for_fmi3(dummy, tmp_path_factory.mktemp("fmu3-scalar"), scalar=True)
+
+
+def _unpacked_for_fmi3(dummy: ModuleType, folder: Path, *, scalar: bool) -> Path:
     text = DUMMY.read_text(encoding="utf-8")
     text = text.replace("fmi.slave import ModelSlave", "fmi.slave_fmi3 import Fmi3Slave, ModelSlave3")
     text = text.replace("class Dummy(ModelSlave)", "class Dummy(ModelSlave3, Fmi3Slave)")
-    path = tmp_path_factory.mktemp("fmu3") / "Dummy.fmi3.fmu"
-    path.write_bytes(fmu_bytes(dummy.INTERFACE, text.encode(), fmi=3))
-    return Path(extract(path, tmp_path_factory.mktemp("unpacked3")))
+    path = folder / "Dummy.fmi3.fmu"
+    path.write_bytes(fmu_bytes(dummy.INTERFACE, text.encode(), fmi=3, scalar=scalar))
+    return Path(extract(path, folder / "unpacked"))
 
 
 @pytest.fixture(scope="session")
@@ -130,9 +140,9 @@ class Host:
     def place(self) -> list[float]:
         return self.reals("place.x", "place.y", "place.z")
 
-    def begin(self) -> int:
+    def begin(self, start: float = 0.0, stop: float | None = None) -> int:
         """Through initialisation; the status of its end."""
-        self.fmu.setupExperiment(startTime=0.0)
+        self.fmu.setupExperiment(startTime=start, stopTime=stop)
         self.fmu.enterInitializationMode()
         status: int = self.dll.fmi2ExitInitializationMode(self.component)
         return status

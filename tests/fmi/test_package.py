@@ -18,7 +18,9 @@ import shipcollision_fmu
 from shipcollision_fmu.errors import HostError, InputError
 from shipcollision_fmu.fmi import build_record
 from shipcollision_fmu.fmi.builder import package
-from shipcollision_fmu.fmi.builder.package import FMUS, REQUIREMENTS, are_fmus_current, build_fmus
+from shipcollision_fmu.fmi.builder.package import FMUS, are_fmus_current, build_fmus
+from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
+from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -84,7 +86,8 @@ def test_what_is_in_an_fmi3_fmu(built_for_fmi3: dict[str, Path]) -> None:
         assert re.fullmatch(rf"{name}_[0-9a-f]{{12}}", module)
         for wanted in (
             f"binaries/x86_64-linux/{name}.so",
-            f"binaries/x86_64-windows/{name}.dll",
+            "documentation/externalDependencies.txt",  # FMI 3.0, section 2.5.1: where needsExecutionTool is true
+            "documentation/licenses/license.txt",
             "documentation/licenses/pythonfmu3.txt",
             f"resources/{module}.py",
             "resources/pythonfmu3/fmi3slave.py",
@@ -94,6 +97,35 @@ def test_what_is_in_an_fmi3_fmu(built_for_fmi3: dict[str, Path]) -> None:
         assert not [n for n in names if n.startswith("resources/pythonfmu/") or "linux64" in n]
         assert "Float64[3]" in page
         assert "fmi3GetFloat32" in page
+
+
+def test_the_entry_to_the_licences_names_every_other(built: dict[str, Path], built_for_fmi3: dict[str, Path]) -> None:
+    for path in (*built.values(), *built_for_fmi3.values()):
+        with zipfile.ZipFile(path) as archive:
+            texts = {n.rpartition("/")[2] for n in archive.namelist() if n.startswith("documentation/licenses/")}
+            entry = archive.read("documentation/licenses/license.txt").decode()
+            needs = archive.read("documentation/externalDependencies.txt").decode()
+            requirements = archive.read("resources/requirements.txt").decode().split("\n")
+        assert all(text in entry for text in texts - {"license.txt"})
+        assert len(texts) == 3
+        assert all(line in needs for line in requirements)
+        assert ("pybullet" in needs) == ("ShipCollision" in path.name)
+
+
+def test_the_scalar_flavour_has_the_names_of_fmi2(built: dict[str, Path], tmp_path: Path) -> None:
+    """For hosts that do not pass arrays: no Dimension anywhere, the value references of FMI 2.0 plus 1, time 0."""
+    made = build_fmus(tmp_path, fmi=3, scalar=True)
+    for name, path in made.items():
+        assert path.name == f"{name}.fmi3-scalar.fmu"
+        assert validate_fmu(str(path)) == []
+        scalar, plain = (read_model_description(str(one)).modelVariables for one in (path, built[name]))
+        assert [(v.name, v.valueReference) for v in scalar] == [
+            ("time", 0), *((v.name, v.valueReference + 1) for v in plain)
+        ]  # fmt: skip
+        with zipfile.ZipFile(path) as archive:
+            assert b"<Dimension" not in archive.read("modelDescription.xml")
+    with pytest.raises(InputError, match=r"scalar = True is for FMI 3.0 alone, since FMI 2.0 has no arrays"):
+        build_fmus(tmp_path, scalar=True)
 
 
 def test_another_version_of_fmi_is_refused(tmp_path: Path) -> None:
@@ -120,8 +152,9 @@ def test_what_is_in_an_fmu(built: dict[str, Path]) -> None:
         for wanted in (
             "modelDescription.xml",
             f"binaries/linux64/{name}.so",
-            f"binaries/win64/{name}.dll",
             "documentation/index.html",
+            "documentation/externalDependencies.txt",
+            "documentation/licenses/license.txt",
             "documentation/licenses/shipcollision_fmu.txt",
             "documentation/licenses/pythonfmu.txt",
             f"resources/{module}.py",
@@ -132,20 +165,22 @@ def test_what_is_in_an_fmu(built: dict[str, Path]) -> None:
             "resources/models/ships/kvlcc2.toml",
         ):
             assert wanted in names
+        assert (f"binaries/win64/{name}.dll" in names) == (name == "ShipManoeuvring")  # pybullet is for Linux alone
         assert not [n for n in names if re.search(r"__pycache__|\.pyc$|/scenarios/|/fmu_src/", n)]
         carried = {n.split("/")[2] for n in names if n.startswith("resources/shipcollision_fmu/")}
         assert carried == {"__init__.py", "collision", "errors.py", "files.py", "fmi", "manoeuvring", "ship"}
 
 
-def test_requirements_are_those_of_the_project() -> None:
+def test_requirements_are_those_of_the_project_and_each_fmus_own() -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["dependencies"]
 
     def plain(lines: object) -> set[str]:
         return {re.sub(r"[\s'\"]", "", line) for line in lines}  # type: ignore[attr-defined]
 
-    assert plain(REQUIREMENTS) <= plain(project)
-    left_out = {re.split(r"[<>=;]", line)[0] for line in plain(project) - plain(REQUIREMENTS)}
+    assert plain(COLLISION.requirements) <= plain(project)
+    left_out = {re.split(r"[<>=;]", line)[0] for line in plain(project) - plain(COLLISION.requirements)}
     assert left_out == {"click", "fmpy", "pythonfmu", "rich"}  # of the master and the command line, and packed
+    assert set(COLLISION.requirements) - set(MANOEUVRING.requirements) == {"pybullet>=3.2.5"}
 
 
 BUILD = """

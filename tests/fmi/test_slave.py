@@ -264,6 +264,97 @@ def test_a_call_refused_before_the_start_fails_initialisation(host: Make) -> Non
     assert a.begin() == OK
 
 
+def test_a_reference_that_is_wrong_spoils_its_own_value_alone(host: Make) -> None:
+    a = host()
+    a.begin()
+    x, nothing, count, y = a.fmu.getReal([0, 99, *a.reference("number"), 1])
+    assert [x, y] == [0.1, 0.1]
+    assert math.isnan(nothing)
+    assert math.isnan(count)  # an Integer
+    assert a.fmu.getInteger([*a.reference("number"), 99, *a.reference("phase")]) == [7, 0, 1]
+    assert a.fmu.getBoolean([99, *a.reference("quick")]) == [False, True]
+    assert a.fmu.getString([*a.reference("word"), 99]) == [b"start", b""]
+    assert [status for status, _ in a.messages] == [ERROR] * 4
+    assert a.step(0) == DISCARD
+    assert a.step(0) == OK
+
+
+# Time. --------------------------------------------------------------------------------------------------------------
+
+
+def test_no_step_ends_after_the_stop_time(host: Make) -> None:
+    """FMI 2.0.4, section 4.2.1: stepping beyond the stop time is an error. Hosts that add up steps may be 1e-9 late."""
+    a = host()
+    assert a.begin(0.0, 1.0) == OK
+    assert a.step(0, 0.75) == OK
+    before = a.everything()
+    assert a.dll.fmi2DoStep(a.component, c_double(0.75), c_double(0.26), 1) == DISCARD
+    assert "a step from t = 0.75 s by 0.26 s ends after the stop time 1 s" in a.messages[-1][1]
+    assert a.everything() == before
+    assert a.dll.fmi2DoStep(a.component, c_double(0.75), c_double(0.25 + 0.9e-9), 1) == OK
+    assert a.dll.fmi2DoStep(a.component, c_double(1.0), c_double(0.25), 1) == DISCARD
+
+    b = host("b")  # the remedy: without a stop time
+    b.begin(0.0)
+    assert [b.step(k, 0.25) for k in range(9)] == [OK] * 9
+    assert b.messages == []
+
+
+def test_a_stop_time_that_is_none_is_said_and_ignored(host: Make) -> None:
+    a = host()
+    assert a.begin(0.0, 0.0) == OK
+    assert a.messages == [(WARNING, "stop time 0 s is not after the start time 0 s and is ignored")]
+    assert a.step(0) == OK
+
+
+def test_steps_that_are_added_up_reach_the_stop_time(host: Make) -> None:
+    a, t = host(), 0.0
+    a.begin(0.0, 3.0)
+    for _ in range(30):
+        assert a.dll.fmi2DoStep(a.component, c_double(t), c_double(0.1), 1) == OK
+        t += 0.1
+    assert t != 3.0
+    assert a.messages == []
+
+
+def test_a_gap_in_time_warns_once(host: Make) -> None:
+    a = host()
+    a.begin(5.0)
+    for t in (5.0, 5.1 + 1e-9, 5.3, 7.0):
+        assert a.dll.fmi2DoStep(a.component, c_double(t), c_double(0.1), 1) == OK
+    ((status, message),) = a.messages
+    assert status == WARNING
+    assert message.startswith("a step begins at t = 5.3 s, but the last one ended at 5.2 s: ")
+
+    b = host("b")  # the start counts as well
+    b.begin(5.0)
+    b.step(0)
+    assert b.messages[0][1].startswith("a step begins at t = 0 s, but the last one ended at 5 s")
+
+
+def test_a_restored_state_takes_the_time_back(host: Make) -> None:
+    a, b = host(), host("b")
+    a.begin(0.0, 1.0)
+    a.step(0)
+    saved = a.saved()
+    a.step(1)
+    assert a.restore(saved) == OK
+    assert a.step(1) == OK
+    assert b.restore(saved) == OK
+    assert b.step(1) == OK
+    assert b.dll.fmi2DoStep(b.component, c_double(0.2), c_double(0.9), 1) == DISCARD
+    assert a.messages == []
+
+
+def test_an_experiment_cannot_be_set_up_on_the_way(host: Make) -> None:
+    a = host()
+    a.begin()
+    a.fmu.setupExperiment(startTime=7.0)
+    assert "the experiment cannot be set up: the instance is running; reset it" in a.messages[-1][1]
+    assert a.step(0) == DISCARD
+    assert a.step(0) == OK
+
+
 # State. -------------------------------------------------------------------------------------------------------------
 
 

@@ -258,6 +258,52 @@ def test_a_refused_call_changes_nothing_and_discards_the_next_step(host: Make, c
     assert a.step(0) == OK
 
 
+def test_a_reference_that_is_wrong_spoils_its_own_values_alone(host: Make) -> None:
+    a = host()
+    a.begin()
+    *place, nothing, number, gain = a.fmu.getFloat64(
+        [*a.reference("place"), 99, *a.reference("number", "gain.first")], nValues=6
+    )
+    assert [*place, gain] == [0.1] * 4
+    assert math.isnan(nothing)
+    assert math.isnan(number)  # an Int32
+    assert list(a.fmu.getInt32([99, *a.reference("number")], nValues=2)) == [0, 7]
+    assert list(a.fmu.getInt64([*a.reference("phase"), 99], nValues=2)) == [1, 0]
+    assert list(a.fmu.getBoolean([99, *a.reference("quick")], nValues=2)) == [False, True]
+    assert [status for status, _ in a.messages] == [ERROR] * 4
+    assert a.step(0) == DISCARD
+    assert a.step(0) == OK
+
+
+def test_time_begins_where_the_first_step_does(host: Make) -> None:
+    """pythonfmu3 drops the start time that the host gives; the first step tells it."""
+    a = host()
+    assert a.get("time") == [0.0]
+    a.begin()
+    assert a.step(50) == OK
+    assert a.get("time") == [50 * 0.1 + 0.1]
+    assert a.messages == []
+    assert a.step(60) == OK
+    ((status, message),) = a.messages
+    assert status == WARNING
+    assert message.startswith("a step begins at t = 6 s, but the last one ended at 5.1 s")
+
+
+def test_the_scalar_flavour_gives_the_same_values(host: Make, unpacked_scalar: Path) -> None:
+    a, b = host("a"), host("b", unpacked_scalar)
+    assert (a.begin(), b.begin()) == (OK, OK)
+    for k in range(3):
+        a.set("push", 0.1 * k, -1.0, 1e-300)
+        for name, value in zip("xyz", (0.1 * k, -1.0, 1e-300), strict=True):
+            b.set(f"push.{name}", value)
+        assert (a.step(k), b.step(k)) == (OK, OK)
+    assert [b.get(f"place.{name}")[0] for name in "xyz"] == a.get("place")
+    for name in ("time", "steps", "moving", "said", "phase", "number", "method"):
+        assert a.get(name) == b.get(name), name
+    assert b.restore(a.saved()) == OK
+    assert b.messages == []
+
+
 def test_a_step_after_the_end_is_discarded(host: Make) -> None:
     a = host()
     a.begin()

@@ -1,4 +1,4 @@
-"""The page for people in an FMU: documentation/index.html."""
+"""What people read in an FMU, below documentation/: index.html, externalDependencies.txt and licenses/license.txt."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from ..arrays import TYPES, ArrayVariable, gather_arrays
 from ..interface import Interface
 from ..variables import Variable
 
-__all__ = ["make_page"]
+__all__ = ["describe_dependencies", "describe_licences", "make_page"]
 
 _STYLE = (
     "body{font:16px/1.5 sans-serif;max-width:60em;margin:2em auto;padding:0 1em}"
@@ -22,10 +22,38 @@ UInt32, Binary and Clock, and at the functions of clocks, of dependencies and of
 """
 
 
-def make_page(interface: Interface, ships: tuple[str, ...], fmi: int = 2) -> str:
+def describe_dependencies(interface: Interface) -> str:
+    """What the FMU needs of the machine that it runs on (FMI 3.0: documentation/externalDependencies.txt)."""
+    first, last = interface.pythons
+    systems = " or ".join({"linux": "Linux", "win": "Windows"}[system] for system in interface.systems)
+    packages = "".join(f"    {line}\n" for line in interface.requirements)
+    return f"""{interface.name} runs Python and needs of the host:
+
+- {systems}, x86-64
+- CPython {first} to {last}. A host that is a Python process has it. Any other host loads its shared library,
+  on Linux with LD_PRELOAD=libpython{last}.so.1.0; on Windows python3.dll must be on PATH.
+- the packages of resources/requirements.txt, which PYTHONPATH leads to where the host is no Python process:
+
+{packages}"""
+
+
+def describe_licences(wrapper: str) -> str:
+    """Which licence is for what; `wrapper` is package and version."""
+    package = wrapper.partition(" ")[0]
+    return f"""SPDX-License-Identifier: MIT
+
+shipcollision_fmu {__version__}    MIT    shipcollision_fmu.txt
+    resources/shipcollision_fmu, the slave module beside it, documentation, modelDescription.xml; resources/models,
+    where each ship file names the source of its numbers
+{wrapper}    MIT    {package}.txt
+    binaries, resources/{package}
+"""
+
+
+def make_page(interface: Interface, ships: tuple[str, ...], fmi: int = 2, scalar: bool = False) -> str:
     """What the FMU does, what it needs, and its variables."""
     table = interface.table(ships)
-    lines = map(_row, table) if fmi == 2 else map(_array_row, gather_arrays(table))
+    lines = map(_row, table) if fmi == 2 else map(_array_row, gather_arrays(table, scalar))
     rows = "\n".join(lines)
     return f"""<!DOCTYPE html>
 <html lang="en">
@@ -36,9 +64,10 @@ def make_page(interface: Interface, ships: tuple[str, ...], fmi: int = 2) -> str
 <p>FMI {fmi}.0 for co-simulation, made by shipcollision_fmu {escape(__version__)}. SI units and radians throughout.
 Frame n is north, east, down at the scenario's origin; frame b is forward, starboard, down at CO: midship, centreline,
 design waterline.</p>
-<p>It runs Python: the host process needs CPython with the packages of <code>resources/requirements.txt</code>. A host
-that is not itself Python finds the interpreter through <code>LD_PRELOAD=libpython3.11.so</code> and the packages
-through <code>PYTHONPATH</code>.</p>
+<p>It runs Python {" to ".join(interface.pythons)} in the process of the host, with the packages of
+<code>resources/requirements.txt</code>: {escape(", ".join(interface.requirements))}. A host that is not itself Python
+finds the interpreter through <code>LD_PRELOAD</code> and the packages through <code>PYTHONPATH</code>:
+<a href="externalDependencies.txt">externalDependencies.txt</a>.</p>
 <p>A step that cannot be made answers fmi{fmi}Discard and leaves the state before it; the reason is logged. So does the
 step after a call that was refused, such as setting an output. Initialisation that fails answers fmi{fmi}Fatal, the only
 failure that the Python wrapper can report there; the instance may still be reset or freed.</p>

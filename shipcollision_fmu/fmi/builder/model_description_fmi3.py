@@ -41,16 +41,20 @@ _CAPABILITIES = {
 
 
 def model_description(
-    interface: Interface, ships: tuple[str, ...], token: str, starts: Mapping[str, Any] | None = None
+    interface: Interface,
+    ships: tuple[str, ...],
+    token: str,
+    starts: Mapping[str, Any] | None = None,
+    scalar: bool = False,
 ) -> Element:
-    """The whole document. `starts` are start values in place of the model's own."""
+    """The whole document. `starts` are start values in place of the model's own; `scalar`: without arrays."""
     access = interface.make_access(ships, starts)
-    table, gathered = access.table, gather_arrays(access.table)
+    table, gathered = access.table, gather_arrays(access.table, scalar)
     root, variables = open_document(_VERSION, interface, token, access)
     SubElement(variables, "Float64", {
         "name": "time",
         "valueReference": str(TIME),
-        "description": "End of the last step; 0 before the first",
+        "description": "End of the last step; before the first step the start of the default experiment",
         "causality": "independent",
         "variability": "continuous",
         "unit": _SECOND,
