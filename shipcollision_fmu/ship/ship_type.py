@@ -23,7 +23,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-__all__ = ["CARGO_VESSEL", "KNOT", "SHIP_TYPES", "ShipType", "find_ship_type"]
+__all__ = ["CARGO_VESSEL", "KNOT", "SHIP_TYPES", "ShipType", "find_ship_type", "list_type_words", "names_a_type"]
 
 KNOT = 1852.0 / 3600.0
 """[m/s]"""
@@ -73,18 +73,22 @@ CARGO_VESSEL = SHIP_TYPES["cargo vessel, loaded"]
 """The type of a ship whose kind names none."""
 
 _TYPE_BY_WORD = {
+    "ferry": "ferry", "ro-pax": "ferry", "ropax": "ferry",
     "car carrier": "car carrier", "vehicle": "car carrier", "ro-ro": "car carrier",
     "container on deck": "cargo vessel, container on deck", "container": "container ship, loaded",
     "natural gas": "liquefied natural gas tanker", "lng": "liquefied natural gas tanker",
     "ballast": "tanker, in ballast", "tanker": "tanker, loaded", "vlcc": "tanker, loaded", "bulk": "bulk carrier",
-    "ore carrier": "bulk carrier", "ferry": "ferry", "ro-pax": "ferry", "passenger": "passenger liner",
+    "ore carrier": "bulk carrier", "passenger": "passenger liner",
     "cruise": "passenger liner", "fishing": "fishing vessel", "trawler": "fishing vessel", "tug": "tug",
     "drill": "drilling vessel", "diving": "diving support vessel", "supply": "offshore supply vessel",
     "research": "research vessel", "destroyer": "destroyer", "frigate": "destroyer", "corvette": "destroyer",
-    "warship": "destroyer", "offshore": "offshore supply vessel", "tender": "tender", "pilot": "tender",
+    "warship": "destroyer", "naval": "destroyer", "navy": "destroyer", "cruiser": "destroyer",
+    "battleship": "destroyer", "offshore": "offshore supply vessel", "tender": "tender", "pilot": "tender",
     "launch": "tender", "patrol": "tender",
     "pleasure": "speed boat", "high speed": "speed boat", "speed boat": "speed boat",
     "speedboat": "speed boat", "motor boat": "speed boat", "yacht": "speed boat", "high-speed": "speed boat",
+    "cargo": "cargo vessel, loaded", "coaster": "cargo vessel, loaded", "freighter": "cargo vessel, loaded",
+    "reefer": "cargo vessel, loaded", "multi-purpose": "cargo vessel, loaded", "barge": "cargo vessel, loaded",
 }  # fmt: skip
 """The type for a word in [ship] kind; the first that is found counts."""
 
@@ -95,3 +99,14 @@ def find_ship_type(kind: str) -> ShipType:
     if lower in SHIP_TYPES:
         return SHIP_TYPES[lower]
     return next((SHIP_TYPES[name] for word, name in _TYPE_BY_WORD.items() if word in lower), CARGO_VESSEL)
+
+
+def names_a_type(kind: str) -> bool:
+    """Whether a ship's kind has a word for a type."""
+    lower = kind.lower()
+    return lower in SHIP_TYPES or any(word in lower for word in _TYPE_BY_WORD)
+
+
+def list_type_words() -> list[str]:
+    """The words for types, in the order in which they count."""
+    return list(_TYPE_BY_WORD)

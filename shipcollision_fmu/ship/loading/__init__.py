@@ -3,7 +3,9 @@
     library.py         load_ship(): finds and reads the files, lays bases under variants, makes each ship once
     toml.py            read_toml(), parse_toml(): TOML with a refusal in one line
     ship_file.py       validate_ship_file(): the tables, one by one and together
-    messages.py        describe_error(): one line from a failed validation
+    consistency.py     find_contradictions(): between tables, with limits and remedies
+    dimensions_estimate.py    complete_dimensions(): mass, depth, bow and stern from main dimensions and type
+    messages.py        describe_error(): one line with all problems of a failed validation
     mmg_estimate.py    complete_tables(): an MMG set from L, B, T and C_b
     rudder_estimate.py estimate_rudder(): a rudder by the type of ship
     assembly.py        assemble_ship(): matrices, and estimates of what is missing

@@ -18,8 +18,10 @@ from ..hydrostatics import compute_hydrostatics
 from ..inertia import is_positive_definite, rigid_body_inertia
 from ..seakeeping import BLOCK, compute_seakeeping
 from ..ship import Ship
+from ..ship_type import CARGO_VESSEL, list_type_words, names_a_type
 from ..windage import compute_windage
 from .added_mass_estimate import assemble_added_mass
+from .messages import suggest
 from .ship_file import ShipFile
 from .stability_estimate import estimate_k_xx, estimate_stability
 
@@ -89,14 +91,30 @@ def _place_centre_of_gravity(content: ShipFile, estimated: list[str]) -> tuple[A
 
 
 def _list_suspicious(content: ShipFile) -> tuple[str, ...]:
-    """What may be right, but looks like a number in another unit."""
+    """What may be right, but looks like a number in another unit, or like a word that is misspelt."""
+    return tuple(note for note in (_question_x_G(content), _question_kind(content)) if note)
+
+
+def _question_x_G(content: ShipFile) -> str:
     p = content.particulars
     x_G = p.r_bg[0] if p.r_bg is not None else 0.0
     if content.manoeuvring is None or not 0.0 < abs(x_G) <= 0.1 or p.L_pp < 20.0:
-        return ()
+        return ""
     return (
         f"[particulars] r_bg: x = {x_G} m looks like x_G/L_pp, but CG is given in metres: leave it if it is meant so, "
-        f"else give {x_G * p.L_pp:.4g}",
+        f"else give {x_G * p.L_pp:.4g}"
+    )
+
+
+def _question_kind(content: ShipFile) -> str:
+    """A kind that names no type of ship, where hull or machinery are estimated by the type."""
+    kind, words = content.wind.type or content.ship.kind, list_type_words()
+    if names_a_type(kind) or not any(note.startswith(("[hull]", "[engine]")) for note in content.estimated):
+        return ""
+    near = next((said for word in kind.split() if (said := suggest(word, words))), "")
+    return (
+        f"[ship] kind = {kind!r} names no known type of ship, so its estimates are those of a {CARGO_VESSEL.name}:"
+        f"{near} words for types: {', '.join(words)}"
     )
 
 

@@ -1,34 +1,54 @@
 """One clear line from a failed validation.
 
-pydantic reports a tree of problems. A user needs the first problem that explains the rest: which key, what was wrong,
-its value, the limit, the remedy. The remedy is the description of the field, so it is written once.
+pydantic reports a tree of problems. A user needs all of them at once, and of each: which key, what was wrong, its
+value, the limit, the remedy. The remedy is the description of the field, so it is written once.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from difflib import get_close_matches
 from types import UnionType
 from typing import Annotated, Any, Union, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 
-__all__ = ["describe_error", "suggest"]
+__all__ = ["describe_error", "describe_problems", "join_problems", "suggest"]
+
+MOST_SHOWN = 12
+"""Problems that one line tells; a file of another kind has hundreds."""
+
+Place = tuple[int | str, ...]
 
 _LONGEST_VALUE = 60
 """Characters of a value that are shown; a pasted 6x6 matrix would hide the message."""
 
 
 def describe_error(error: ValidationError, model: type[BaseModel]) -> str:
-    """One line for the user about `error`, raised while validating data against `model`; without the file's name.
+    """One line for the user about `error`, raised while validating data against `model`; without the file's name."""
+    return join_problems(describe_problems(error, model))
+
+
+def describe_problems(
+    error: ValidationError, model: type[BaseModel], may_lack: Callable[[Place], bool] = lambda place: False
+) -> list[str]:
+    """A line for each problem. Keys that are missing where `may_lack` holds are left out.
 
     Unknown keys come first: a misspelt key is usually the cause of a missing one.
     """
-    problems = error.errors(include_url=False)
-    first = min(problems, key=lambda p: p["type"] != "extra_forbidden")  # min keeps the first of equals
-    line = _describe(first, model)
-    rest = len(problems) - 1
-    return line if rest == 0 else f"{line} (and {rest} more problem{'s' if rest > 1 else ''})"
+    found = [p for p in error.errors(include_url=False) if p["type"] != "missing" or not may_lack(p["loc"])]
+    found.sort(key=lambda problem: problem["type"] != "extra_forbidden")  # keeps the order of equals
+    return [line for problem in found for line in _describe(problem, model).split("\n")]
+
+
+def join_problems(problems: Sequence[str]) -> str:
+    """The problems in one line, numbered where they are several."""
+    lines = list(dict.fromkeys(problems))
+    if len(lines) == 1:
+        return lines[0]
+    said = "; ".join(f"({number}) {line}" for number, line in enumerate(lines[:MOST_SHOWN], 1))
+    more = len(lines) - MOST_SHOWN
+    return f"{len(lines)} problems: {said}" + (f"; and {more} more" if more > 0 else "")
 
 
 def suggest(word: str, known: Sequence[str]) -> str:

@@ -81,10 +81,12 @@ class HullTable(Table):
                     f'[hull] shape = "box" has no {", ".join(others)}: give depth only, or shape = "parametric"'
                 )
         else:
-            for key in ("bow_length", "stern_length"):
-                if getattr(self, key) <= 0.0:
-                    raise ValueError(
-                        f'[hull] {key} = {getattr(self, key)} m must be greater than 0 with shape = "parametric": '
-                        f"it is {type(self).model_fields[key].description}"
-                    )
+            problems = [
+                f'[hull] {key} = {getattr(self, key)} m must be greater than 0 with shape = "parametric": '
+                f"it is {type(self).model_fields[key].description}; without the key, it is estimated"
+                for key in ("bow_length", "stern_length")
+                if getattr(self, key) <= 0.0
+            ]
+            if problems:
+                raise ValueError("\n".join(problems))
         return self

@@ -34,7 +34,7 @@ class ParticularsTable(Table):
     L_oa: Positive | None = Field(default=None, description="the length over all [m]")
     B: Positive = Field(description="the breadth [m]")
     T: Positive = Field(description="the draught amidships [m]")
-    mass: Positive = Field(description="the displacement [kg] (not the dead-weight)")
+    mass: Positive = Field(description="the displacement [kg] (not the dead-weight); or C_b instead")
     rho: Positive = Field(default=RHO_SEA, description="the density of the water it floats in [kg/m3]; 1000 in a tank")
     C_b: Positive | None = Field(default=None, description="the block coefficient mass / (rho L_pp B T)")
     r_bg: Vector | None = Field(default=None, description="the centre of gravity from CO in b [x, y, z] [m]")

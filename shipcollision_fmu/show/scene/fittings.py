@@ -1,11 +1,13 @@
 """Fittings on a ship's deck, which distinguish bow from stern and a tanker from a container ship in pictures.
 
-They follow from main dimensions and kind, as far as they fit on the deck. Contact ignores them, and they are no ship's
+They follow from main dimensions and type, as far as they fit on the deck. Contact ignores them, and they are no ship's
 real arrangement. Hulls from mesh files, boxes (barges, logs, buoys) and ships shorter than SHORTEST have none.
 
-    house      of the crew, aft, with a bridge over the full breadth     funnel    behind it
-    mast       on the forecastle and on the house                        hatches   bulk carriers and others
+    house      of the crew, with a bridge over the full breadth          funnel    behind it
+    mast       on the forecastle and on the house                        hatches   bulk carriers and cargo vessels
     stacks     containers                                                pipes     along a tanker's deck
+    decks      of ferries, passenger ships and car carriers              gun       of naval ships
+    winch      on the working deck of tugs and supply vessels, whose house stands forward
 """
 
 from __future__ import annotations
@@ -14,12 +16,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...ship.ship_type import find_ship_type
 from .run_folder import ShipBody
 from .surface import Surface
 
 __all__ = ["Fitting", "make_fittings"]
 
-SHORTEST = 30.0
+SHORTEST = 15.0
 """[m] Least length over all of a ship with fittings."""
 _BOX = np.array([
     (0, 2, 3), (0, 3, 1), (4, 5, 7), (4, 7, 6), (0, 1, 5), (0, 5, 4), (2, 6, 7), (2, 7, 3), (0, 4, 6), (0, 6, 2),
@@ -41,15 +44,93 @@ def make_fittings(body: ShipBody, hull: Surface) -> tuple[Fitting, ...]:
         return ()
     deck = _Deck(hull)
     L, B = deck.fore - deck.aft, body.B
-    aft = deck.aft + 0.06 * L
-    fittings = [*_make_house(deck, aft, L, B), *_make_mast(deck, L, B)]
-    hold_aft, hold_fore = aft + 0.10 * L, deck.fore - 0.13 * L
-    kind = body.kind.lower()
-    if "container" in kind:
-        return (*fittings, *_make_stacks(deck, hold_aft, hold_fore, B))
-    if "tanker" in kind:
-        return (*fittings, *_make_pipes(deck, hold_aft, hold_fore, B))
-    return (*fittings, *_make_hatches(deck, hold_aft, hold_fore, B))
+    return tuple(_ARRANGEMENTS.get(find_ship_type(body.kind).name, _arrange_cargo_vessel)(deck, L, B))
+
+
+def _arrange_cargo_vessel(deck: _Deck, L: float, B: float) -> list[Fitting]:
+    return [
+        *_make_house(deck, deck.aft + 0.06 * L, L, B),
+        *_make_mast(deck, L, B),
+        *_make_hatches(deck, *_hold(deck, L), B),
+    ]
+
+
+def _arrange_container_ship(deck: _Deck, L: float, B: float) -> list[Fitting]:
+    return [
+        *_make_house(deck, deck.aft + 0.06 * L, L, B),
+        *_make_mast(deck, L, B),
+        *_make_stacks(deck, *_hold(deck, L), B),
+    ]
+
+
+def _arrange_tanker(deck: _Deck, L: float, B: float) -> list[Fitting]:
+    return [
+        *_make_house(deck, deck.aft + 0.06 * L, L, B),
+        *_make_mast(deck, L, B),
+        *_make_pipes(deck, *_hold(deck, L), B),
+    ]
+
+
+def _arrange_ferry(deck: _Deck, L: float, B: float) -> list[Fitting]:
+    """Decks over most of the length, each shorter than the one below, with windows; a bridge forward, a funnel aft."""
+    found, z, height = [], deck.z, 0.11 * B
+    aft, fore = deck.aft + 0.05 * L, deck.fore - 0.22 * L
+    for tier in range(3):
+        x = (aft + 0.03 * tier * L, fore - 0.04 * tier * L)
+        half = 0.94 * deck.half_breadth(*x)
+        found.append(_make_box("house", x, (-half, half), (z - 0.75 * height, z)))
+        found.append(_make_box("windows", x, (-0.99 * half, 0.99 * half), (z - height, z - 0.75 * height)))
+        z -= height
+    bridge, wing = (fore - 0.16 * L, fore - 0.09 * L), deck.half_breadth(aft, fore)
+    funnel = (aft + 0.10 * L, aft + 0.16 * L)
+    return [
+        *found,
+        _make_box("house", bridge, (-wing, wing), (z - 0.8 * height, z)),
+        _make_box("windows", bridge, (-0.99 * wing, 0.99 * wing), (z - 1.2 * height, z - 0.8 * height)),
+        _make_box("funnel", funnel, (-0.14 * B, 0.14 * B), (z - 2.2 * height, z)),
+        *_make_mast(deck, L, B),
+    ]
+
+
+def _arrange_tug(deck: _Deck, L: float, B: float) -> list[Fitting]:
+    """A house forward with the bridge on it, a funnel behind it, a working deck with a winch aft."""
+    aft, fore, z = deck.fore - 0.55 * L, deck.fore - 0.22 * L, deck.z
+    half = 0.7 * deck.half_breadth(aft, fore)
+    bridge, funnel, winch = (fore - 0.16 * L, fore - 0.02 * L), (aft, aft + 0.05 * L), (aft - 0.14 * L, aft - 0.05 * L)
+    return [
+        _make_box("house", (aft, fore), (-half, half), (z - 0.28 * B, z)),
+        _make_box("windows", bridge, (-0.7 * half, 0.7 * half), (z - 0.46 * B, z - 0.36 * B)),
+        _make_box("house", bridge, (-0.7 * half, 0.7 * half), (z - 0.36 * B, z - 0.28 * B)),
+        _make_box("funnel", funnel, (-0.5 * half, -0.2 * half), (z - 0.50 * B, z - 0.28 * B)),
+        _make_box("funnel", funnel, (0.2 * half, 0.5 * half), (z - 0.50 * B, z - 0.28 * B)),
+        _make_box("mast", (fore - 0.10 * L, fore - 0.08 * L), (-0.02 * B, 0.02 * B), (z - 0.80 * B, z - 0.46 * B)),
+        _make_box("pipe", winch, (-0.3 * half, 0.3 * half), (z - 0.12 * B, z)),
+    ]
+
+
+def _arrange_naval_ship(deck: _Deck, L: float, B: float) -> list[Fitting]:
+    """A gun, two blocks amidships with masts and funnel, and a free deck aft."""
+    z, middle = deck.z, 0.5 * (deck.aft + deck.fore)
+    front, back = (middle + 0.02 * L, middle + 0.20 * L), (middle - 0.24 * L, middle - 0.04 * L)
+    half = 0.75 * min(deck.half_breadth(*front), deck.half_breadth(*back))
+    gun = middle + 0.28 * L
+    mount = min(0.14 * B, 0.8 * deck.half_breadth(gun, gun + 0.06 * L))
+    return [
+        _make_box("house", (gun, gun + 0.03 * L), (-mount, mount), (z - 0.16 * B, z)),
+        _make_box("mast", (gun + 0.03 * L, gun + 0.07 * L), (-0.012 * B, 0.012 * B), (z - 0.13 * B, z - 0.10 * B)),
+        _make_box("house", front, (-half, half), (z - 0.35 * B, z)),
+        _make_box("windows", (middle + 0.12 * L, front[1] - 0.005 * L), (-half, half), (z - 0.43 * B, z - 0.35 * B)),
+        _make_box("mast", (middle + 0.07 * L, middle + 0.09 * L), (-0.05 * B, 0.05 * B), (z - 1.15 * B, z - 0.35 * B)),
+        _make_box("house", back, (-half, half), (z - 0.30 * B, z)),
+        _make_box(
+            "funnel", (middle - 0.14 * L, middle - 0.08 * L), (-0.16 * B, 0.16 * B), (z - 0.65 * B, z - 0.30 * B)
+        ),
+    ]
+
+
+def _hold(deck: _Deck, L: float) -> tuple[float, float]:
+    """After and fore end of the cargo deck [m], with the house aft."""
+    return deck.aft + 0.16 * L, deck.fore - 0.13 * L
 
 
 class _Deck:
@@ -139,3 +220,14 @@ def _make_pipes(deck: _Deck, aft: float, fore: float, B: float) -> list[Fitting]
     ]
     crane = _make_box("mast", (middle - 0.5 * thick, middle + 0.5 * thick), (0.16 * B, 0.18 * B), (z - 0.4 * B, z))
     return [*along, *across, crane]
+
+
+_ARRANGEMENTS = {
+    "container ship, loaded": _arrange_container_ship, "cargo vessel, container on deck": _arrange_container_ship,
+    "tanker, loaded": _arrange_tanker, "tanker, in ballast": _arrange_tanker,
+    "liquefied natural gas tanker": _arrange_tanker, "ferry": _arrange_ferry, "passenger liner": _arrange_ferry,
+    "car carrier": _arrange_ferry, "tug": _arrange_tug, "offshore supply vessel": _arrange_tug,
+    "diving support vessel": _arrange_tug, "fishing vessel": _arrange_tug, "research vessel": _arrange_tug,
+    "tender": _arrange_tug, "destroyer": _arrange_naval_ship, "speed boat": lambda deck, L, B: [],
+}  # fmt: skip
+"""By type of ship (ship/ship_type.py); bulk carriers and cargo vessels have hatches."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from itertools import pairwise
 
 import numpy as np
@@ -119,7 +120,22 @@ def test_levels_have_parallel_edges() -> None:
         assert np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).max() < 1e-8
 
 
-def test_a_bow_without_room_is_refused() -> None:
-    form = {**FORMS["full"], "flare_deg": 60.0, "bow_length": 10.0}
-    with pytest.raises(ShipError, match=r"leave no room for the bow: bow_length = 10.0 m.*lengthen the bow"):
+ROOMLESS = {
+    "too short a bow": {"flare_deg": 60.0, "bow_length": 10.0},
+    "too long a bow": {"flare_deg": 20.0, "bow_length": 150.0, "stem_rake_deg": 15.0},
+    "every one too large": {"flare_deg": 50.0, "stem_rake_deg": 60.0, "bilge": 10.0, "bow_length": 100.0},
+}
+
+
+@pytest.mark.parametrize("name", ROOMLESS)
+def test_a_bow_without_room_is_refused_with_remedies_that_give_room(name: str) -> None:
+    """Lengthening the bow, once the advice, made "too long a bow" worse."""
+    form = {**FORMS["full"], **ROOMLESS[name]}
+    with pytest.raises(ShipError, match=r"leave no room for the bow: bow_length = \d+\.0 m.*; give ") as raised:
         build_hull(L_OA, B, T, HullTable.model_validate(form))
+    remedies = str(raised.value).split("; give ")[1].split(" or ")
+    for remedy in remedies:
+        changes = {key: float(value) for key, value in re.findall(r"(\w+) (?:at most|=) ([\d.]+)", remedy)}
+        assert changes
+        build_hull(L_OA, B, T, HullTable.model_validate({**form, **changes}))
+    assert ("bow_length =" in str(remedies[-1])) == (name == "too long a bow")

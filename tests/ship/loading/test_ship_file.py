@@ -87,13 +87,14 @@ REFUSED: list[tuple[dict[str, Any], str]] = [
     (ship_tables(hull={"shape": "mesh"}), r'\[hull\] file is missing: shape = "mesh" needs the name'),
     (ship_tables(hull={"shape": "round"}), r"\[hull\] shape = 'round' must be 'parametric', 'box' or 'mesh'"),
     (ship_tables(hull={"bilge": 1.0}), r'\[hull\] shape = "box" has no bilge: give depth only'),
-    (ship_tables(hull={**PARAMETRIC, "bow_length": None}), r"\[hull\] bow_length = 0\.0 m must be greater than 0"),
+    (ship_tables(hull={**PARAMETRIC, "bow_length": 0.0}), r"\[hull\] bow_length = 0\.0 m must be greater than 0"),
     (ship_tables(hull={**PARAMETRIC, "bow_length": 80.0}), r"= 100\.0 m leave no parallel midbody in 100\.0 m"),
     (
         ship_tables(hull={**PARAMETRIC, "bilge": 6.0}),
         r"\[hull\] bilge = 6\.0 m must be less than T = 5\.0 m and B/2 = 10",
     ),
-    (ship_tables(hull=None), r"\[hull\] is missing: give the table \[hull\]"),
+    ({**ship_tables(), "hull": 5}, r"\[hull\] = 5 must be a table: it is the table \[hull\]"),
+    (ship_tables(particulars={"mass": None}), r"\[particulars\] mass is missing: give the displacement .*; or C_b"),
     (
         ship_tables(manoeuvring=MMG, engine={"rate": 0.1, "max_rev_per_s": 1.0}),
         r"\[manoeuvring\] needs \[propeller\], \[rudder\] as well: propeller, rudder and engine work together",
@@ -143,9 +144,133 @@ def test_refused(data: dict[str, Any], message: str) -> None:
     assert "\n" not in line
 
 
-def test_further_problems_are_counted() -> None:
-    with pytest.raises(ShipError, match=r"B = -1\.0 must be .*\(and 2 more problems\)$"):
-        validate_ship_file(ship_tables(particulars={"mass": -1.0, "B": -1.0, "T": -1.0}), "barge.toml")
+AT_ONCE: list[tuple[dict[str, Any], tuple[str, ...]]] = [
+    (
+        ship_tables(particulars={"mass": -1.0, "B": -1.0, "T": -1.0}),
+        ("B = -1.0 must be", "T = -1.0 must be", "mass = -1.0 must be"),
+    ),
+    (
+        ship_tables(hull={"shape": "parametric", "bow_length": 0.0, "stern_length": 0.0}),
+        ("[hull] bow_length = 0.0 m must be", "[hull] stern_length = 0.0 m must be"),
+    ),
+    (
+        ship_tables(particulars={"r_bg": [60.0, 0.0, 0.0]}, hull={"depth": 4.0}),
+        ("x = 60.0 m puts CG outside", "depth = 4.0 m must be"),
+    ),
+    (
+        ship_tables(particulars={"mass": 3e6}, hull={"depth": 4.0}, wind={"type": "gondola"}),
+        ("C_b = mass / (rho L_pp B T) = 0.293", "depth = 4.0 m must be", "type = 'gondola' must be"),
+    ),
+    (
+        ship_tables(hull={"depth": 4.0}, manoeuvring={"estimate": True}, rudder={"A_R": "big"}, propeller={"D": 1.0}),
+        ("depth = 4.0 m must be", "A_R = 'big' must be", "[propeller] D is not a known key"),
+    ),
+]
+
+
+@pytest.mark.parametrize(("data", "messages"), AT_ONCE, ids=[messages[0] for _, messages in AT_ONCE])
+def test_all_problems_are_shown_at_once(data: dict[str, Any], messages: tuple[str, ...]) -> None:
+    with pytest.raises(ShipError) as raised:
+        validate_ship_file(data, "barge.toml")
+    line = str(raised.value)
+    assert line.startswith(f"barge.toml: {len(messages)} problems: (1) ")
+    assert "\n" not in line
+    for message in messages:
+        assert message in line
+
+
+def test_a_file_of_another_kind_is_refused_in_a_line_of_bounded_length() -> None:
+    data = ship_tables(particulars={f"x{i}": 1.0 for i in range(50)})
+    with pytest.raises(ShipError, match=r"50 problems: \(1\) .*\(12\) .*; and 38 more$"):
+        validate_ship_file(data, "barge.toml")
+
+
+REMEDIES: list[tuple[dict[str, Any], str, dict[str, dict[str, Any] | None]]] = [
+    # what is refused; its remedy as the message has it; the remedy, done
+    (ship_tables(particulars={"mass": 10.3e6}), "give the displacement", {"particulars": {"mass": 8e6}}),
+    (ship_tables(particulars={"mass": 10.3e6}), "allow_inconsistent", {"particulars": {"allow_inconsistent": "why"}}),
+    (ship_tables(particulars={"mass": 3e6}), "and its draught", {"particulars": {"T": 2.0}}),
+    (ship_tables(particulars={"mass": 3e6}), "allow_inconsistent", {"particulars": {"allow_inconsistent": "why"}}),
+    (ship_tables(particulars={"C_b": 0.7}), "remove C_b", {"particulars": {"C_b": None}}),
+    (ship_tables(particulars={"mass": None}), "or C_b instead", {"particulars": {"C_b": 0.7}}),
+    (
+        ship_tables(particulars={"r_bg": [60.0, 0.0, 0.0]}),
+        "at most 50.0 m",
+        {"particulars": {"r_bg": [50.0, 0.0, 0.0]}},
+    ),
+    (ship_tables(hull={"depth": 4.0}), "greater than the draught T = 5.0 m", {"hull": {"depth": 5.1}}),
+    (ship_tables(hull={**PARAMETRIC, "bow_length": 0.0}), "without the key", {"hull": {"bow_length": None}}),
+    (ship_tables(hull={**PARAMETRIC, "stern_length": 0.0}), "without the key", {"hull": {"stern_length": None}}),
+    (ship_tables(hull={**PARAMETRIC, "bow_length": 80.0}), "shorten them", {"hull": {"bow_length": 50.0}}),
+    (ship_tables(hull={**PARAMETRIC, "bilge": 6.0}), "give at most 2.519", {"hull": {"bilge": 2.519}}),
+    (
+        ship_tables(hull={**PARAMETRIC, "bow_length": 50.0, "flare_deg": 50.0}),
+        "flare_deg at most 9.461",
+        {"hull": {"flare_deg": 9.461}},
+    ),
+    (ship_tables(hull={"bilge": 1.0}), "give depth only", {"hull": {"bilge": None}}),
+    (ship_tables(hull={"bilge": 1.0}), 'or shape = "parametric"', {"hull": {"shape": "parametric"}}),
+    (ship_tables(hull={"unit": "mm"}), 'only "mesh" has', {"hull": {"unit": None}}),
+    (ship_tables(added_mass={"m_y": 0.8, "M_A": [[0.0] * 6] * 6}), "remove", {"added_mass": {"m_y": None}}),
+    (
+        ship_tables(manoeuvring={**MMG, "m_x": 0.02, "m_y": 0.2, "J_z": 0.01}, added_mass={"m_x": 0.1}),
+        "remove one of the two sets",
+        {"added_mass": {"m_x": None}},
+    ),
+    (
+        ship_tables(manoeuvring={**MMG, "m_x": 0.02, "m_y": 0.2, "J_z": 0.01}, added_mass={"m_x": 0.1}),
+        "remove one of the two sets",
+        {"manoeuvring": {"m_x": None, "m_y": None, "J_z": None}},
+    ),
+    (
+        ship_tables(manoeuvring={**MMG, "m_x": 0.02}),
+        "give all three or none",
+        {"manoeuvring": {"m_x": None}},
+    ),
+    (
+        ship_tables(manoeuvring={**MMG, "m_x": 0.02}),
+        "give all three or none",
+        {"manoeuvring": {"m_y": 0.2, "J_z": 0.01}},
+    ),
+    (
+        ship_tables(manoeuvring=MMG, engine={"rate": 0.1, "max_rev_per_s": 1.0}),
+        "or remove all three and the ship can only drift",
+        {"engine": None},
+    ),
+    (
+        ship_tables(particulars={"r_bg": [20.0, 0.0, 0.0]}, manoeuvring=MMG),
+        "at most 0.15 either way",
+        {"particulars": {"r_bg": [15.0, 0.0, 0.0]}},
+    ),
+    (
+        ship_tables(manoeuvring={**MMG, "m_x": 0.02 * 25.6e6, "m_y": 0.2, "J_z": 0.01}),
+        "give it over 1/2 rho L_pp^2 T = 2.562e+07",
+        {"manoeuvring": {"m_x": 0.02}},
+    ),
+    (
+        ship_tables(particulars={"mass": 3.0e6, "allow_inconsistent": "a test"}, manoeuvring={"estimate": True}),
+        "give a mass that fits the draught",
+        {"particulars": {"mass": 8e6}},
+    ),
+    (
+        ship_tables(particulars={"mass": 3.0e6, "allow_inconsistent": "a test"}, manoeuvring={"estimate": True}),
+        "or remove the table: the ship coasts",
+        {"manoeuvring": None},
+    ),
+]
+
+
+@pytest.mark.parametrize(
+    ("data", "remedy", "done"), REMEDIES, ids=[f"{r}, {i}" for i, (_, r, _) in enumerate(REMEDIES)]
+)
+def test_remedies_are_remedies(data: dict[str, Any], remedy: str, done: dict[str, dict[str, Any] | None]) -> None:
+    with pytest.raises(ShipError) as raised:
+        validate_ship_file(data, "barge.toml")
+    assert remedy in str(raised.value)
+    for name, keys in done.items():
+        both = {**data.get(name, {}), **(keys or {})}
+        data = {**data, name: None if keys is None else {k: v for k, v in both.items() if v is not None}}
+    validate_ship_file({name: table for name, table in data.items() if table is not None}, "barge.toml")
 
 
 @pytest.mark.parametrize("key", ["m_x", "m_y", "j_z", "M_A"])
