@@ -17,17 +17,10 @@ _LEAST = re.compile(r"^## The fewest numbers$.*?^```toml\n(.*?)^```", re.DOTALL 
 
 
 def estimates() -> str:
-    """A list: what stands for values that the file leaves out, and what `[manoeuvring] estimate = true` adds."""
+    """A list: what stands for values that the file leaves out."""
     found = _LEAST.search(_PAGE.read_text(encoding="utf-8"))
     assert found is not None, f"{_PAGE} has no ship of the fewest numbers"
-    tables = parse_toml(found[1], _PAGE.name, ShipError)
-    coasting = load_ship(tables).estimated
-    sailing = load_ship({**tables, "manoeuvring": {"estimate": True}}).estimated
-    return (
-        f"{_items(coasting)}\nWith `estimate = true` in a table `[manoeuvring]` the ship also sails. "
-        f"These estimates are then added or take the place of those above:\n\n"
-        f"{_items(tuple(line for line in sailing if line not in coasting))}"
-    )
+    return _items(load_ship(parse_toml(found[1], _PAGE.name, ShipError)).estimated)
 
 
 def _items(lines: tuple[str, ...]) -> str:

@@ -78,15 +78,19 @@ def _arrange_ferry(deck: _Deck, L: float, B: float) -> list[Fitting]:
     for tier in range(3):
         x = (aft + 0.03 * tier * L, fore - 0.04 * tier * L)
         half = 0.94 * deck.half_breadth(*x)
-        found.append(_make_box("house", x, (-half, half), (z - 0.75 * height, z)))
-        found.append(_make_box("windows", x, (-0.99 * half, 0.99 * half), (z - height, z - 0.75 * height)))
+        found += [
+            _make_box("house", x, (-half, half), (z - 0.45 * height, z)),
+            _make_box("windows", x, (-0.99 * half, 0.99 * half), (z - 0.7 * height, z - 0.45 * height)),
+            _make_box("house", x, (-half, half), (z - height, z - 0.7 * height)),
+        ]
         z -= height
     bridge, wing = (fore - 0.16 * L, fore - 0.09 * L), deck.half_breadth(aft, fore)
     funnel = (aft + 0.10 * L, aft + 0.16 * L)
     return [
         *found,
         _make_box("house", bridge, (-wing, wing), (z - 0.8 * height, z)),
-        _make_box("windows", bridge, (-0.99 * wing, 0.99 * wing), (z - 1.2 * height, z - 0.8 * height)),
+        _make_box("windows", bridge, (-0.99 * wing, 0.99 * wing), (z - 1.1 * height, z - 0.8 * height)),
+        _make_box("house", bridge, (-wing, wing), (z - 1.2 * height, z - 1.1 * height)),
         _make_box("funnel", funnel, (-0.14 * B, 0.14 * B), (z - 2.2 * height, z)),
         *_make_mast(deck, L, B),
     ]
@@ -99,7 +103,8 @@ def _arrange_tug(deck: _Deck, L: float, B: float) -> list[Fitting]:
     bridge, funnel, winch = (fore - 0.16 * L, fore - 0.02 * L), (aft, aft + 0.05 * L), (aft - 0.14 * L, aft - 0.05 * L)
     return [
         _make_box("house", (aft, fore), (-half, half), (z - 0.28 * B, z)),
-        _make_box("windows", bridge, (-0.7 * half, 0.7 * half), (z - 0.46 * B, z - 0.36 * B)),
+        _make_box("windows", bridge, (-0.7 * half, 0.7 * half), (z - 0.44 * B, z - 0.36 * B)),
+        _make_box("house", bridge, (-0.72 * half, 0.72 * half), (z - 0.46 * B, z - 0.44 * B)),
         _make_box("house", bridge, (-0.7 * half, 0.7 * half), (z - 0.36 * B, z - 0.28 * B)),
         _make_box("funnel", funnel, (-0.5 * half, -0.2 * half), (z - 0.50 * B, z - 0.28 * B)),
         _make_box("funnel", funnel, (0.2 * half, 0.5 * half), (z - 0.50 * B, z - 0.28 * B)),
