@@ -12,6 +12,7 @@ real arrangement. Hulls from mesh files, boxes (barges, logs, buoys) and ships s
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -227,12 +228,16 @@ def _make_pipes(deck: _Deck, aft: float, fore: float, B: float) -> list[Fitting]
     return [*along, *across, crane]
 
 
-_ARRANGEMENTS = {
+def _leave_bare(deck: _Deck, L: float, B: float) -> list[Fitting]:
+    return []
+
+
+_ARRANGEMENTS: dict[str, Callable[[_Deck, float, float], list[Fitting]]] = {
     "container ship, loaded": _arrange_container_ship, "cargo vessel, container on deck": _arrange_container_ship,
     "tanker, loaded": _arrange_tanker, "tanker, in ballast": _arrange_tanker,
     "liquefied natural gas tanker": _arrange_tanker, "ferry": _arrange_ferry, "passenger liner": _arrange_ferry,
     "car carrier": _arrange_ferry, "tug": _arrange_tug, "offshore supply vessel": _arrange_tug,
     "diving support vessel": _arrange_tug, "fishing vessel": _arrange_tug, "research vessel": _arrange_tug,
-    "tender": _arrange_tug, "destroyer": _arrange_naval_ship, "speed boat": lambda deck, L, B: [],
+    "tender": _arrange_tug, "destroyer": _arrange_naval_ship, "speed boat": _leave_bare,
 }  # fmt: skip
 """By type of ship (ship/ship_type.py); bulk carriers and cargo vessels have hatches."""
