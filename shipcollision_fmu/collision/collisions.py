@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import acos
+from math import acos, degrees
 from typing import Any
 
 import numpy as np
@@ -49,6 +49,8 @@ class Collisions:
         self.count = 0
         self.scratches = 0
         self.latest = Impact()
+        self.opened: list[Impact] = []
+        """Collisions that opened since the list was last emptied. No part of the state: it is for the log alone."""
 
     def close_old(self, t: float) -> None:
         """Close what has been without contact for long enough at time t [s]."""
@@ -79,7 +81,8 @@ class Collisions:
             if not pair.collision:
                 self.count += 1
                 pair.collision = self.count
-                self.latest = _describe_impact(t, of_pair, states)
+                self.latest = _find_impact(t, of_pair, states)
+                self.opened.append(self.latest)
             if not pair.scratch:
                 self.scratches += 1
                 pair.scratch = self.scratches
@@ -95,6 +98,16 @@ class Collisions:
         """Pairs in an open collision."""
         return [pair for pair, state in self._pairs.items() if state.collision]
 
+    def describe_opened(self, names: Sequence[str]) -> list[str]:
+        """A line about each collision of `opened`; names of the bodies."""
+        first = self.count - len(self.opened) + 1
+        return [
+            f"collision {number}: {names[impact.ship_a - 1]} and {names[impact.ship_b - 1]} touch at "
+            f"t = {impact.time:.3f} s, north {impact.point[0]:.1f} m, east {impact.point[1]:.1f} m, closing at "
+            f"{impact.closing_speed:.2f} m/s, {degrees(impact.angle):.0f} deg between their headings"
+            for number, impact in enumerate(self.opened, first)
+        ]
+
     def get_state(self) -> dict[str, Any]:
         """All of it as plain data."""
         pairs = [[a, b, p.collision, p.scratch, p.last_contact] for (a, b), p in self._pairs.items()]
@@ -105,10 +118,11 @@ class Collisions:
         """Back to a state of get_state, exact to the bit."""
         self._pairs = {(a, b): _Pair(collision, scratch, last) for a, b, collision, scratch, last in state["pairs"]}
         self.count, self.scratches = state["count"], state["scratches"]
+        self.opened.clear()
         self.latest = Impact(**{**state["latest"], "point": list(state["latest"]["point"])})
 
 
-def _describe_impact(t: float, contacts: Sequence[Contact], states: Sequence[BodyState]) -> Impact:
+def _find_impact(t: float, contacts: Sequence[Contact], states: Sequence[BodyState]) -> Impact:
     """The impact of one pair: at the middle of its contacts, with the largest approach of any."""
     a, b = contacts[0].a, contacts[0].b
     point = sum((c.point for c in contacts), np.zeros(3)) / len(contacts)

@@ -100,6 +100,13 @@ class ShipCollision:
         """Names of the obstacles, in the order of their numbers."""
         return tuple(body.name for body in self._bodies[len(self.names) :])
 
+    @property
+    def events(self) -> list[str]:
+        """A line about each collision that began in the last step."""
+        if self._detector is None or not self._collisions.opened:
+            return []
+        return self._collisions.describe_opened([body.name for body in self._bodies])
+
     def close(self) -> None:
         """Leave the Bullet world."""
         if self._detector is not None:
@@ -113,6 +120,7 @@ class ShipCollision:
         detector = self._ready()
         check_step(t, H, self._bodies, self.inputs.ships)
         self.warning = ""
+        self._collisions.opened.clear()
         states, candidates = self._receive(t, H)
         near = self._proximity.find_near(candidates, states, H)
         if near:

@@ -22,8 +22,11 @@ REQUIREMENTS = ("numpy>=1.24", "pydantic>=2.7", "tomli>=2.0; python_version < '3
 class Interface:
     """An FMU, before it is one. `table` and `model` take the names of the ships; a model of one ship ignores them.
 
+    Step size, stop time [s] and tolerance are those of its default experiment: a proposal to the host.
+
     `requirements` are the packages that the host's Python must have, `pythons` the versions of CPython and `systems`
-    the systems for which they have wheels: there is no library for another system.
+    the systems for which they have wheels: there is no library for another system. `terminals` takes the names of the
+    ships and says how the names of a terminal's variables begin, by the name of the terminal.
     """
 
     name: str
@@ -31,9 +34,12 @@ class Interface:
     table: Callable[[tuple[str, ...]], Table]
     model: Callable[[tuple[str, ...]], Model]
     step_size: float = 0.05
+    stop_time: float = 60.0
+    tolerance: float = 1e-6
     requirements: tuple[str, ...] = REQUIREMENTS
     pythons: tuple[str, str] = ("3.10", "3.13")
     systems: tuple[str, ...] = ("linux", "win")
+    terminals: Callable[[tuple[str, ...]], Mapping[str, str]] = lambda ships: {}
 
     def make_access(
         self, ships: tuple[str, ...] = SHIPS, start: Mapping[str, Any] | None = None, files: Path | None = None

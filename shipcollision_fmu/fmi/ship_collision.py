@@ -1,5 +1,10 @@
 """Variables of the FMU ShipCollision: contact between two or more ships.
 
+What belongs to a contact point, to the latest collision or to the solver jumps (`jumps`): it holds between events, and
+a host must not interpolate it. Impulses and energies grow steadily while hulls or fenders press, and are continuous.
+Degrees of freedom are an Integer with limits, not an enumeration: libcosim drops enumerations, and its users could no
+longer set them; FMI 3.0 sets the two by different functions.
+
 Frames: n is north, east, down at the scenario's origin; b is forward, starboard, down at CO. SI units, radians. The
 names are those of the project's contract with other programs; renaming one is a breaking change.
 """
@@ -74,7 +79,8 @@ def _ship(i: int, s: str) -> Table:
         *vector("input", named(s, RATE), "rad/s", f"{received}.rate", f"Angular velocity of {s} in b"),
         *wrench(
             "input", named(s, APPLIED), IMPULSE_UNITS, f"{received}.impulse_applied",
-            f"Cumulative impulse that the model of {s} has applied, in b about CO",
+            f"Cumulative impulse that the model of {s} has applied, in b",
+            f"Moment about CO of the cumulative impulse that the model of {s} has applied, in b",
         ),
         *vector(
             "output", named(post, POSITION), "m", f"{given}.position", f"CO of {s} at the end of the step, in n",
@@ -95,11 +101,13 @@ def _ship(i: int, s: str) -> Table:
         ),
         *wrench(
             "output", named(s, IMPULSE), IMPULSE_UNITS, f"{given}.impulse",
-            f"Cumulative impulse issued to {s}, in b about CO", depends_on=(),
+            f"Cumulative impulse issued to {s}, in b", f"Moment about CO of the cumulative impulse issued to {s}, in b",
+            depends_on=(),
         ),
         *wrench(
             "output", named(s, (*FORCE, *MOMENT)), FORCE_UNITS, f"{given}.force",
-            f"Mean contact force and moment on {s} over the last step, in b about CO", depends_on=(),
+            f"Mean contact force on {s} over the last step, in b",
+            f"Mean moment about CO of the contact forces on {s} over the last step, in b", depends_on=(),
         ),
         string(
             "parameter", f"{s}.ship", f"parameters.ships.{i}.ship",
@@ -155,13 +163,13 @@ def _contact(name: str, path: str, slots: int) -> Table:
     def triple(group: str, components: tuple[str, ...], unit: str, at: str, description: str, field: str) -> Table:
         return vector(
             "output", named(group, components), unit, f"{path}.{at}", description, depends_on=(),
-            array=point(field, components, description),
+            array=point(field, components, description), jumps=True,
         )  # fmt: skip
 
     def value(field: str, unit: str, description: str, minimum: float | None = None) -> Variable:
         return real(
             "output", f"{name}.{field}", unit, f"{path}.{field}", None, description, depends_on=(),
-            minimum=minimum, array=each(field, description),
+            minimum=minimum, array=each(field, description), jumps=True,
         )  # fmt: skip
 
     def number(field: str, description: str, at: str | None = None) -> Variable:
@@ -199,7 +207,7 @@ def _couples(slots: int) -> Table:
         for k in range(slots)
         for line in vector(
             "output", named(f"{contact_point(k + 1)}.couple", NED), "N.m.s", f"outputs.contacts.{k}.couple",
-            description, depends_on=(), array=array,
+            description, depends_on=(), array=array, jumps=True,
         )
     )  # fmt: skip
 
@@ -208,20 +216,25 @@ def _impact() -> Table:
     """The latest collision, and the scratch being drawn."""
     return (
         integer("output", "impact.count", "outputs.collision_count", "Collisions so far", minimum=0, depends_on=()),
-        real("output", "impact.time", "s", "outputs.impact.time", None, "Start of the latest collision", depends_on=()),
+        real(
+            "output", "impact.time", "s", "outputs.impact.time", None, "Start of the latest collision", depends_on=(),
+            jumps=True,
+        ),
         *vector(
             "output", IMPACT_POINT, "m", "outputs.impact.point",
             "First contact point of the latest collision in n: where the explosion goes", depends_on=(),
             array=Array("impact.position", (3,), "First contact point of the latest collision in n: north, east, down"),
+            jumps=True,
         ),
         real(
             "output", "impact.closing_speed", "m/s", "outputs.impact.closing_speed", None,
             "Closing speed along the normal at the first contact of the latest collision", minimum=0.0, depends_on=(),
+            jumps=True,
         ),
         real(
             "output", "impact.angle", "rad", "outputs.impact.angle", None,
             "Angle between the headings at the latest collision, 0 (same) to pi (head-on)",
-            minimum=0.0, maximum=pi, depends_on=(),
+            minimum=0.0, maximum=pi, depends_on=(), jumps=True,
         ),
         integer(
             "output", "impact.ship_a", "outputs.impact.ship_a",
@@ -270,6 +283,7 @@ def _solver() -> Table:
         real(
             "output", "solver.residual", "1", "outputs.solver.residual", None,
             "Largest violation of the contact law in this step, as a share of the approach speed", depends_on=(),
+            nominal=1e-9, jumps=True,
         ),
         integer(
             "output", "solver.sweeps", "outputs.solver.sweeps", "Most solver sweeps of a contact problem in this step",
@@ -351,7 +365,9 @@ INTERFACE = Interface(
     description="Ships collide: states in, post-impact states, impulses, contact points and energy out.",
     table=table,
     model=ShipCollision,
+    tolerance=1e-9,  # residual to which contact problems are solved
     requirements=(*REQUIREMENTS, "pybullet>=3.2.5"),
     pythons=("3.10", "3.11"),  # pybullet 3.2.7 has wheels for no later one, and for Linux alone
     systems=("linux",),
+    terminals=lambda ships: {ship: f"{ship}." for ship in ships},
 )

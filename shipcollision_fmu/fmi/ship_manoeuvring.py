@@ -67,7 +67,8 @@ def _state() -> Table:
         ),
         *wrench(
             "output", APPLIED, IMPULSE_UNITS, "outputs.impulse_applied",
-            "Cumulative impulse that the ship has applied, in b about CO", depends_on=(),
+            "Cumulative impulse that the ship has applied, in b",
+            "Moment about CO of the cumulative impulse that the ship has applied, in b", depends_on=(),
         ),
     )  # fmt: skip
 
@@ -75,11 +76,23 @@ def _state() -> Table:
 def _forces() -> Table:
     """Outputs: forces by origin."""
     return (
-        *wrench("output", HULL, FORCE_UNITS, "outputs.hull", "Force of the water on the hull, b about CO"),
-        *wrench("output", PROPELLER, FORCE_UNITS, "outputs.propeller", "Force of the propeller, b about CO"),
-        *wrench("output", RUDDER, FORCE_UNITS, "outputs.rudder", "Force of the rudder, b about CO"),
-        *wrench("output", WIND, FORCE_UNITS, "outputs.wind", "Force of the wind, b about CO"),
-    )
+        *wrench(
+            "output", HULL, FORCE_UNITS, "outputs.hull", "Force of the water on the hull, in b",
+            "Moment of the water on the hull about CO, in b",
+        ),
+        *wrench(
+            "output", PROPELLER, FORCE_UNITS, "outputs.propeller", "Force of the propeller, in b",
+            "Moment of the propeller about CO, in b",
+        ),
+        *wrench(
+            "output", RUDDER, FORCE_UNITS, "outputs.rudder", "Force of the rudder, in b",
+            "Moment of the rudder about CO, in b",
+        ),
+        *wrench(
+            "output", WIND, FORCE_UNITS, "outputs.wind", "Force of the wind, in b",
+            "Moment of the wind about CO, in b",
+        ),
+    )  # fmt: skip
 
 
 def _inputs() -> Table:
@@ -98,11 +111,12 @@ def _inputs() -> Table:
         ),
         *wrench(
             "input", IMPULSE, IMPULSE_UNITS, "inputs.impulse",
-            "Cumulative impulse on the ship, in b about CO; its increase is applied at the start of the next step",
+            "Cumulative impulse on the ship, in b; its increase is applied at the start of the next step",
+            "Moment about CO of the cumulative impulse on the ship, in b",
         ),
         *wrench(
             "input", (*FORCE, *MOMENT), FORCE_UNITS, "inputs.force",
-            "External force held over the step, in b about CO",
+            "External force held over the step, in b", "External moment about CO held over the step, in b",
         ),
     )  # fmt: skip
 
@@ -146,4 +160,5 @@ INTERFACE = Interface(
     description="Motion of one ship in 3, 4 or 6 degrees of freedom under orders, wind, current, forces and impulses.",
     table=table,
     model=lambda ships: ShipManoeuvring(),
+    terminals=lambda ships: {"collision": ""},
 )

@@ -18,7 +18,7 @@ import pythonfmu
 from pythonfmu.enums import Fmi2Status
 from pythonfmu.fmi2slave import Fmi2Slave
 
-from .slave_base import SlaveBase, take_reference
+from .slave_base import EVENTS, SlaveBase, take_reference
 
 __all__ = ["ModelSlave"]
 
@@ -78,6 +78,10 @@ class ModelSlave(SlaveBase, Fmi2Slave):  # type: ignore[misc]  # pythonfmu has n
     def warn(self, line: str) -> None:
         """Log a line as a warning."""
         self.log(self._text(line), Fmi2Status.warning)
+
+    def tell(self, line: str) -> None:
+        """Log a line as an event."""
+        self.log(self._text(line), Fmi2Status.ok, EVENTS)
 
     @staticmethod
     def _text(line: str) -> str:

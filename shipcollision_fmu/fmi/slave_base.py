@@ -2,7 +2,8 @@
 
     exit_initialization_mode        the model reads its parameters
     do_step                         one step, or a refusal and one logged line; the state before the step stays. A step
-                                    that was made with a reservation of the model logs it as a warning, and is OK
+                                    that was made with a reservation of the model logs it as a warning, and is OK.
+                                    What happened in it, such as the beginning of a collision, is logged as an event
     _get_fmu_state, ...             the whole state, exact to the bit, JSON as bytes
 
 The wrappers of pythonfmu 0.7 (FMI 2.0) and pythonfmu3 0.3 (FMI 3.0) decide the rest. Where a call raises, they answer
@@ -36,12 +37,16 @@ from .variable_access import VariableAccess
 from .variables import Kind
 from .wrapper_library import make_library_safe
 
-__all__ = ["LOG_CATEGORIES", "STDERR", "SlaveBase", "state_from_bytes", "state_to_bytes", "take_reference"]
+__all__ = ["EVENTS", "LOG_CATEGORIES", "STDERR", "SlaveBase", "state_from_bytes", "state_to_bytes", "take_reference"]
 
 STDERR = "SHIPCOLLISION_LOG"
 """Environment variable; with the value "stderr", what an FMU logs is printed as well."""
 
+EVENTS = "logEvents"
+"""Category of what happens in the model; FMI 2.0 proposes the name."""
+
 LOG_CATEGORIES = {
+    EVENTS: "First contact of each collision, one line each.",
     "logStatusError": "Calls that were refused and steps that could not be made, one line each.",
     "logStatusWarning": "Steps that were made but are less exact than they should be, one line each.",
 }
@@ -104,6 +109,10 @@ class SlaveBase:
         """Log a line as a warning; no status follows from it."""
         raise NotImplementedError
 
+    def tell(self, line: str) -> None:
+        """Log a line of the category EVENTS."""
+        raise NotImplementedError
+
     # In time. ------------------------------------------------------------------------------
 
     def setup_experiment(
@@ -161,6 +170,9 @@ class SlaveBase:
                 self.experiment.finish_step(t, h)
                 if gap:
                     self._warn(gap)
+                for line in self.access.events:
+                    self.tell(line)
+                    self._print(line)
                 self._pass_warning_on()
                 return True
             line = f"no step at t = {t} s after a refused call: {self._refused}"

@@ -23,7 +23,7 @@ from pythonfmu3.fmi3slave import Fmi3Slave, Fmi3StepResult
 
 from ..errors import InputError
 from .arrays import TIME, TYPES, ArrayVariable, gather_arrays
-from .slave_base import SlaveBase
+from .slave_base import EVENTS, SlaveBase
 from .variables import Kind
 
 __all__ = ["ModelSlave3"]
@@ -154,6 +154,10 @@ class ModelSlave3(SlaveBase, Fmi3Slave):  # type: ignore[misc]  # pythonfmu3 has
     def warn(self, line: str) -> None:
         """Log a line as a warning."""
         self.log(line, Fmi3Status.warning)
+
+    def tell(self, line: str) -> None:
+        """Log a line as an event."""
+        self.log(line, Fmi3Status.ok, EVENTS)
 
     def _values(self, vrs: list[int], kind: Kind, missing: T) -> list[T]:
         """Values of all elements, one after the other; `missing` for a reference that is wrong.

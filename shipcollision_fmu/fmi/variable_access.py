@@ -258,6 +258,13 @@ class VariableAccess:
         """
         return str(getattr(self.model, "warning", ""))
 
+    @property
+    def events(self) -> Sequence[str]:
+        """What happened in the last step that people should read, a line each. A model may have an attribute
+        `events`."""
+        found: Sequence[str] = getattr(self.model, "events", ())
+        return found
+
     def close(self) -> None:
         """Let the model give back what it holds outside Python, if anything: a model may have a method `close`."""
         close = getattr(self.model, "close", None)

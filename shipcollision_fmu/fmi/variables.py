@@ -6,7 +6,7 @@ written there and nowhere else; modelDescription.xml, the accessors, the documen
 
     TABLE = (
         *vector("output", POSITION, "m", "outputs.position", "Position of CO in n"),
-        *wrench("input", IMPULSE, IMPULSE_UNITS, "inputs.impulse", "Cumulative impulse in b about CO"),
+        *wrench("input", IMPULSE, IMPULSE_UNITS, "inputs.impulse", "Cumulative impulse in b", "Its moment about CO"),
         real("input", RUDDER_ORDER, "rad", "inputs.rudder_order", None, "Ordered rudder angle"),
         integer("parameter", "degrees_of_freedom", "parameters.degrees_of_freedom", "3, 4 or 6", minimum=3, maximum=6),
         boolean("parameter", "hydrodynamics", "parameters.hydrodynamics", "false: the ship coasts"),
@@ -60,7 +60,8 @@ class Variable:
     Raises ValueError for a line that cannot be: an unknown unit, an enumeration without items, a Real that is
     discrete by mistake. `depends_on` names the parameters and inputs, one by one or as a group ("initial.position"),
     that the value of an output at the start depends on; None means that it may depend on all of them. `array` is the
-    array of FMI 3.0 that it is an element of; None means that it is a scalar there too.
+    array of FMI 3.0 that it is an element of; None means that it is a scalar there too. `jumps`: a Real that keeps its
+    value between events, such as the time of the latest collision.
     """
 
     name: str
@@ -76,6 +77,7 @@ class Variable:
     items: tuple[str, ...] = ()
     depends_on: tuple[str, ...] | None = None
     array: Array | None = None
+    jumps: bool = False
 
     def __post_init__(self) -> None:
         if (self.kind == "Real") != (self.unit is not None):
@@ -87,10 +89,10 @@ class Variable:
 
     @property
     def variability(self) -> Variability:
-        """Parameters are fixed; Reals vary in time, everything else jumps."""
+        """Parameters are fixed; Reals vary in time unless they jump, everything else jumps."""
         if self.causality == "parameter":
             return "fixed"
-        return "continuous" if self.kind == "Real" else "discrete"
+        return "continuous" if self.kind == "Real" and not self.jumps else "discrete"
 
 
 Table = tuple[Variable, ...]
@@ -109,10 +111,11 @@ def real(
     nominal: float | None = None,
     depends_on: tuple[str, ...] | None = None,
     array: Array | None = None,
+    jumps: bool = False,
 ) -> Variable:
     """A Real: entry `index` of the list at `path`, or, with None, the float at `path`."""
     return Variable(
-        name, "Real", causality, path, index, description, unit, minimum, maximum, nominal, (), depends_on, array
+        name, "Real", causality, path, index, description, unit, minimum, maximum, nominal, (), depends_on, array, jumps
     )  # fmt: skip
 
 
@@ -175,6 +178,7 @@ def vector(
     first: int = 0,
     depends_on: tuple[str, ...] | None = None,
     array: Array | None = None,
+    jumps: bool = False,
 ) -> Table:
     """Reals by their full names ("position.north", ...): entries of the list at `path` from its entry `first` on.
 
@@ -183,9 +187,12 @@ def vector(
     name, components = _common_name(names)
     within = array or Array(name, (len(names),), f"{description}: {', '.join(components)}")
     return tuple(
-        real(causality, full, unit, path, first + i, f"{description}: {part}", depends_on=depends_on, array=within)
+        real(
+            causality, full, unit, path, first + i, f"{description}: {part}", depends_on=depends_on, array=within,
+            jumps=jumps,
+        )
         for i, (full, part) in enumerate(zip(names, components, strict=True))
-    )
+    )  # fmt: skip
 
 
 def wrench(
@@ -194,10 +201,12 @@ def wrench(
     units: tuple[str, str],
     path: str,
     description: str,
+    about: str,
     *,
     depends_on: tuple[str, ...] | None = None,
 ) -> Table:
-    """Six Reals, three along and three about the axes of b: the list at `path`, in the two units.
+    """Six Reals, three along and three about the axes of b: the list at `path`, in the two units. `description` is of
+    the first three, `about` of the moments.
 
     In FMI 3.0 they are two arrays, because an array has one unit. Where the names of both halves begin alike, the
     arrays are told apart: NAME.force and NAME.moment, or NAME.linear and NAME.angular of an impulse.
@@ -205,11 +214,11 @@ def wrench(
     lines: list[Variable] = []
     halves = ("force", "moment") if units == FORCE_UNITS else ("linear", "angular")
     alike = _common_name(names[:3])[0] == _common_name(names[3:])[0]
-    for first, half, unit in zip((0, 3), halves, units, strict=True):
+    for first, half, unit, said in zip((0, 3), halves, units, (description, about), strict=True):
         own = names[first : first + 3]
         name, components = _common_name(own)
-        array = Array(f"{name}.{half}" if alike else name, (3,), f"{description}: {', '.join(components)}")
-        lines += vector(causality, own, unit, path, description, first=first, depends_on=depends_on, array=array)
+        array = Array(f"{name}.{half}" if alike else name, (3,), f"{said}: {', '.join(components)}")
+        lines += vector(causality, own, unit, path, said, first=first, depends_on=depends_on, array=array)
     return tuple(lines)
 
 

@@ -118,9 +118,7 @@ def _add_units(root: Element, system: SystemStructure) -> None:
     units = SubElement(root, "ssd:Units")
     for name in sorted(used):
         node = SubElement(units, "ssc:Unit", {"name": name})
-        unit = UNITS[name]
-        base = {key: str(power) for key, power in unit.exponents.items()}
-        SubElement(node, "ssc:BaseUnit", base if unit.factor == 1.0 else {**base, "factor": repr(unit.factor)})
+        SubElement(node, "ssc:BaseUnit", UNITS[name].base)
 
 
 def _add_experiment(root: Element, scenario: Scenario) -> None:

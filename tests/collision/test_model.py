@@ -235,6 +235,30 @@ def test_events_of_one_incident(make_ship: Make, world: MakeWorld) -> None:
 # -- what the ship models answer --------------------------------------------------------------------
 
 
+def test_each_first_contact_is_one_line(make_ship: Make, world: MakeWorld) -> None:
+    """Two strike the one between them in the same step: two lines, once. After the first, plastic impact of equal
+    ships the one in the middle moves on with 3/2 m/s, so the other closes at 4 + 3/2 m/s."""
+    box = make_ship("box", BOX)
+    start = [
+        {"position": [0.0, y, 0.0], "nu": [0.0, v, 0, 0, 0, 0]}
+        for y, v in ((-30.05, 3.0), (0.0, 0.0), (30.1, -4.0))
+    ]  # fmt: skip
+    w = world([box] * 3, start, degrees_of_freedom=3)
+    lines = []
+    for _ in range(20):
+        w.step(0.1)
+        lines.append(w.model.events)
+    assert [len(found) for found in lines] == [2] + [0] * 19
+    for number, (line, other) in enumerate(zip(lines[0], ("s0", "s2"), strict=True), 1):
+        assert line.startswith(f"collision {number}: ")
+        assert f"{other} " in line
+        assert "s1 " in line
+        assert " at t = 0.0" in line
+        assert line.endswith("0 deg between their headings")
+    assert "closing at 3.00 m/s" in lines[0][0]
+    assert "closing at 5.50 m/s" in lines[0][1]
+
+
 def test_none_issues_one_impact_per_collision(make_ship: Make, world: MakeWorld) -> None:
     """A ship model that ignores the impulse sails on through; it is told once."""
     box = make_ship("box", BOX)

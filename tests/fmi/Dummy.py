@@ -43,6 +43,7 @@ class Model:
         self.parameters, self.inputs, self.outputs = Parameters(), Inputs(), Outputs()
         self.hidden: list[float] = []
         self.warning = ""
+        self.events: list[str] = []
         self.initialised = 0
 
     def initialise(self) -> None:
@@ -61,6 +62,7 @@ class Model:
         if self.inputs.word == "divide":
             self.outputs.place[0] = 1e9
             self.outputs.place[0] /= self.outputs.steps - self.outputs.steps
+        self.events = [f"100% happened at t = {t} s"] if self.inputs.word == "bang" else []
         self.warning = f"only 90% right at t = {t} s" if self.inputs.word == "doubt" else ""
         if self.inputs.word == "exit":
             raise SystemExit(3)

@@ -109,10 +109,9 @@ class Host:
         for variable in description.modelVariables:
             self.kinds[variable.type].append(variable.valueReference)
         self.messages: list[tuple[int, str]] = []
+        self.categories: list[str] = []
         callbacks = fmi2CallbackFunctions()
-        callbacks.logger = fmi2CallbackLoggerTYPE(
-            lambda env, who, status, category, message: self.messages.append((status, message.decode()))
-        )
+        callbacks.logger = fmi2CallbackLoggerTYPE(self._take)
         callbacks.allocateMemory = defaultCallbacks.allocateMemory
         callbacks.freeMemory = defaultCallbacks.freeMemory
         self.fmu = FMU2Slave(
@@ -124,6 +123,10 @@ class Host:
         self.fmu.instantiate(callbacks=callbacks, loggingOn=logging)
         self.dll: Any = self.fmu.dll
         self.component: Any = self.fmu.component
+
+    def _take(self, env: Any, who: bytes, status: int, category: bytes | None, message: bytes) -> None:
+        self.messages.append((status, message.decode()))
+        self.categories.append((category or b"").decode())
 
     def free(self) -> None:
         if self.component is not None:

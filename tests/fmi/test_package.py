@@ -86,6 +86,9 @@ def test_what_is_in_an_fmi3_fmu(built_for_fmi3: dict[str, Path]) -> None:
         assert re.fullmatch(rf"{name}_[0-9a-f]{{12}}", module)
         for wanted in (
             f"binaries/x86_64-linux/{name}.so",
+            "terminalsAndIcons/terminalsAndIcons.xml",
+            "terminalsAndIcons/icon.png",
+            "terminalsAndIcons/icon.svg",
             "documentation/externalDependencies.txt",  # FMI 3.0, section 2.5.1: where needsExecutionTool is true
             "documentation/licenses/license.txt",
             "documentation/licenses/pythonfmu3.txt",
@@ -165,6 +168,7 @@ def test_what_is_in_an_fmu(built: dict[str, Path]) -> None:
             "resources/models/ships/kvlcc2.toml",
         ):
             assert wanted in names
+        assert "model.png" in names
         assert (f"binaries/win64/{name}.dll" in names) == (name == "ShipManoeuvring")  # pybullet is for Linux alone
         assert not [n for n in names if re.search(r"__pycache__|\.pyc$|/scenarios/|/fmu_src/", n)]
         carried = {n.split("/")[2] for n in names if n.startswith("resources/shipcollision_fmu/")}

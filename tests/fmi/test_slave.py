@@ -129,6 +129,17 @@ def test_a_reservation_of_the_model_is_logged_as_a_warning_and_the_step_is_made(
     assert a.everything() == b.everything()
 
 
+def test_what_happens_is_logged_as_an_event_once(host: Make) -> None:
+    a = host()
+    a.begin()
+    a.fmu.setString(a.reference("word"), ["bang"])
+    a.step(0)
+    a.fmu.setString(a.reference("word"), ["start"])
+    a.step(1)
+    assert a.messages == [(OK, "100%% happened at t = 0.0 s")]
+    assert a.categories == ["logEvents"]
+
+
 def test_a_fault_of_the_model_discards_until_restored(host: Make) -> None:
     a = host()
     a.begin()

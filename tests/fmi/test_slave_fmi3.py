@@ -184,6 +184,16 @@ def test_a_reservation_of_the_model_is_logged_as_a_warning_and_the_step_is_made(
     assert a.messages == [(WARNING, "only 90% right at t = 0.0 s")]
 
 
+def test_what_happens_is_logged_as_an_event_once(host: Make) -> None:
+    a = host()
+    a.begin()
+    a.set("word", "bang")
+    a.step(0)
+    a.set("word", "start")
+    a.step(1)
+    assert a.messages == [(OK, "100% happened at t = 0.0 s")]
+
+
 def test_nan_discards_the_step_and_keeps_the_state_before(host: Make) -> None:
     a, b = host("a"), host("b")
     for instance in (a, b):

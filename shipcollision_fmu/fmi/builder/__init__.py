@@ -3,7 +3,8 @@
 model_description         modelDescription.xml: what both versions of FMI share
 model_description_fmi2    and what is of FMI 2.0
 model_description_fmi3    and of FMI 3.0
-documentation             the page for people
+documentation             the page for people, and what else they read
+terminals                 what belongs together, in FMI 3.0
 zip_archive               an archive that depends on names and contents only
 package                   the .fmu files: what is in them, and whether a file is up to date
 

@@ -17,7 +17,7 @@ from ..interface import Interface
 from ..slave_base import LOG_CATEGORIES
 from ..units import UNITS
 from ..variable_access import VariableAccess
-from ..variables import Table, Variable
+from ..variables import Kind, Table, Variable
 
 __all__ = [
     "Version",
@@ -34,13 +34,18 @@ __all__ = [
 @dataclass(frozen=True)
 class Version:
     """What a version of FMI writes in its own way before the variables: its number, the attribute with the identity of
-    the build, its capabilities, and how the type of an enumeration begins. `units` are in use beside the table's."""
+    the build, its capabilities, and how a type begins. `units` are in use beside the table's.
+
+    declare_type(definitions, name, kind, attributes, description) adds a type; its return value takes the items.
+    """
 
     number: str
     identity: str
     capabilities: Mapping[str, bool]
-    enumeration: Callable[[Element, str, Variable], Element]
+    declare_type: Callable[[Element, str, Kind, Mapping[str, str], str], Element]
     units: tuple[str, ...] = ()
+    fixed_step: str | None = None
+    """Name of the attribute for the fixed internal step, if this version has one."""
 
 
 def open_document(
@@ -53,16 +58,24 @@ def open_document(
         version.identity: identity,
         "description": interface.description,
         "version": __version__,
+        "author": "The shipcollision-fmu authors",
+        "copyright": "Copyright (c) 2026 The shipcollision-fmu authors",
         "license": "MIT",
         "generationTool": f"shipcollision_fmu {__version__}",
         "variableNamingConvention": "structured",
     })  # fmt: skip
     capabilities = {name: str(able).lower() for name, able in version.capabilities.items()}
+    capabilities |= _describe_internal_step(version, access)
     SubElement(root, "CoSimulation", {"modelIdentifier": interface.name, **capabilities})
     _add_units(root, access.table, *version.units)
-    _add_types(root, access.table, version.enumeration)
+    _add_types(root, access.table, version)
     _add_categories(root)
-    SubElement(root, "DefaultExperiment", {"startTime": "0", "stepSize": format_number(interface.step_size)})
+    SubElement(root, "DefaultExperiment", {
+        "startTime": "0",
+        "stopTime": format_number(interface.stop_time),
+        "tolerance": format_number(interface.tolerance),
+        "stepSize": format_number(interface.step_size),
+    })  # fmt: skip
     return root, SubElement(root, "ModelVariables")
 
 
@@ -82,10 +95,17 @@ def _add_units(root: Element, table: Table, *others: str) -> None:
     for name in used:
         unit = UNITS[name]
         node = SubElement(definitions, "Unit", {"name": name})
-        base = {exponent: str(power) for exponent, power in unit.exponents.items()}
-        SubElement(node, "BaseUnit", base if unit.factor == 1.0 else {**base, "factor": format_number(unit.factor)})
-        for display in unit.display:
-            SubElement(node, "DisplayUnit", {"name": display.name, "factor": format_number(display.factor)})
+        SubElement(node, "BaseUnit", unit.base)
+        if unit.display is not None:
+            SubElement(node, "DisplayUnit", {"name": unit.display.name, "factor": format_number(unit.display.factor)})
+
+
+def _describe_internal_step(version: Version, access: VariableAccess) -> dict[str, str]:
+    """The parameter `substep` at the start: a communication step that is a multiple of it is divided evenly."""
+    found = [reference for reference, variable in enumerate(access.table) if variable.name == "substep"]
+    if version.fixed_step is None or not found:
+        return {}
+    return {version.fixed_step: format_number(access.get_real(found)[0])}
 
 
 def _add_categories(root: Element) -> None:
@@ -95,16 +115,22 @@ def _add_categories(root: Element) -> None:
         SubElement(categories, "Category", {"name": name, "description": description})
 
 
-def _add_types(root: Element, table: Table, enumeration: Callable[[Element, str, Variable], Element]) -> None:
-    """TypeDefinitions of the enumerations; `enumeration` adds one and returns the element that takes its items."""
-    enumerations = {_type_name(variable): variable for variable in table if variable.items}
-    if not enumerations:
-        return
+def _add_types(root: Element, table: Table, version: Version) -> None:
+    """TypeDefinitions: one for the quantity of each unit in use, one for each enumeration."""
     definitions = SubElement(root, "TypeDefinitions")
-    for name, variable in enumerations.items():
-        items = enumeration(definitions, name, variable)
+    for name in sorted({variable.unit for variable in table if variable.unit is not None} | set(version.units)):
+        unit = UNITS[name]
+        attributes = {"quantity": unit.quantity, "unit": name}
+        if unit.display is not None:
+            attributes["displayUnit"] = unit.display.name
+        attributes["nominal"] = format_number(unit.nominal)
+        version.declare_type(definitions, unit.quantity, "Real", attributes, "")
+    for name, variable in {_type_name(variable): variable for variable in table if variable.items}.items():
+        items = version.declare_type(definitions, name, "Enumeration", {}, variable.description)
         for value, item in enumerate(variable.items, 1):
             SubElement(items, "Item", {"name": item, "value": str(value)})
+    if not len(definitions):
+        root.remove(definitions)
 
 
 def _type_name(variable: Variable) -> str:
@@ -131,10 +157,11 @@ def list_limits(variable: Variable) -> dict[str, str]:
     value: dict[str, str] = {}
     if variable.items:
         value["declaredType"] = _type_name(variable)
-    if variable.unit is not None:
-        value["unit"] = variable.unit
-        if UNITS[variable.unit].display:
-            value["displayUnit"] = UNITS[variable.unit].display[0].name
+    if variable.unit is not None:  # some hosts read no types: the unit is said here as well
+        value["declaredType"], value["unit"] = UNITS[variable.unit].quantity, variable.unit
+        display = UNITS[variable.unit].display
+        if display is not None:
+            value["displayUnit"] = display.name
     for name, limit in (("min", variable.minimum), ("max", variable.maximum), ("nominal", variable.nominal)):
         if limit is not None:
             value[name] = format_number(limit) if variable.kind == "Real" else str(int(limit))

@@ -13,7 +13,7 @@ from xml.etree.ElementTree import Element, SubElement
 
 from ..interface import Interface
 from ..variable_access import VariableAccess
-from ..variables import Table, Variable
+from ..variables import Kind, Table, Variable
 from .model_description import Version, describe_variable, find_dependencies, format_start, list_limits, open_document
 
 __all__ = ["model_description"]
@@ -42,12 +42,14 @@ def model_description(
     return root
 
 
-def _enumeration(definitions: Element, name: str, variable: Variable) -> Element:
-    simple = SubElement(definitions, "SimpleType", {"name": name, "description": variable.description})
-    return SubElement(simple, "Enumeration")
+def _declare_type(
+    definitions: Element, name: str, kind: Kind, attributes: Mapping[str, str], description: str
+) -> Element:
+    said = {"description": description} if description else {}
+    return SubElement(SubElement(definitions, "SimpleType", {"name": name, **said}), kind, dict(attributes))
 
 
-_VERSION = Version("2.0", "guid", _CAPABILITIES, _enumeration)
+_VERSION = Version("2.0", "guid", _CAPABILITIES, _declare_type)
 
 
 def _variable(variables: Element, reference: int, variable: Variable, access: VariableAccess) -> None:

@@ -16,8 +16,9 @@ from xml.etree.ElementTree import Element, SubElement
 
 from ..arrays import TIME, TYPES, ArrayVariable, gather_arrays
 from ..interface import Interface
+from ..units import UNITS
 from ..variable_access import VariableAccess
-from ..variables import Table, Variable
+from ..variables import Kind, Table
 from .model_description import Version, describe_variable, find_dependencies, format_start, list_limits, open_document
 
 __all__ = ["model_description"]
@@ -57,6 +58,7 @@ def model_description(
         "description": "End of the last step; before the first step the start of the default experiment",
         "causality": "independent",
         "variability": "continuous",
+        "declaredType": UNITS[_SECOND].quantity,
         "unit": _SECOND,
     })  # fmt: skip
     for reference, array in enumerate(gathered, TIME + 1):
@@ -65,11 +67,16 @@ def model_description(
     return root
 
 
-def _enumeration(definitions: Element, name: str, variable: Variable) -> Element:
-    return SubElement(definitions, "EnumerationType", {"name": name, "description": variable.description})
+def _declare_type(
+    definitions: Element, name: str, kind: Kind, attributes: Mapping[str, str], description: str
+) -> Element:
+    said = {"description": description} if description else {}
+    return SubElement(definitions, f"{TYPES[kind]}Type", {"name": name, **said, **attributes})
 
 
-_VERSION = Version("3.0", "instantiationToken", _CAPABILITIES, _enumeration, (_SECOND,))
+_VERSION = Version(
+    "3.0", "instantiationToken", _CAPABILITIES, _declare_type, (_SECOND,), fixed_step="fixedInternalStepSize"
+)
 
 
 def _variable(variables: Element, reference: int, array: ArrayVariable, access: VariableAccess) -> None:

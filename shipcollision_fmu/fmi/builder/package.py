@@ -9,6 +9,7 @@ digest of everything else.
     binaries/linux64|win64/NAME.*           pythonfmu's wrapper (FMI 3.0: x86_64-linux|windows, pythonfmu3's); for
                                             Windows only where all packages have wheels for it
     documentation/                          a page for people, licences, what the host must have
+    model.png                               an icon (FMI 3.0: in terminalsAndIcons/, with the terminals)
     resources/slavemodule.txt, NAME_*.py    where the wrapper starts; * is a digest
     resources/pythonfmu/, shipcollision_fmu/, models/
     resources/build.json                    what it was built from (build_record)
@@ -42,6 +43,7 @@ from .documentation import describe_dependencies, describe_licences, make_page
 from .model_description import to_bytes
 from .model_description_fmi2 import model_description as model_description_fmi2
 from .model_description_fmi3 import model_description as model_description_fmi3
+from .terminals import describe_terminals
 from .zip_archive import LIBRARIES, zip_bytes
 
 __all__ = [
@@ -161,6 +163,7 @@ def fmu_bytes(
         "documentation/index.html": make_page(interface, ships, fmi, scalar).encode(),
         "documentation/externalDependencies.txt": describe_dependencies(interface).encode(),
         **_licences(version),
+        **_icons(version, interface, ships),
     }
     anonymous = to_bytes(version.description(interface, ships, "", start))
     guid = str(UUID(build_record.digest({**files, "modelDescription.xml": anonymous})[:32]))
@@ -245,6 +248,18 @@ def _licences(version: _Version) -> dict[str, bytes]:
         version.wrapper: _distributed(version.wrapper),
     }
     return {f"documentation/licenses/{name}.txt": text.encode() for name, text in texts.items() if text}
+
+
+def _icons(version: _Version, interface: Interface, ships: tuple[str, ...]) -> dict[str, bytes]:
+    """The icon where this version of FMI has it, and the terminals of FMI 3.0; nothing for an FMU without an icon."""
+    drawn = {kind: slave_directory() / "icons" / f"{interface.name}.{kind}" for kind in ("png", "svg")}
+    if not drawn["png"].is_file():
+        return {}
+    if version.fmi == 2:
+        return {"model.png": drawn["png"].read_bytes()}
+    terminals = describe_terminals(interface.table(ships), interface.terminals(ships), version.scalar)
+    icons = {f"terminalsAndIcons/icon.{kind}": path.read_bytes() for kind, path in drawn.items()}
+    return {"terminalsAndIcons/terminalsAndIcons.xml": to_bytes(terminals), **icons}
 
 
 def _distributed(distribution: str) -> str | None:
