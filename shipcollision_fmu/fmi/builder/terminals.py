@@ -42,9 +42,9 @@ def _add_terminal(parent: Element, table: Table, name: str, prefix: str, scalar:
         "name": name, "matchingRule": "plug", "terminalKind": "shipcollision.ship",
         "description": "State of a ship, and what contact does to it",
     })  # fmt: skip
-    wanted = {f"{prefix}{member}" for member in _MEMBERS}
+    names = {f"{prefix}{member}" for member in _MEMBERS}
     for variable in gather_arrays(table, scalar):
-        if wanted.issuperset(table[reference].name for reference in variable.references):
+        if names.issuperset(table[reference].name for reference in variable.references):
             member = variable.name.removeprefix(prefix)
             SubElement(node, "TerminalMemberVariable", {
                 "variableName": variable.name, "memberName": member, "variableKind": "signal",
