@@ -9,7 +9,9 @@ measured anew. After an impulse, every near pair is examined at the next substep
 with a fender between them are examined at every substep.
 
 A pair is *fast* at a substep in which it may come nearer by more than a share of its thinner hull. Its first touch is
-then searched within the substep (geometry/first_touch.py), and the near bodies stop there to be examined.
+then searched within the substep (geometry/first_touch.py), and the near bodies stop there to be examined. So is the
+first touch of a slow pair whose normal cannot be that of the touch: hulls of any size that overlap in height, or in
+breadth, by less than they moved.
 
 Mirtich (1996), Impulse-based dynamic simulation of rigid body systems, calls the scheme a collision scheduler.
 """
@@ -58,6 +60,8 @@ class ConservativeAdvancement:
         self._approach = {pair: each.approach for pair, each in near.items()}  # bounds [m/s] until twists change
         self._due = {pair: 0 if pair in with_fender else self._free_substeps(pair, near[pair].gap) for pair in near}
         self._fast = {pair: FAST * detector.thickness(*pair) / self.h for pair in near}  # speed limits [m/s]
+        self._apart = {pair for pair in near if near[pair].gap > 0.0}  # when last measured
+        self.touched = False  # set it when impulses were given at a stop
         self.touches_left = MOST_TOUCHES
         self._pending_substeps = 0  # by which the predicted poses lag
 
@@ -69,34 +73,68 @@ class ConservativeAdvancement:
     def advance(self, substep: int, pairs: list[Pair]) -> Iterator[tuple[float, list[Pair]]]:
         """Move the near bodies through a substep, and stop at each first touch and at its end.
 
-        Yields (time [s] since the start of the step, pairs to be examined there). Twists may change in between.
+        Yields (time [s] since the start of the step, pairs to be examined there). Twists may change in between: set
+        `touched` then. In the end, sets when the pairs are due again.
         """
+        self.touched, examined, passed = False, pairs, 0.0
         if self._fenders:
             self._approach.clear()
-        if not self._fast_pairs(pairs):
+        if self._fast_pairs(pairs):
+            self._pending_substeps -= 1
             self._advance_pending()
-            yield (substep + 1) * self.h, pairs
-            return
-        self._pending_substeps -= 1
-        self._advance_pending()
-        passed = 0.0
-        while self.touches_left and (touch := self._first_touch(pairs, self.h - passed)) is not None:
+            touch = self._advance_to_touch(pairs, self.h)
+        else:
+            self._advance_pending()
+            touch = self._return_to_missed_touch(pairs)
+        while touch is not None:
             self.touches_left -= 1
             passed += touch
-            advance_bodies(self._moving, touch)
             yield substep * self.h + passed, pairs
             self._approach.clear()
             pairs = list(self._due)
-        advance_bodies(self._moving, self.h - passed)
+            touch = self._advance_to_touch(pairs, self.h - passed)
         yield (substep + 1) * self.h, pairs
+        self._reschedule(substep, examined)
+
+    def _advance_to_touch(self, pairs: list[Pair], rest: float) -> float | None:
+        """Move the near bodies to the first touch within the rest [s] of a substep, else by the rest.
+
+        Returns the time [s] of the touch, None without one.
+        """
+        touch = self._first_touch(self._fast_pairs(pairs), rest) if self.touches_left else None
+        advance_bodies(self._moving, rest if touch is None else touch)
+        missed = self._return_to_missed_touch(pairs, rest if touch is None else touch)
+        return touch if missed is None else missed
+
+    def _return_to_missed_touch(self, pairs: list[Pair], moved: float | None = None) -> float | None:
+        """Move the near bodies back to the first touch of slow pairs, if it was missed in the last motion, of a substep
+        or of `moved` [s].
+
+        Returns the time [s] of that touch after the motion began, None without one.
+        """
+        known, detector, states = self._caches.last_normals, self._detector, self._states
+        missed = [p for p in pairs if p in self._apart and p not in known and detector.misses_first_touch(*p, states)]
+        if not missed or not self.touches_left:
+            return None
+        reached = [(state.x, state.R) for state in self._moving]
+        for state in self._moving:
+            state.x, state.R = state.pose_before
+        apart = [(p, self._relative_speed(*p)) for p in missed if not detector.touching(*p, states)]
+        touch = self._first_touch(apart, self.h if moved is None else moved)
+        if touch is None:
+            for state, (x, R) in zip(self._moving, reached, strict=True):
+                state.x, state.R = x, R
+        else:
+            advance_bodies(self._moving, touch)
+        return touch
 
     def _advance_pending(self) -> None:
         advance_bodies(self._moving, self.h, self._pending_substeps)
         self._pending_substeps = 0
 
-    def reschedule(self, substep: int, examined: Sequence[Pair], touched: bool) -> None:
-        """Set when the pairs examined at a substep are due again. touched: impulses were given."""
-        if touched:
+    def _reschedule(self, substep: int, examined: Sequence[Pair]) -> None:
+        """Set when the pairs examined at a substep are due again."""
+        if self.touched:
             self._approach.clear()
             self._due = dict.fromkeys(self._due, substep + 1)
         elif not self._fenders:
@@ -104,6 +142,8 @@ class ConservativeAdvancement:
             for pair in examined:
                 gap = self._detector.clearance(*pair, self._states, rest * self._approach_speed(pair))
                 self._due[pair] = substep + 1 + self._free_substeps(pair, gap)
+                if gap > 0.0:
+                    self._apart.add(pair)
 
     def describe_exhausted(self, t: float) -> str:
         """The warning of the step from t [s] if it had more first touches than are looked for."""
@@ -119,10 +159,13 @@ class ConservativeAdvancement:
         else:
             self._advance_pending()
 
-    def _first_touch(self, pairs: Sequence[Pair], rest: float) -> float | None:
-        """Time [s] of the first touch of fast pairs within the rest [s] of the substep; None: there is none."""
+    def _first_touch(self, pairs: Sequence[tuple[Pair, float]], rest: float) -> float | None:
+        """Time [s] of the first touch of pairs within the rest [s] of the substep; None: there is none.
+
+        pairs: with the bounds of their relative speeds [m/s].
+        """
         first: float | None = None
-        for pair, speed in self._fast_pairs(pairs):
+        for pair, speed in pairs:
             touch = self._detector.first_touch(
                 *pair, self._states, rest if first is None else first, speed, self._caches.last_normals
             )

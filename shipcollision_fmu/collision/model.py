@@ -169,12 +169,10 @@ class ShipCollision:
                 points = self._fenders.press(
                     fenders, detector, self._caches, states, self.parameters.friction, h, points
                 )
-            touched = False
             for moment, examined in schedule.advance(substep, pairs):
                 solution, numbers = self._respond(t + moment, h, examined, states, detector)
                 if solution.impulses:
-                    points, touched = self._book(solution, numbers, states, points), True
-            schedule.reschedule(substep, pairs, touched)
+                    points, schedule.touched = self._book(solution, numbers, states, points), True
         schedule.finish()
         if not schedule.touches_left:
             self.warning = schedule.describe_exhausted(t)

@@ -238,3 +238,78 @@ def test_a_ship_slides_along_a_pole_that_is_inside_it(world: MakeWorld, boat: Bo
         clearances.append(w.model.outputs.clearance)
     assert w.model.outputs.collision_count == 1
     assert min(clearances) >= -0.35
+
+
+# -- thin overlaps: bodies of any size that overlap by less than they move in a substep ---------------------------
+
+BARGE = (100.0, 20.0, 5.0, 5e6, {"shape": "box", "depth": 10.0})
+SKIFF = (4.0, 1.5, 0.4, 1000.0, {"shape": "box", "depth": 0.8})
+
+
+def rock(above_keel: float, keel: float) -> str:
+    """A rock that stands so far above the keel's depth [m], its near side at the origin."""
+    return (
+        f'[rock]\nkind = "rock"\nshape = "box"\nlength = 2.0\nbreadth = 2.0\nposition = [1.0, 0.0]\n'
+        f"top = {above_keel - keel}\n"
+    )
+
+
+def deck(below: float, height: float) -> str:
+    """A bridge's deck whose underside is so far below the height of a ship's deck [m], its near side at the origin."""
+    return (
+        f'[deck]\nkind = "deck"\nshape = "box"\nlength = 10.0\nbreadth = 50.0\nposition = [5.0, 0.0]\n'
+        f"top = 10.0\nbottom = {below - height}\n"
+    )
+
+
+THIN = [
+    pytest.param(BARGE, 3.0, 0.01, rock(0.01, 5.0), id="rock 1 cm above the keel"),
+    pytest.param(SKIFF, 5.0, 0.01, rock(0.005, 0.4), id="rock 5 mm above a boat's"),
+    pytest.param(SKIFF, 5.0, 0.01, deck(0.02, 0.4), id="deck 2 cm below a boat's"),
+    pytest.param(SKIFF, 25.0, 0.05, deck(0.005, 0.4), id="deck 5 mm below a boat's"),
+]
+
+
+@pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
+@pytest.mark.parametrize(("form", "speed", "h", "obstacle"), THIN)
+def test_what_overlaps_little_in_height_stops_a_ship(
+    world: MakeWorld, boat: Boats, form: tuple, speed: float, h: float, obstacle: str, algorithm: str
+) -> None:
+    """The normal is that of the first touch, the bow's, though the overlap in height is less from then on. A ship with
+    three degrees of freedom stops dead: P = m V."""
+    for phase in (0.03, 0.52):
+        at = start(0.5 * form[0] + (2 + phase) * speed * h, speed)
+        w = world([boat(form)], [at], degrees_of_freedom=3, obstacles=obstacle, substep=h, algorithm=algorithm)
+        w.run(8 * h, 2 * h)
+        assert w.model.outputs.collision_count == 1
+        assert w.model.outputs.ships[0].impulse[0] == pytest.approx(-form[3] * speed, rel=1e-6)
+        assert np.abs(w.nu[0]).max() <= 1e-6 * speed
+        w.model.close()
+
+
+def test_a_ship_that_is_driven_on_does_not_pass_over_a_low_rock(world: MakeWorld, boat: Boats) -> None:
+    """A propeller that gains 0.1 m/s in a step of 0.1 s presses a ship on a rock that stands 1 cm above its keel. Under
+    a parallel master it comes to overlap by 0.3 m along, more than in height: the normal remains the bow's."""
+    for algorithm in ("gauss-seidel", "jacobi"):
+        w = world([boat(BARGE)], [start(51.0, 3.0)], degrees_of_freedom=3, obstacles=rock(0.01, 5.0),
+                  algorithm=algorithm, friction=0.0)  # fmt: skip
+        for _ in range(60):
+            w.step(0.1)
+            w.nu[0][0] += 0.1
+        assert w.model.outputs.contact_active
+        assert foremost(w, 50.0, 0.0) <= 0.5, algorithm
+        w.model.close()
+
+
+def test_corners_that_graze_by_a_centimetre_meet_end_on(world: MakeWorld, boat: Boats) -> None:
+    """A ship at 5 m/s, whose side overlaps a pier by 1 cm in plan. The end faces meet, at the lever y of their common
+    strip: P = V / (1/m + y^2/I). Least overlap is across, from the first substep of 0.05 m on: nothing would happen."""
+    V, overlap = 5.0, 0.01
+    at = start(52.0, V)
+    at["position"][1] = -10.0 + overlap
+    pier = '[pier]\nkind = "pier"\nshape = "box"\nlength = 30.0\nbreadth = 20.0\nposition = [15.0, 10.0]\n'
+    w = world([boat(BARGE)], [at], degrees_of_freedom=3, obstacles=pier, substep=0.01, friction=0.0)
+    while w.model.outputs.collision_count == 0:
+        w.step(0.01)
+    y, inertia, m = 10.0 - 0.5 * overlap, w.M[0][5, 5], BARGE[3]
+    assert w.model.outputs.ships[0].impulse[0] == pytest.approx(-V / (1 / m + y * y / inertia), rel=2e-3)

@@ -68,11 +68,13 @@ class BodyState:
     end_gain: Array | None = None  # (6,) in b at the end of the step: what the law adds to nu by then
     fixed: bool = False  # an obstacle: M_inverse is zero, and the pose never changes
     held: Array | None = None  # (3, 3) degrees_of_freedom.held_mobility; None where no motion is held
+    pose_before: tuple[Array, Array] = field(init=False)  # the predicted pose before it was last advanced
     nu_mean: Array = field(init=False)
     nu_path: Array = field(init=False)
     nu_energy: Array = field(init=False)
 
     def __post_init__(self) -> None:
+        self.pose_before = self.x, self.R
         self.set_twist(self.nu)
 
     @classmethod
@@ -141,6 +143,7 @@ class BodyState:
     def advance(self, h: float, substeps: int = 1) -> None:
         """Move the predicted pose on by so many substeps of h [s], along the chord of the step."""
         for _ in range(substeps):
+            self.pose_before = self.x, self.R
             self.x, self.R = self.predict_pose(h)
 
     def predict_pose(self, h: float) -> tuple[Array, Array]:

@@ -4,7 +4,8 @@
 2. Bullet returns one point of a line or an area of contact, at an arbitrary place. The contact points are the corners
    that the two facing features have in common (contact_place.py).
 3. In deep overlap the direction of least overlap jumps, for a ship soon to the vertical. While the overlap is deeper
-   than SHALLOW, the last shallow normal is used. It turns with the hull whose face it belongs to.
+   than SHALLOW, or its direction has jumped to the vertical, the last shallow normal is used. It turns with the hull
+   whose face it belongs to.
 4. The convex parts of one hull are joined (compound_hull.py). Faces and edges inside the hull give no contact, and
    contacts of several parts on one face are one contact.
 """
@@ -24,7 +25,7 @@ from ..dynamics.contact_frame import contact_axes
 from .bullet import MARGIN, BulletAdapter, Closest
 from .compound_hull import CompoundHull, merge_coplanar, select_supported
 from .contact_place import FEATURE_DEPTH, contact_manifold, facing_features
-from .first_touch import TOUCH, MovingHull, find_first_touch
+from .first_touch import TOUCH, MovingHull, find_first_touch, gap_before
 from .plan_overlap import least_overlap
 from .thickness import least_width
 
@@ -40,6 +41,10 @@ SHALLOW_SHARE = 0.25
 FOLLOWS = 0.94
 """Cosine of the angle, 20 degrees, by which the normal of least overlap may differ from the last normal of a thin hull
 that is in deep overlap. It then follows a curved side; with less, it follows a pole round to its other side."""
+
+STEEP = 0.7
+"""Share of the vertical in a normal, 45 degrees, from which on it must follow the last one. Otherwise ships that are
+driven on would slide over a rock or under a deck which they overlap less in height than along."""
 
 FAST = 0.05
 """Share of the thinner hull's least width by which hulls may come nearer in a substep without a search for the first
@@ -69,6 +74,7 @@ class Detector:
         self._widths = [least_width(hull) for hull in hulls]
         self._scales = [min(1.0, float(np.ptp(hull.vertices, axis=0).min()) / SMALL) for hull in hulls]
         self.bullet = BulletAdapter(hulls)
+        self._lately: tuple[int, int, Array, Array, Array, Array, list[Closest]] | None = None  # what touched where
 
     def clearance(self, a: int, b: int, states: Sequence[BodyState], cap: float) -> float:
         """Least distance [m] between two hulls, negative in overlap, at most `cap`."""
@@ -93,9 +99,28 @@ class Detector:
         one, other = (MovingHull.of(i, self._hulls[i].parts, states[i]) for i in (a, b))
         return find_first_touch(self.bullet, one, other, h, speed, growth, last_normals.get((a, b)))
 
+    def misses_first_touch(self, a: int, b: int, states: Sequence[BodyState]) -> bool:
+        """Whether two hulls, apart before they were last advanced, have met along another normal than that of their
+        closest points now: along it, they overlapped before by more than Bullet's margin."""
+        touching = self._touching(a, b, states)
+        self._lately = a, b, states[a].x, states[a].R, states[b].x, states[b].R, touching
+        deepest = min(touching, key=lambda c: c.gap, default=None)
+        if deepest is None or deepest.gap >= -MARGIN:
+            return False
+        parts_a, parts_b = self._hulls[a].parts, self._hulls[b].parts
+        return gap_before(deepest, parts_a, parts_b, states[a], states[b]) < -MARGIN
+
+    def _touching(self, a: int, b: int, states: Sequence[BodyState]) -> list[Closest]:
+        """Closest points of the parts that touch."""
+        if (lately := self._lately) is not None and lately[:2] == (a, b):
+            one, other = states[a], states[b]
+            if lately[2] is one.x and lately[3] is one.R and lately[4] is other.x and lately[5] is other.R:
+                return lately[6]
+        return [c for c in self.bullet.closest(a, b, states, 0.0) if c.gap <= 0.0]
+
     def contacts(self, a: int, b: int, states: Sequence[BodyState], last_normals: LastNormals) -> list[Contact]:
         """Contact points of two hulls, gap <= 0. Updates `last_normals` while the overlap is shallow."""
-        touching = [c for c in self.bullet.closest(a, b, states, 0.0) if c.gap <= 0.0]
+        touching = self._touching(a, b, states)
         if not touching:
             last_normals.pop((a, b), None)
             return []
@@ -163,12 +188,14 @@ class Detector:
     def _is_shallow(
         self, a: int, b: int, deepest: Closest, states: Sequence[BodyState], last_normals: LastNormals
     ) -> bool:
-        """Whether Bullet's normals count. With a thin hull also in deep overlap, while they follow the last normal."""
+        """Whether Bullet's normals count. A steep normal, and that of a thin hull in deep overlap, must follow the
+        last one."""
         limit = self._shallow(a, b)
-        if deepest.gap > -limit:
+        shallow = deepest.gap > -limit
+        if shallow and -STEEP < deepest.normal[2] < STEEP:
             return True
-        if limit == SHALLOW or (a, b) not in last_normals:
-            return False
+        if (a, b) not in last_normals or (limit == SHALLOW and not shallow):
+            return shallow
         last = _turn_with_hull(last_normals[a, b], states[a], states[b])
         return float(last @ deepest.normal) > FOLLOWS
 

@@ -26,9 +26,9 @@ import numpy as np
 
 from ...ship.frames import Array
 from ..dynamics.body_state import BodyState
-from .bullet import MARGIN, BulletAdapter
+from .bullet import MARGIN, BulletAdapter, Closest
 
-__all__ = ["TOUCH", "MovingHull", "find_first_touch"]
+__all__ = ["TOUCH", "MovingHull", "find_first_touch", "gap_before"]
 
 TOUCH = 0.5 * MARGIN
 """Overlap [m] up to which the search for a first touch may end. With zero it would take many steps more; beyond two
@@ -94,6 +94,27 @@ def find_first_touch(
     return None
 
 
+def gap_before(
+    closest: Closest, parts_a: Sequence[Array], parts_b: Sequence[Array], a: BodyState, b: BodyState
+) -> float:  # fmt: skip
+    """Gap [m] of two touching parts before the bodies were last advanced, along the normal of their closest points now.
+
+    It is the largest along the normal as it is, and as it turned with either hull. Where it is negative, the parts
+    overlapped along the normal already: they have met along another one.
+    """
+    part_a, part_b, normal = parts_a[closest.part_a], parts_b[closest.part_b], closest.normal
+    now, then = ((a.x, a.R), (b.x, b.R)), (a.pose_before, b.pose_before)
+    axes = [normal] + [R_then @ (R.T @ normal) for (_, R), (_, R_then) in zip(now, then, strict=True)]
+    before = max(_separation(axis, part_a, part_b, *then) for axis in axes)
+    return closest.gap + before - _separation(normal, part_a, part_b, *now)
+
+
+def _separation(normal: Array, part_a: Array, part_b: Array, at_a: Pose, at_b: Pose) -> float:
+    """s(normal) [m] of two parts (n, 3) in b at their poses."""
+    (x_a, R_a), (x_b, R_b) = at_a, at_b
+    return float(normal @ (x_b - x_a) + (part_b @ (normal @ R_b)).min() - (part_a @ (normal @ R_a)).max())
+
+
 def _constant(axis: Array) -> Callable[[float], Array]:
     return lambda _: axis
 
@@ -144,8 +165,7 @@ class _Parts:
         )
 
     def _separation(self, normal: Array, tau: float) -> float:
-        (x_a, R_a), (x_b, R_b) = self.a.pose_at(tau), self.b.pose_at(tau)
-        return float(normal @ (x_b - x_a) + (self.part_b @ (normal @ R_b)).min() - (self.part_a @ (normal @ R_a)).max())
+        return _separation(normal, self.part_a, self.part_b, self.a.pose_at(tau), self.b.pose_at(tau))
 
     def _reach(self, begin: float, end: float, axis: Callable[[float], Array], way: float) -> float | None:
         """The first time after `begin` at which the separation along the axis has fallen by `way` [m]; None: it does
