@@ -11,7 +11,7 @@ ignore contact) only the impact is answered with impulses; the rest of the colli
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import acos, degrees
 from typing import Any
 
@@ -29,8 +29,8 @@ SCRATCH_PAUSE = 0.5
 """Pause of contact [s] that does not end a scratch: sliding ships touch and part at every substep. With zero, a scratch
 would fall into one piece per substep."""
 
-Numbers = dict[Pair, tuple[int, int]]
-"""(number of the collision, number of the scratch) of pairs in contact."""
+Numbers = dict[Pair, tuple[int, int, Impact]]
+"""(number of the collision, number of the scratch, impact with which the collision began) of pairs in contact."""
 
 
 @dataclass
@@ -38,6 +38,7 @@ class _Pair:
     collision: int = 0  # number of the open collision, 0: none
     scratch: int = 0
     last_contact: float = 0.0
+    impact: Impact = field(default_factory=Impact)  # with which the collision began
 
 
 class Collisions:
@@ -81,13 +82,13 @@ class Collisions:
             if not pair.collision:
                 self.count += 1
                 pair.collision = self.count
-                self.latest = _find_impact(t, of_pair, states)
+                pair.impact = self.latest = _find_impact(t, of_pair, states)
                 self.opened.append(self.latest)
             if not pair.scratch:
                 self.scratches += 1
                 pair.scratch = self.scratches
             pair.last_contact = t
-            numbers[key] = pair.collision, pair.scratch
+            numbers[key] = pair.collision, pair.scratch, pair.impact
         return numbers
 
     def bodies_in_collision(self) -> set[int]:
@@ -110,16 +111,27 @@ class Collisions:
 
     def get_state(self) -> dict[str, Any]:
         """All of it as plain data."""
-        pairs = [[a, b, p.collision, p.scratch, p.last_contact] for (a, b), p in self._pairs.items()]
-        latest = {**vars(self.latest), "point": list(self.latest.point)}
-        return {"pairs": pairs, "count": self.count, "scratches": self.scratches, "latest": latest}
+        pairs = [
+            [a, b, p.collision, p.scratch, p.last_contact, _as_data(p.impact)] for (a, b), p in self._pairs.items()
+        ]
+        return {"pairs": pairs, "count": self.count, "scratches": self.scratches, "latest": _as_data(self.latest)}
 
     def set_state(self, state: dict[str, Any]) -> None:
         """Back to a state of get_state, exact to the bit."""
-        self._pairs = {(a, b): _Pair(collision, scratch, last) for a, b, collision, scratch, last in state["pairs"]}
-        self.count, self.scratches = state["count"], state["scratches"]
+        self._pairs = {
+            (a, b): _Pair(collision, scratch, last, _from_data(impact))
+            for a, b, collision, scratch, last, impact in state["pairs"]
+        }
         self.opened.clear()
-        self.latest = Impact(**{**state["latest"], "point": list(state["latest"]["point"])})
+        self.count, self.scratches, self.latest = state["count"], state["scratches"], _from_data(state["latest"])
+
+
+def _as_data(impact: Impact) -> dict[str, Any]:
+    return {**vars(impact), "point": list(impact.point)}
+
+
+def _from_data(data: dict[str, Any]) -> Impact:
+    return Impact(**{**data, "point": list(data["point"])})
 
 
 def _find_impact(t: float, contacts: Sequence[Contact], states: Sequence[BodyState]) -> Impact:

@@ -24,13 +24,16 @@ import numpy as np
 from ..ship.frames import Array
 from .collisions import Numbers
 from .dynamics.contact import Contact, Impulse
-from .interface import ContactOutput
+from .interface import ContactOutput, Impact
 
 __all__ = ["SAME_PLACE", "ContactPoint", "fill_contacts", "fit_contact_points", "merge_contact_point", "merge_impulses"]
 
 SAME_PLACE = 2.0
 """Contacts of a pair closer than this [m] on ship a, from different substeps, are one point that moves. With less, one
 sliding contact would fill the outputs; with more, a contact that has gone would be shown with one that is elsewhere."""
+
+NO_IMPACT = Impact()
+"""Of points where a fender acts: no collision began."""
 
 
 @dataclass(frozen=True)
@@ -39,7 +42,7 @@ class ContactPoint:
 
     parts: what was merged, the latest last; P (3,): impulse on body b, summed in n [N s]; P_n, P_t (3,): the parts
     along and across the normal, as the normal was each time; energy: lost [J]; collision, scratch: their numbers, 0
-    where a fender acts and the hulls do not touch.
+    where a fender acts and the hulls do not touch; impact: with which the collision began.
     """
 
     parts: tuple[Impulse, ...]
@@ -49,12 +52,15 @@ class ContactPoint:
     energy: float
     collision: int
     scratch: int
+    impact: Impact
 
     @classmethod
-    def of(cls, contact: Contact, P: Array, energy: float, collision: int, scratch: int) -> ContactPoint:
+    def of(
+        cls, contact: Contact, P: Array, energy: float, collision: int, scratch: int, impact: Impact = NO_IMPACT
+    ) -> ContactPoint:
         """The point of one impulse at a contact."""
         P_n = float(P @ contact.normal)
-        return cls((Impulse(contact, P),), P, P_n, P - P_n * contact.normal, energy, collision, scratch)
+        return cls((Impulse(contact, P),), P, P_n, P - P_n * contact.normal, energy, collision, scratch, impact)
 
     @property
     def contact(self) -> Contact:
@@ -165,6 +171,13 @@ def _fill(out: ContactOutput, point: ContactPoint) -> None:
     out.gap, out.energy = c.gap, point.energy
     out.impulse_normal, out.impulse_tangential = point.P_n, float(np.linalg.norm(point.P_t))
     out.ship_a, out.ship_b, out.collision, out.scratch = c.a + 1, c.b + 1, point.collision, point.scratch
+    _fill_start(out, point.impact)
+
+
+def _fill_start(out: ContactOutput, impact: Impact) -> None:
+    out.start, out.first[:], out.closing_speed, out.angle = (
+        impact.time, impact.point, impact.closing_speed, impact.angle
+    )  # fmt: skip
 
 
 def _clear(out: ContactOutput) -> None:
@@ -172,6 +185,7 @@ def _clear(out: ContactOutput) -> None:
         vector[:] = [0.0, 0.0, 0.0]
     out.gap = out.impulse_normal = out.impulse_tangential = out.energy = 0.0
     out.ship_a = out.ship_b = out.collision = out.scratch = 0
+    _fill_start(out, NO_IMPACT)
 
 
 def _size(point: ContactPoint) -> float:

@@ -108,7 +108,7 @@ class ContactOutput:
     point, normal: in n [m], [1]; r_a, r_b: the point in b of either ship [m]; impulse: on ship_b in n [N s]; couple:
     moment of the impulses on ship_b about the point, in n [N m s]; gap [m]; impulse_normal, impulse_tangential [N s];
     energy: dissipated [J]; ship_a, ship_b: from 1, 0: unused, an obstacle is numbered on from the ships; collision,
-    scratch: their numbers.
+    scratch: their numbers; start, first, closing_speed, angle: the impact with which its collision began (Impact).
     """
 
     point: list[float] = field(default_factory=lambda: zeros(3))
@@ -125,6 +125,10 @@ class ContactOutput:
     ship_b: int = 0
     collision: int = 0
     scratch: int = 0
+    start: float = 0.0
+    first: list[float] = field(default_factory=lambda: zeros(3))
+    closing_speed: float = 0.0
+    angle: float = 0.0
 
 
 @dataclass

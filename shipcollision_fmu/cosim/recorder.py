@@ -14,15 +14,13 @@ import numpy as np
 import numpy.typing as npt
 
 from ..collision.interface import contact_point_count
-from ..fmi.names import CONTACT_INTEGERS, IMPACT_POINT, IMPULSE, STATE, contact_point, named
+from ..fmi.names import CONTACT_INTEGERS, CONTACT_START, IMPULSE, STATE, contact_point, named
 from ..results.record import CONTACT_COLUMNS, SIGNALS, CollisionStart, Record
 from ..ship.frames import Array
 from .component import Group
 from .master import System
 
 __all__ = ["Recorder"]
-
-_IMPACT = ("impact.time", "impact.closing_speed", "impact.angle", *IMPACT_POINT)
 
 
 @dataclass
@@ -44,17 +42,16 @@ class Recorder:
         self._buffers = [np.ctypeslib.as_array(wire.outputs.values) for wire in system.states]
         collision = system.collision
         slots = [contact_point(i) for i in range(1, contact_point_count(len(names)) + 1)]
-        self._counts = collision.integers(["contact.count", "impact.count", "nearest.ship_a", "nearest.ship_b"])
+        self._counts = collision.integers(["contact.count", "nearest.ship_a", "nearest.ship_b"])
         self._reals = collision.reals([variable for slot in slots for variable in named(slot, CONTACT_COLUMNS)])
         self._numbers = collision.integers([variable for slot in slots for variable in named(slot, CONTACT_INTEGERS)])
-        self._impact = collision.reals(_IMPACT)
+        self._starts = collision.reals([variable for slot in slots for variable in named(slot, CONTACT_START)])
         self._issued = collision.reals([variable for name in names for variable in named(name, IMPULSE)])
         self._signal_group = collision.reals(SIGNALS)
         self._fender = collision.reals(named("fender", ("stored", "dissipated")))
         self._solver = collision.integers(["solver.unconverged", "solver.scaled"])
         self._signal_rows = np.zeros((steps + 1, 1 + len(SIGNALS)))
         self._log = _ContactLog()
-        self._impacts = 0
         self._least, self._nearest = float("inf"), list[int]()
 
     def record(self, k: int) -> None:
@@ -67,13 +64,9 @@ class Recorder:
         self._signal_group.read()
         self._signal_rows[k] = (row[0], *self._signal_group.values)
         self._counts.read()
-        count, impacts, *nearest = self._counts.values
+        count, *nearest = self._counts.values
         if (clearance := self._signal_group.values[0]) < self._least:
             self._least, self._nearest = clearance, nearest
-        if impacts > self._impacts:
-            self._impacts = impacts
-            time, closing_speed, angle, north, east, down = _read(self._impact)
-            self._log.starts[impacts] = CollisionStart(time, closing_speed, angle, (north, east, down))
         if count > 0:
             self._record_contacts(k, count)
 
@@ -111,8 +104,17 @@ class Recorder:
         for i in range(count):
             a, b, impact, scratch = self._numbers.values[i * ids : (i + 1) * ids]
             values = self._reals.values[i * width : (i + 1) * width]
+            if impact > 0 and impact not in self._log.starts:
+                self._log.starts[impact] = self._read_start(i)
             self._log.rows.append((time, self._bodies[a - 1], self._bodies[b - 1], impact, scratch, *values))
         self._log.issued[k] = np.array(_read(self._issued)).reshape(-1, 6)
+
+    def _read_start(self, i: int) -> CollisionStart:
+        """How the collision of contact point i, from 0, began."""
+        width = len(CONTACT_START)
+        self._starts.read((i + 1) * width)
+        time, north, east, down, closing_speed, angle = self._starts.values[i * width : (i + 1) * width]
+        return CollisionStart(time, closing_speed, angle, (north, east, down))
 
 
 def _table(rows: Array, columns: Sequence[str]) -> npt.NDArray[Any]:

@@ -9,10 +9,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 __all__ = [
-    "ANGLES", "ANSWERS", "APPLIED", "ATTITUDE", "AXES", "CONTACT_INTEGERS", "CONTACT_REALS", "CURRENT", "ENERGY",
-    "FORCE", "HULL", "IMPACT_POINT", "IMPULSE", "LINEAR", "MOMENT", "NED", "ORDERS", "POSITION", "POST", "PROPELLER",
-    "PROPELLER_ORDER", "RATE", "RUDDER", "RUDDER_ORDER", "STATE", "SURROUNDINGS", "VELOCITY", "WIND", "WIND_DIRECTION",
-    "WIND_SPEED", "contact_point", "named",
+    "ANGLES", "ANSWERS", "APPLIED", "ATTITUDE", "AXES", "CONTACT_INTEGERS", "CONTACT_REALS", "CONTACT_START", "CURRENT",
+    "ENERGY", "FORCE", "HULL", "IMPACT_POINT", "IMPULSE", "LINEAR", "MOMENT", "NED", "ORDERS", "POSITION", "POST",
+    "PROPELLER", "PROPELLER_ORDER", "RATE", "RUDDER", "RUDDER_ORDER", "STATE", "SURROUNDINGS", "VELOCITY", "WIND",
+    "WIND_DIRECTION", "WIND_SPEED", "contact_point", "named",
 ]  # fmt: skip
 
 
@@ -63,6 +63,8 @@ CONTACT_REALS = (
 the places in both ships' b, the moment of the impulses about the point in n."""
 CONTACT_INTEGERS = ("ship_a", "ship_b", "impact", "scratch")
 """Its Integers."""
+CONTACT_START = ("start", *named("first", NED), "closing_speed", "angle")
+"""Real variables of a contact point about its collision: when and where it began, and how."""
 IMPACT_POINT = named("impact", NED)
 """First contact point of the latest collision, in n [m]."""
 ENERGY = named("energy", ("dissipated", "normal", "tangential"))

@@ -66,6 +66,7 @@ def table(ships: tuple[str, ...] = SHIPS) -> Table:
         *_parameters(),
         *_couples(contact_point_count(len(ships))),
         *(_coasting(i, name) for i, name in enumerate(ships)),
+        *_starts(contact_point_count(len(ships))),
     )
 
 
@@ -208,6 +209,33 @@ def _couples(slots: int) -> Table:
         for line in vector(
             "output", named(f"{contact_point(k + 1)}.couple", NED), "N.m.s", f"outputs.contacts.{k}.couple",
             description, depends_on=(), array=array, jumps=True,
+        )
+    )  # fmt: skip
+
+
+def _starts(slots: int) -> Table:
+    """How the collision of each contact point began: of several that begin in one step, impact.* shows the last."""
+
+    def value(k: int, field: str, unit: str, description: str, maximum: float | None = None) -> Variable:
+        return real(
+            "output", f"{contact_point(k + 1)}.{field}", unit, f"outputs.contacts.{k}.{field}", None, description,
+            depends_on=(), minimum=None if field == "start" else 0.0, maximum=maximum,
+            array=Array(f"contact.{field}", (slots,), description),
+        )  # fmt: skip
+
+    description = "First contact point of the collision in n"
+    first = Array("contact.first", (slots, 3), f"{description}: {', '.join(NED)}")
+    return tuple(
+        line
+        for k in range(slots)
+        for line in (
+            value(k, "start", "s", "Start of the collision of this contact point"),
+            *vector(
+                "output", named(f"{contact_point(k + 1)}.first", NED), "m", f"outputs.contacts.{k}.first", description,
+                depends_on=(), array=first,
+            ),
+            value(k, "closing_speed", "m/s", "Closing speed along the normal at the start of the collision"),
+            value(k, "angle", "rad", "Angle between the headings at the start of the collision", maximum=pi),
         )
     )  # fmt: skip
 

@@ -2,12 +2,11 @@
 
 impulse                   sum of its contact points' impulses, on ship_b, in n
 delta_v of a ship         see velocity_gains.py
-first point               the middle of the points that touched first, as the collision FMU gave it (impact.north
-                          ...); of two sides that meet nearly parallel, the middle of the line
+start, closing speed,     as the collision FMU gave them with the contact points (contact[1].start ...): to a substep,
+angle, first point        also where several collisions begin in one step. The first point is the middle of the points
+                          that touched first; of two sides that meet nearly parallel, the middle of the line. The angle
+                          is that between the headings, 0 (overtaking) to pi (head-on)
 energy                    sum of the energies that its contact points dissipated
-angle                     between the headings, 0 (overtaking) to pi (head-on)
-start, closing speed      as the collision FMU gave them. When several collisions begin in one step, it shows the
-                          last; the others are reckoned from the states at the start of the step
 relative velocity         of ship_a against ship_b at the first point, from the states at the start of that step
 """
 
@@ -18,7 +17,6 @@ from typing import Any
 
 import numpy as np
 
-from ..collision.collisions import heading_angle
 from ..fmi.names import AXES, NED, STATE
 from ..ship.frames import Array, rotation_vector
 from .contact_rows import Rows, pick_strongest, row_state, row_vector, state_row_before, states_before
@@ -33,7 +31,7 @@ def build_collision(
     """The collision of that number as JSON-able data, from its contact rows and all ships' velocity gains."""
     first_rows = rows[rows["time"] == rows["time"][0]]
     strongest = pick_strongest(first_rows)
-    start = record.starts.get(number) or _reckon_start(number, first_rows, record, obstacles)
+    start = record.starts[number]
     impulse = sum((row_vector(row, "impulse", NED) for row in rows), start=np.zeros(3))
     pair = [str(strongest["ship_a"]), str(strongest["ship_b"])]
     first_point = _first_point(strongest, start, record)
@@ -55,23 +53,6 @@ def build_collision(
         "delta_v": {name: gains.get((number, name), np.zeros(3)).tolist() for name in pair},  # zero for an obstacle
         "energy": float(rows["energy"].sum()),
     }
-
-
-def _reckon_start(number: int, rows: Rows, record: Record, obstacles: Mapping[str, float]) -> CollisionStart:
-    """The start of a collision that the FMU does not show, because another one began in the same step.
-
-    From the states at the start of that step, and the contact points at its end. Collisions are numbered in the order
-    of their starts: it began no later than any with a higher number.
-    """
-    states = states_before(rows[0], record, obstacles)
-    closing = 0.0
-    for row in rows:
-        v_a, v_b = (state.velocity_at(row_vector(row, group, AXES)) for state, group in zip(states, "ab", strict=True))
-        closing = max(closing, float((v_a - v_b) @ row_vector(row, "normal", NED)))
-    n, e, d = (sum((row_vector(row, None, NED) for row in rows), start=np.zeros(3)) / len(rows)).tolist()
-    angle = heading_angle(*(state.R_nb for state in states))
-    later = (start.time for other, start in record.starts.items() if other > number)
-    return CollisionStart(min([float(rows["time"][0]), *later]), closing, angle, (n, e, d))
 
 
 def _first_point(row: Any, start: CollisionStart, record: Record) -> dict[str, list[float]]:

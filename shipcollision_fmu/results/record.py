@@ -37,7 +37,7 @@ class Record:
     signals    structured array, a row per communication point: time and SIGNALS
     contacts   structured array, a row per contact point and step; time is the step's end
     issued     by communication point k that ends a step with contact: cumulative impulses (ships, 6) after the step
-    starts     by number of the collision; of several that begin in one communication step only the last is there
+    starts     by number of the collision
     energy     dissipated, normal, tangential [J] at the end
     issued_at_end    cumulative impulses (ships, 6) at the end, as the collision FMU issued them
     applied    the same, as the ships applied them

@@ -1,4 +1,4 @@
-"""Collisions and scratches from a record made by hand: two pairs at once, several points, an impact that was missed."""
+"""Collisions and scratches from a record made by hand, two pairs at once, several points; and from runs."""
 
 from __future__ import annotations
 
@@ -31,8 +31,9 @@ def contact(k: int, pair: tuple[str, str], numbers: tuple[int, int], east: float
 
 
 def record(
-    rows: list[tuple[Any, ...]], issued: dict[int, list[list[float]]], impacts: dict[int, CollisionStart]
-) -> Record:
+    rows: list[tuple[Any, ...]], issued: dict[int, list[list[float]]],
+    impacts: dict[int, CollisionStart] | None = None,
+) -> Record:  # fmt: skip
     columns = [("time", float), *((f"{name}.{state}", float) for name in NAMES for state in STATE)]
     contact_type = [("time", float), ("ship_a", "U6"), ("ship_b", "U6"), ("impact", int), ("scratch", int)]
     states = np.zeros(6, dtype=columns)
@@ -42,7 +43,7 @@ def record(
         signals=np.zeros(6, dtype=[("time", float), *((name, float) for name in SIGNALS)]),
         contacts=np.array(rows, dtype=[*contact_type, *((column, float) for column in CONTACT_COLUMNS)]),
         issued={k: np.array(value) for k, value in issued.items()},
-        starts=impacts,
+        starts=impacts or {row[3]: CollisionStart(0.2, 1.0, 0.0, (0.0, 9.0, 0.0)) for row in rows},
         energy=(0.0, 0.0, 0.0), issued_at_end=np.zeros((3, 6)), applied=np.zeros((3, 6)), clearance=0.0,
     )  # fmt: skip
 
@@ -56,7 +57,7 @@ def sway(impulse: float) -> list[float]:
 
 
 def test_no_contact_no_events() -> None:
-    assert found(record([], {}, {})) == {"collisions": [], "scratches": []}
+    assert found(record([], {})) == {"collisions": [], "scratches": []}
 
 
 def test_a_collision_sums_over_its_points_and_steps() -> None:
@@ -83,21 +84,13 @@ def test_a_ship_hit_from_both_sides_at_once_takes_its_share_from_each() -> None:
     """The impulses on the middle ship cancel in the ledger, and must not in its two collisions."""
     rows = [contact(1, ("left", "middle"), (1, 1), 5.0, 4e6), contact(1, ("middle", "right"), (2, 2), 9.0, 4e6)]
     issued = {1: [sway(-4e6), sway(0.0), sway(4e6)]}
-    made = record(rows, issued, {2: CollisionStart(0.2, 1.0, 0.0, (0.0, 9.0, 0.0))})
-    made.states["left.velocity.sway"][0], made.states["middle.rate.yaw"][0] = 1.5, 0.02
-    made.states["middle.attitude.yaw"][0] = 0.0
+    made = record(rows, issued)
     first, second = found(made)["collisions"]
     M = SHIP.M[np.ix_([0, 1, 5], [0, 1, 5])]
     on_b = np.linalg.solve(M, [0.0, 4e6, -20.0 * 4e6])[1]
     on_a = np.linalg.solve(M, [0.0, -4e6, -10.0 * 4e6])[1]
     assert first["delta_v"]["middle"][1] == pytest.approx(on_b, rel=1e-12)
     assert second["delta_v"]["middle"][1] == pytest.approx(on_a, rel=1e-12)
-    # The FMU showed the start of the second one only. Left's side moves at 1.5 m/s, middle's stern, 20 m abaft, comes
-    # towards it at 20 x 0.02 m/s.
-    assert first["start"] == 0.2  # numbered in the order of their starts, it began no later
-    assert first["closing_speed"] == pytest.approx(1.5 + 0.4)
-    assert first["angle"] == 0.0
-    assert second["start"] == 0.2
 
 
 def test_the_relative_velocity_is_that_of_the_first_point_on_either_ship() -> None:
@@ -117,7 +110,7 @@ def test_a_scratch_has_one_point_per_step_that_of_the_largest_impulse() -> None:
         contact(4, ("left", "middle"), (1, 2), 8.0, 1e6),
     ]
     nothing = [sway(0), sway(0), sway(0)]
-    first, second = found(record(rows, {1: nothing, 2: nothing, 4: nothing}, {}))["scratches"]
+    first, second = found(record(rows, {1: nothing, 2: nothing, 4: nothing}))["scratches"]
     assert (first["id"], first["collision"], first["time"]) == (1, 1, [0.5, 1.0])
     assert first["b_a"] == [[10.0, 6.0, 0.0], [10.0, 7.0, 0.0]]
     assert first["b_b"] == [[-20.0, -6.0, 0.0], [-20.0, -7.0, 0.0]]
@@ -125,18 +118,13 @@ def test_a_scratch_has_one_point_per_step_that_of_the_largest_impulse() -> None:
     assert (second["id"], second["start"], second["end"]) == (2, 2.0, 2.0)
 
 
-def test_a_start_beside_another_against_an_obstacle_that_stands_across() -> None:
-    """Its velocity is none, its heading that of its table: a right angle."""
-    rows = [contact(1, ("left", "quay"), (1, 1), 5.0, 4e6), contact(1, ("middle", "right"), (2, 2), 9.0, 4e6)]
-    made = record(rows, {1: [sway(0.0)] * 3}, {2: CollisionStart(0.2, 1.0, 0.0, (0.0, 9.0, 0.0))})
+def test_an_obstacle_that_stands_across_is_at_rest() -> None:
+    made = record([contact(1, ("left", "quay"), (1, 1), 5.0, 4e6)], {1: [sway(0.0)] * 3})
     made.states["left.velocity.sway"][0] = 2.0
-    first, _ = build_events(made, dict.fromkeys(NAMES, SHIP), dict.fromkeys(NAMES, 3), None, {"quay": pi / 2})[
+    (collision,) = build_events(made, dict.fromkeys(NAMES, SHIP), dict.fromkeys(NAMES, 3), None, {"quay": pi / 2})[
         "collisions"
     ]
-    assert first["closing_speed"] == pytest.approx(2.0)
-    assert first["relative_velocity"] == pytest.approx([0.0, 2.0, 0.0])
-    assert first["angle"] == pytest.approx(pi / 2)
-    assert first["start"] == 0.2  # of two that begin in one step, the first begins no later than the second
+    assert collision["relative_velocity"] == pytest.approx([0.0, 2.0, 0.0])
 
 
 FLEET = 4
@@ -178,18 +166,53 @@ def test_pairs_that_meet_in_one_step_lose_nothing(tmp_path: Path) -> None:
     assert sum(c["energy"] for c in collisions) == pytest.approx(run.summary["energy"]["dissipated"], rel=1e-9)
 
 
-def test_a_cause_starts_before_its_effect(tmp_path: Path) -> None:
-    """Three KCS in a row: the first strikes the second, which reaches the third 0.01 m on in the same step."""
+def test_collisions_that_begin_in_one_step_keep_their_own_starts(tmp_path: Path) -> None:
+    """Three pairs meet in one step of 0.5 s: at 0.82, 0.53 and 0.96 s, each at its own speed, place and angle. A pair
+    that meets at an angle of 90 degrees touches with the middle of a bow of 30 m."""
+    (tmp_path / "box.toml").write_text(BOX)
+    pairs = [(8.2, 10.0, 180.0), (2.65, 5.0, 0.0), (3.84, 4.0, 90.0)]  # distance of the hulls [m], speed [m/s], angle
+    text = HEAD_ON
+    for k, (gap, speed, angle) in enumerate(pairs):
+        half = 15.0 if angle == 90.0 else 100.0
+        for name, north, heading, V in (("a", 0.0, 0.0, speed), ("b", 100.0 + gap + half, angle, 0.0)):
+            text += (
+                f'[ships.{name}{k}]\nship = "box.toml"\nposition = [{north}, {1000.0 * k}]\nheading_deg = {heading}\n'
+                f"speed = {V}\nhydrodynamics = false\ndegrees_of_freedom = 3\n"
+            )
+    (tmp_path / "fleet.toml").write_text(text)
+    found = {
+        c["ship_a"]: c for c in simulate(load_scenario(tmp_path / "fleet.toml"), in_process=True).events["collisions"]
+    }
+    for k, (gap, speed, angle) in enumerate(pairs):
+        collision = found[f"a{k}"]
+        assert collision["start"] == pytest.approx(gap / speed, abs=0.011), k
+        assert collision["closing_speed"] == pytest.approx(speed, rel=1e-9), k
+        assert collision["angle"] == pytest.approx(np.radians(angle)), k
+        north, east = collision["first_point"]["n"][:2]
+        assert north == pytest.approx(100.0 + gap, abs=0.011 * speed), k
+        assert east == pytest.approx(1000.0 * k, abs=1e-6), k
+    assert [c["id"] for c in sorted(found.values(), key=lambda c: c["start"])] == [1, 2, 3]
+
+
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_a_cause_starts_before_its_effect(tmp_path: Path, mirrored: bool) -> None:
+    """Three KCS in a row: the first, 30 m off at 5 m/s, strikes the second, which reaches the third 0.01 m on in the
+    same step. Their images, in which the third strikes, start alike."""
     text = HEAD_ON.replace("duration = 2.0", "duration = 7.0").replace("step = 0.5", "step = 0.05")
-    for name, north, speed in (("a", 0.0, 5.0), ("b", 260.0, 0.0), ("c", 490.01, 0.0)):
+    rows = [("a", 0.0, 5.0), ("b", 260.0, 0.0), ("c", 490.01, 0.0)]
+    if mirrored:
+        rows = [("a", -490.01, 0.0), ("b", -260.0, 0.0), ("c", 0.0, 5.0)]
+    for name, north, speed in rows:
         text += (
-            f'[ships.{name}]\nship = "kcs"\nposition = [{north}, 0.0]\nheading_deg = 0.0\nspeed = {speed}\n'
-            "hydrodynamics = false\ndegrees_of_freedom = 3\n"
+            f'[ships.{name}]\nship = "kcs"\nposition = [{north}, 0.0]\nheading_deg = {180.0 if mirrored else 0.0}\n'
+            f"speed = {speed}\nhydrodynamics = false\ndegrees_of_freedom = 3\n"
         )
     (tmp_path / "row.toml").write_text(text)
     cause, effect = simulate(load_scenario(tmp_path / "row.toml"), in_process=True).events["collisions"][:2]
-    assert [(c["ship_a"], c["ship_b"]) for c in (cause, effect)] == [("a", "b"), ("b", "c")]
+    pairs = [("b", "c"), ("a", "b")] if mirrored else [("a", "b"), ("b", "c")]
+    assert [(c["ship_a"], c["ship_b"]) for c in (cause, effect)] == pairs
     assert 6.0 <= cause["start"] <= effect["start"] <= 6.0 + 3 * 0.01
+    assert 0.0 < effect["closing_speed"] < cause["closing_speed"] <= 5.0
 
 
 BOX = ship_toml(
