@@ -21,7 +21,7 @@ from ..ship.frames import Array
 from .dynamics.body_state import BodyState
 from .dynamics.contact import Contact, mean_velocity
 from .geometry.broad_phase import Pair
-from .interface import Impact
+from .interface import NO_IMPACT, Impact
 
 __all__ = ["SCRATCH_PAUSE", "Collisions", "Numbers", "heading_angle"]
 
@@ -38,7 +38,7 @@ class _Pair:
     collision: int = 0  # number of the open collision, 0: none
     scratch: int = 0
     last_contact: float = 0.0
-    impact: Impact = field(default_factory=Impact)  # with which the collision began
+    impact: Impact = field(default_factory=lambda: NO_IMPACT)  # with which the collision began
 
 
 class Collisions:

@@ -24,16 +24,13 @@ import numpy as np
 from ..ship.frames import Array
 from .collisions import Numbers
 from .dynamics.contact import Contact, Impulse
-from .interface import ContactOutput, Impact
+from .interface import NO_IMPACT, ContactOutput, Impact
 
 __all__ = ["SAME_PLACE", "ContactPoint", "fill_contacts", "fit_contact_points", "merge_contact_point", "merge_impulses"]
 
 SAME_PLACE = 2.0
 """Contacts of a pair closer than this [m] on ship a, from different substeps, are one point that moves. With less, one
 sliding contact would fill the outputs; with more, a contact that has gone would be shown with one that is elsewhere."""
-
-NO_IMPACT = Impact()
-"""Of points where a fender acts: no collision began."""
 
 
 @dataclass(frozen=True)

@@ -11,8 +11,8 @@ from dataclasses import dataclass, field
 from ..ship.coasting_law import COASTING
 
 __all__ = [
-    "CollisionInputs", "CollisionOutputs", "CollisionParameters", "ContactOutput", "EnergyOutput", "FenderOutput",
-    "FenderParameters", "Impact", "ShipParameters", "ShipPost", "ShipState", "SolverOutput",
+    "NO_IMPACT", "CollisionInputs", "CollisionOutputs", "CollisionParameters", "ContactOutput", "EnergyOutput",
+    "FenderOutput", "FenderParameters", "Impact", "ShipParameters", "ShipPost", "ShipState", "SolverOutput",
     "contact_point_count",
 ]  # fmt: skip
 
@@ -142,6 +142,10 @@ class Impact:
     angle: float = 0.0
     ship_a: int = 0
     ship_b: int = 0
+
+
+NO_IMPACT = Impact()
+"""Before a collision begins, and where a fender acts."""
 
 
 @dataclass
