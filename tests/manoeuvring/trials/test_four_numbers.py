@@ -12,7 +12,14 @@ import pytest
 
 from tests.oracles.published_turning import KVLCC2, PublishedShip
 
-from .four_numbers import COMPARED, TYPES, sail_from_four_numbers, sail_type, zigzag_from_four_numbers
+from .four_numbers import (
+    COMPARED,
+    TYPES,
+    keep_speed_without_limit,
+    sail_from_four_numbers,
+    sail_type,
+    zigzag_from_four_numbers,
+)
 
 SLOW = {ship.name for ship in COMPARED} - {"KVLCC2", "Esso Osaka"}
 """The first two are sailed in a default run: the others take as long, or their published set must be sailed first."""
@@ -47,6 +54,14 @@ def test_turning_circles_of_published_ships(ship: PublishedShip) -> None:
             if name in published:
                 held = ours[name] == pytest.approx(published[name], rel=relative, abs=absolute)
                 assert held != ((ship.name, name) in MISSED), (source.name, name, published[name], ours[name])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["KVLCC2", "S-175", "Mariner"])
+def test_the_limit_of_torque_costs_speed_in_a_turn(name: str) -> None:
+    """The published tests were run at constant revolutions."""
+    (ship,) = (ship for ship in COMPARED if ship.name == name)
+    assert 0.02 < keep_speed_without_limit(ship) - sail_from_four_numbers(ship)["speed kept"] < 0.10
 
 
 def test_eight_ships_at_least_are_compared() -> None:
