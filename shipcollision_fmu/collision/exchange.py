@@ -138,10 +138,10 @@ class ShipExchange:
             out.velocity[:], out.rate[:] = nu[:3], nu[3:]
 
     def _twist_at_the_end(self, i: int, state: BodyState, H: float) -> list[float]:
-        """Twist (6,) at the end of the step, in b by then. After an impulse the law is asked again: a ship that adopts
-        the state then has the energy that the impulse left it."""
+        """Twist (6,) at the end of the step, in b by then. For a ship that adopts it after an impulse the law is asked
+        again: it then has the energy that the impulse left it."""
         law = self._bodies[i].coasting
-        if law is None or state.end_gain is None or not state.issued.any():
+        if law is None or self._feedback != "state" or state.end_gain is None or not state.issued.any():
             return [*state.twist_at_predicted_pose().tolist()]
         received, nu = self._inputs[i], state.nu.tolist()
         _, _, velocity, rate = law.coast(received.position, received.attitude, nu[:3], nu[3:], H)
