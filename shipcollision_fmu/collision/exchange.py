@@ -127,14 +127,17 @@ class ShipExchange:
                     )
                 out.force[:] = _NO_FORCE
                 continue
-            ledger = self.ledgers[i]
-            ledger.close(self._readings[i], state.issued, state.nu_received, state.x_applied, state.R_applied)
+            ledger, reading = self.ledgers[i], self._readings[i]
+            ledger.close(reading, state.issued, state.nu_received, state.x_applied, state.R_applied)
             out.impulse[:] = ledger.issued.tolist()
             out.force[:] = (state.issued / H).tolist() if state.issued.any() else _NO_FORCE
             self._last_received[i] = _as_received(t, H, received) if i in colliding else None
             nu = self._twist_at_the_end(i, state, H)
             out.position[:] = state.x.tolist()
-            out.attitude[:] = unwrap_attitude(attitude_from_rotation(state.R), received.attitude[2]).tolist()
+            out.attitude[:] = (
+                received.attitude if state.R is reading.R  # it did not turn
+                else unwrap_attitude(attitude_from_rotation(state.R), received.attitude[2]).tolist()
+            )  # fmt: skip
             out.velocity[:], out.rate[:] = nu[:3], nu[3:]
 
     def _twist_at_the_end(self, i: int, state: BodyState, H: float) -> list[float]:
