@@ -31,10 +31,12 @@ class Watch:
 
     dissipated: list[float] = field(default_factory=list)
     strikes: list[dict[str, Any]] = field(default_factory=list)
+    diagnosis: list[str] = field(default_factory=list)  # texts of findings about the wiring
 
     def step(self, model: ShipCollision, original: Any, t: float, h: float) -> None:
         original(model, t, h)
         self.dissipated.append(model.outputs.energy.dissipated)
+        self.diagnosis += [model.outputs.diagnosis.text] if model.outputs.diagnosis.count else []
 
     def strike(self, model: ShipManoeuvring, original: Any, *arguments: Any) -> Any:
         nu, applied = np.array(model.outputs.velocity + model.outputs.rate), np.array(model.outputs.impulse_applied)
@@ -78,6 +80,23 @@ def each() -> Any:
 
 
 Runs = dict[tuple[str, str], Watched]
+
+
+@each()
+def test_nothing_is_found_wrong_with_the_wiring(runs: Runs, name: str, algorithm: str) -> None:
+    assert runs[name, algorithm].watch.diagnosis == []
+
+
+@pytest.mark.slow
+@each()
+def test_nothing_is_found_wrong_with_the_wiring_in_coarse_steps(name: str, algorithm: str) -> None:
+    """Steps of 0.5 s, in which ships move by metres."""
+    watch, step = Watch(), ShipCollision.step
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(ShipCollision, "step", lambda m, t, h: watch.step(m, step, t, h))
+        simulate(load_scenario(name), algorithm=algorithm, step=0.5, in_process=True)
+    assert watch.dissipated
+    assert watch.diagnosis == []
 
 
 @each()

@@ -7,6 +7,7 @@ variables    the variables of both FMUs
 estimates    what fills a ship file of the fewest numbers
 commands     the command line
 columns      the columns of a run's tables
+findings     what the collision FMU finds wrong with the wiring of a ship
 api          the names that the package exports
 aligned      docstrings for the API reference: aligned columns stay columns
 rooms        the rooms, their floors and their maps

@@ -11,9 +11,9 @@ from dataclasses import dataclass, field
 from ..ship.coasting_law import COASTING
 
 __all__ = [
-    "NO_IMPACT", "CollisionInputs", "CollisionOutputs", "CollisionParameters", "ContactOutput", "EnergyOutput",
-    "FenderOutput", "FenderParameters", "Impact", "ShipParameters", "ShipPost", "ShipState", "SolverOutput",
-    "contact_point_count",
+    "NO_IMPACT", "CollisionInputs", "CollisionOutputs", "CollisionParameters", "ContactOutput", "DiagnosisOutput",
+    "EnergyOutput", "FenderOutput", "FenderParameters", "Impact", "ShipParameters", "ShipPost", "ShipState",
+    "SolverOutput", "contact_point_count",
 ]  # fmt: skip
 
 LEAST_POINTS, POINTS_PER_SHIP, MOST_POINTS = 8, 4, 64
@@ -179,6 +179,17 @@ class SolverOutput:
 
 
 @dataclass
+class DiagnosisOutput:
+    """What was found wrong with the wiring (findings.py). code, text: of the first finding, 0 and empty: none; ship:
+    of which it is, from 1; count: findings so far."""
+
+    code: int = 0
+    ship: int = 0
+    count: int = 0
+    text: str = ""
+
+
+@dataclass
 class CollisionOutputs:
     """Outputs of a step. collision_count: collisions so far; scratch_id: the scratch being drawn, 0: none; clearance:
     least distance [m] between hulls, capped; nearest_ship_a, nearest_ship_b: its pair, from 1."""
@@ -196,6 +207,7 @@ class CollisionOutputs:
     nearest_ship_a: int = 0
     nearest_ship_b: int = 0
     solver: SolverOutput = field(default_factory=SolverOutput)
+    diagnosis: DiagnosisOutput = field(default_factory=DiagnosisOutput)
 
     def __post_init__(self) -> None:
         self.contacts = self.contacts or [ContactOutput() for _ in range(contact_point_count(len(self.ships)))]

@@ -10,6 +10,7 @@ A communication step [t, t + H]:
         respond   to the contacts there, by one of the rival responses (responses.py)
         book      impulses into twists and ledgers, energy lost, contact points
     publish       poses, twists, impulses, mean forces, contacts, collisions
+    diagnose      what was received: is a ship wired wrongly? (diagnosis.py)
 
 Bodies are the ships in the order of the build, then the obstacles (obstacles.py). An obstacle is a body with zero
 inverse mass and a fixed pose: wherever a ship has an index, an obstacle has one, beyond the ships.
@@ -23,7 +24,7 @@ A step that fails leaves the state as it was. The model is independent of FMI.
 
 from __future__ import annotations
 
-from collections.abc import Container, Sequence
+from collections.abc import Collection, Container, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -35,6 +36,7 @@ from .conservative_advancement import ConservativeAdvancement
 from .contact_points import ContactPoint, fill_contacts, fit_contact_points, merge_impulses
 from .contact_problem import ContactCaches, ContactProblem, ContactSolution
 from .delayed_impulses import describe_delayed_impulses
+from .diagnosis import Diagnosis
 from .dynamics.body_state import BodyState
 from .dynamics.contact import book_impulses
 from .dynamics.passivity import enforce_passivity
@@ -52,8 +54,10 @@ from .totals import Totals
 
 __all__ = ["ShipCollision"]
 
-_STATE = ("exchange", "fenders", "caches", "collisions", "totals")
+_STATE = ("exchange", "fenders", "caches", "collisions", "totals", "diagnosis")
 """Parts of a saved state."""
+
+_SHIP_STATE = ("position", "attitude", "velocity", "rate")
 
 
 class ShipCollision:
@@ -69,8 +73,16 @@ class ShipCollision:
         self.inputs = CollisionInputs([ShipState() for _ in ships])
         self.outputs = CollisionOutputs([ShipPost() for _ in ships])
         self.warning = ""  # what was not as it should be in the last step
+        self._absent: frozenset[int] = frozenset()
         self._detector: Detector | None = None
         self._bodies: list[Body] = []
+
+    def note_inputs_set(self, paths: Collection[str]) -> None:
+        """Take in which inputs were ever set, by their places in the model ("inputs.ships.0.position"). A ship of whose
+        state none was set is absent. Without a call all ships are there."""
+        self._absent = frozenset(
+            i for i in range(len(self.names)) if not any(f"inputs.ships.{i}.{part}" in paths for part in _SHIP_STATE)
+        )
 
     # -- set-up -------------------------------------------------------------------------------------
 
@@ -88,11 +100,14 @@ class ShipCollision:
         self._proximity = Proximity(bodies, n, self._detector, parameters.clearance_range)
         self._collisions = Collisions(parameters.minimum_separation_time, parameters.feedback == "none")
         self._fenders, self._caches, self._totals = FenderLedger(), ContactCaches(), Totals()
+        self._diagnosis = Diagnosis(
+            bodies, [parameters.feedback] * n, self._exchange.ledgers, self.inputs.ships, self.outputs.diagnosis
+        )
         self._bullet_bodies = [body.bullet for body in bodies]
         self._walls = [body.wall for body in bodies if body.wall is not None]
         active = self._exchange.receive_active(0.0, 0.0)
         states = self._exchange.receive_others(0.0, 0.0, active, range(n)) + self._walls
-        candidates = self._proximity.find_candidates(states, self.inputs.ships, 0.0)
+        candidates = self._proximity.find_candidates(states, self.inputs.ships, 0.0, self._absent)
         self._publish(0.0, 0.0, states, [], candidates)
 
     @property
@@ -124,11 +139,11 @@ class ShipCollision:
         states, candidates = self._receive(t, H)
         near = self._proximity.find_near(candidates, states, H)
         if near:
-            saved = self.get_state()
+            saved = self._get_mechanics()
             try:
                 points = self._take_substeps(t, H, near, states, detector)
             except Exception:
-                self.set_state(saved)
+                self._set_mechanics(saved)
                 raise
             self.warning = "; ".join(filter(None, (self.warning, self._totals.describe_unconverged(t, H))))
         else:
@@ -139,11 +154,14 @@ class ShipCollision:
         if self._exchange.delayed_speeds:
             self._warn_of_delay(t, H, detector)
         self._publish(t, H, states, points, candidates)
+        if t >= self._diagnosis.due or points:
+            found = self._diagnosis.examine(t, H, self._absent, near, bool(points))
+            self.warning = "; ".join(filter(None, (self.warning, found)))
 
     def _receive(self, t: float, H: float) -> tuple[list[BodyState], list[Pair]]:
         """States of all bodies, and the pairs that may come near each other."""
         active = self._exchange.receive_active(t, H)
-        candidates = self._proximity.find_candidates(active, self.inputs.ships, H)
+        candidates = self._proximity.find_candidates(active, self.inputs.ships, H, self._absent)
         met = {i for pair in candidates for i in pair}
         return self._exchange.receive_others(t, H, active, met) + self._walls, candidates
 
@@ -254,6 +272,10 @@ class ShipCollision:
         """What the outputs do not show, as plain data. Empty before initialise()."""
         if self._detector is None:
             return {}
+        return self._get_mechanics() | {"diagnosis": self._diagnosis.get_state()}
+
+    def _get_mechanics(self) -> dict[str, Any]:
+        """The part of the state that a step changes before it can fail."""
         return {
             "exchange": self._exchange.get_state(),
             "fenders": self._fenders.get_state(),
@@ -275,6 +297,10 @@ class ShipCollision:
         missing = [part for part in _STATE if part not in state]
         if missing:
             raise StepError(f"the state has no {missing[0]!r}: give what get_state() returned")
+        self._set_mechanics(state)
+        self._diagnosis.set_state(state["diagnosis"])
+
+    def _set_mechanics(self, state: dict[str, Any]) -> None:
         self._exchange.set_state(state["exchange"])
         self._fenders.set_state(state["fenders"])
         self._caches.set_state(state["caches"])

@@ -39,13 +39,17 @@ class Proximity:
         self._obstacles = [_widen(body.rectangle, half + body.fender_thickness) for body in bodies[ships:]]
 
     def find_candidates(
-        self, states: Sequence[BodyState | None], received: Sequence[ShipState], H: float
+        self,
+        states: Sequence[BodyState | None],
+        received: Sequence[ShipState],
+        H: float,
+        absent: frozenset[int] = frozenset(),
     ) -> list[Pair]:
         """Pairs that could touch, or come within clearance_range, in H [s]. All others take no part in the step.
 
         A ship whose state is None is taken as received. Ships that are all zero (position, attitude, twist) have not
         been received yet, and do not collide with each other: FMPy's SSP master sends zeros in its first step, whatever
-        the start values are.
+        the start values are. Ships of whose state nothing was ever set are absent: they have no pairs at all.
         """
         half = 0.5 * self._range
         rectangles: list[Rectangle] = []
@@ -59,6 +63,8 @@ class Proximity:
             d += half + body.reach
             rectangles.append((n - d, n + d, e - d, e + d))
         pairs = near_pairs(rectangles + self._obstacles, self._ships)
+        if absent:
+            pairs = [pair for pair in pairs if absent.isdisjoint(pair)]
         not_received = {i for i, ship in enumerate(received) if _is_zero(ship)}
         return pairs if len(not_received) < 2 else [pair for pair in pairs if not not_received.issuperset(pair)]
 

@@ -15,6 +15,7 @@ from math import pi
 
 from ..collision.checks import MAXIMUM_FRICTION
 from ..collision.dynamics.impulse_ledger import FEEDBACKS
+from ..collision.findings import FINDINGS
 from ..collision.interface import contact_point_count
 from ..collision.model import ShipCollision
 from ..collision.responses import RESPONSES
@@ -67,6 +68,7 @@ def table(ships: tuple[str, ...] = SHIPS) -> Table:
         *_couples(contact_point_count(len(ships))),
         *(_coasting(i, name) for i, name in enumerate(ships)),
         *_starts(contact_point_count(len(ships))),
+        *_diagnosis(len(ships)),
     )
 
 
@@ -385,6 +387,29 @@ def _coasting(i: int, s: str) -> Variable:
         "parameter", f"{s}.coasting", COASTING, f"parameters.ships.{i}.coasting",
         f"Motion that is expected of {s} between impulses, as in the ship's own model: Kirchhoff's equations with "
         "restoring and damping; Kirchhoff's equations alone; or velocity and angular velocity constant in n",
+    )  # fmt: skip
+
+
+def _diagnosis(ships: int) -> Table:
+    """What was found wrong with the wiring."""
+    return (
+        integer(
+            "output", "diagnosis.code", "outputs.diagnosis.code",
+            "0: nothing suspicious; else the number of the first finding about the wiring of a ship",
+            minimum=0, maximum=len(FINDINGS), depends_on=(),
+        ),
+        integer(
+            "output", "diagnosis.ship", "outputs.diagnosis.ship", "Ship of the first finding, from 1; 0: none",
+            minimum=0, maximum=ships, depends_on=(),
+        ),
+        integer(
+            "output", "diagnosis.count", "outputs.diagnosis.count", "Findings so far, each one a warning in the log",
+            minimum=0, depends_on=(),
+        ),
+        string(
+            "output", "diagnosis.text", "outputs.diagnosis.text", "Text of the first finding, with its remedy",
+            depends_on=(),
+        ),
     )  # fmt: skip
 
 

@@ -48,7 +48,7 @@ EVENTS = "logEvents"
 LOG_CATEGORIES = {
     EVENTS: "First contact of each collision, one line each.",
     "logStatusError": "Calls that were refused and steps that could not be made, one line each.",
-    "logStatusWarning": "Steps that were made but are less exact than they should be, one line each.",
+    "logStatusWarning": "Steps that are less exact than they should be, ships that are wired wrongly, one line each.",
 }
 """Categories of log messages, and what is in them; the wrappers map the status of a message to its category."""
 

@@ -35,7 +35,8 @@ _PLANS = 1000
 
 
 class Model(Protocol):
-    """A model in time: plain Python without FMI. The paths of the table lead to its attributes."""
+    """A model in time: plain Python without FMI. The paths of the table lead to its attributes. A model may have a
+    method `note_inputs_set`, which is given the paths of all Reals that were ever set."""
 
     def initialise(self) -> None:
         """Read parameters and start values, compute the outputs of the start. May be called again; raises
@@ -77,6 +78,8 @@ class VariableAccess:
         self._running = False  # initialised: parameters are fixed
         self._broken = ""  # why the model must not be stepped any more
         self._initialised_from: list[Any] | None = None  # the parameters that the model last read
+        self._paths_set: set[str] = set()  # places of inputs that were ever set
+        self._note_set(())
         self._tag = f"{name} {sha256(repr(table).encode()).hexdigest()[:16]}"
 
     def preset(self, start: Mapping[str, Any]) -> None:
@@ -92,6 +95,7 @@ class VariableAccess:
                 raise self._not_settable(variable.kind, reference)
             container, key = self._cells[reference]
             container[key] = start_value
+            self._note_set([reference])
         self._fresh = self._now(self._cells)
         self._dirty = True
 
@@ -138,6 +142,7 @@ class VariableAccess:
         plan = self._writing.get(request)
         if plan is None:
             plan = self._plan(self._writing, self._can_set["Real"], request, self._not_settable)
+            self._note_set(request)
         if len(plan) != len(values):
             raise InputError(f"{self.name}: {len(values)} values for {len(plan)} variables")
         for (container, key), value in zip(plan, values, strict=True):
@@ -216,6 +221,7 @@ class VariableAccess:
             "dirty": self._dirty,
             "running": self._running,
             "broken": self._broken,
+            "set": sorted(self._paths_set),
         }
 
     def restore(self, state: Mapping[str, Any]) -> None:
@@ -283,6 +289,8 @@ class VariableAccess:
         self._write_all(state["values"])
         self._dirty = state["dirty"]
         self._broken = ""
+        self._paths_set = set(state["set"])
+        self._note_set(())
         self._enter(running=state["running"])
 
     # Inside. ------------------------------------------------------------------------------
@@ -320,6 +328,13 @@ class VariableAccess:
             container[key] = value
         if not self._running:
             self._dirty = True
+
+    def _note_set(self, references: Sequence[int]) -> None:
+        """Let a model that asks for it know which Reals were ever set. It is called for new sets of references only."""
+        note = getattr(self.model, "note_inputs_set", None)
+        if note is not None:
+            self._paths_set.update(self.table[reference].path for reference in references)
+            note(self._paths_set)
 
     def _write_all(self, values: Sequence[Any]) -> None:
         for (container, key), value in zip(self._cells, values, strict=True):

@@ -150,9 +150,17 @@ def boolean(
     return Variable(name, "Boolean", causality, path, index, description, depends_on=depends_on)
 
 
-def string(causality: Causality, name: str, path: str, description: str, *, index: int | None = None) -> Variable:
+def string(
+    causality: Causality,
+    name: str,
+    path: str,
+    description: str,
+    *,
+    index: int | None = None,
+    depends_on: tuple[str, ...] | None = None,
+) -> Variable:
     """A String: the str at `path`, or entry `index` of the list there."""
-    return Variable(name, "String", causality, path, index, description)
+    return Variable(name, "String", causality, path, index, description, depends_on=depends_on)
 
 
 def enumeration(
