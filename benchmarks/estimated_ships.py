@@ -10,6 +10,8 @@ power and stopping distances are compared by estimated_stopping.py.
 
 from __future__ import annotations
 
+from statistics import mean, stdev
+
 from rich.console import Console
 from rich.table import Table
 
@@ -18,8 +20,12 @@ from tests.manoeuvring.trials.four_numbers import COMPARED, FIGURES, sail_from_f
 UNITS = {"advance": "L", "tactical diameter": "L", "steady radius": "L", "speed kept": "1"}
 
 
+WARSHIPS = ("Fletcher class", "Yamato")
+
+
 def main() -> None:
-    """Print figure by figure: published, ours, deviation."""
+    """Print figure by figure: published, ours, deviation; and the scatter over the merchant ships."""
+    deviations: dict[str, list[float]] = {name: [] for name in FIGURES}
     table = Table("ship", "figure", "published", "ours", "deviation", "grade", "source")
     for ship in COMPARED:
         ours = {**sail_from_four_numbers(ship), **zigzag_from_four_numbers(ship)}
@@ -29,12 +35,19 @@ def main() -> None:
                 if name not in published:
                     continue
                 there, here = published[name], ours[name]
+                if source is ship.sources[0] and ship.name not in WARSHIPS:
+                    deviations[name].append(100.0 * (here / there - 1.0))
                 table.add_row(
                     ship.name, f"{name} [{UNITS.get(name, 'deg')}]".replace("[", "\\["), f"{there:.2f}", f"{here:.2f}",
                     f"{100.0 * (here / there - 1.0):+.0f} %", source.grade, source.name,
                 )  # fmt: skip
         table.add_section()
-    Console(width=200).print(table)
+    console = Console(width=200)
+    console.print(table)
+    for name, values in deviations.items():
+        console.print(
+            f"{name}: mean {mean(values):+.0f} %, standard deviation {stdev(values):.0f} %, {len(values)} ships"
+        )
 
 
 if __name__ == "__main__":

@@ -114,7 +114,7 @@ def _question_kind(content: ShipFile) -> str:
     near = next((said for word in kind.split() if (said := suggest(word, words))), "")
     return (
         f"[ship] kind = {kind!r} names no known type of ship, so its estimates are those of a {CARGO_VESSEL.name}:"
-        f"{near} words for types: {', '.join(words)}"
+        f"{near or ' words for types: ' + ', '.join(words)}"
     )
 
 

@@ -44,7 +44,12 @@ def _check_mass(p: ParticularsTable) -> Iterator[str]:
     remedy = 'give the displacement and its draught, or give the reason why it is kept: allow_inconsistent = "..."'
     if p.allow_inconsistent is not None:
         return
-    if C_b > 1.0:
+    if p.C_b is not None and not low <= p.C_b <= high and abs(p.C_b / C_b - 1.0) < 1e-9:  # the mass is that of C_b
+        yield (
+            f"[particulars] C_b = {p.C_b} must be {low:.2f} to {high:.2f}: give mass / (rho L_pp B T) at the draught, "
+            'or the reason why it is kept: allow_inconsistent = "..."'
+        )
+    elif C_b > 1.0:
         yield (
             f"[particulars] mass = {p.mass:.6g} kg is more than rho L_pp B T = {box:.6g} kg, all the water that a "
             f"box of these dimensions displaces: {remedy}"

@@ -6,7 +6,7 @@ What the main dimensions can give is completed first. All problems of a file are
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
+from typing import Any, get_args
 
 from pydantic import Field, PrivateAttr, TypeAdapter, ValidationError, model_validator
 
@@ -131,13 +131,19 @@ def _follows(place: tuple[int | str, ...], data: Mapping[str, Any]) -> bool:
 
 
 def _validate_alone(data: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
-    """The tables that are valid for themselves, by name."""
+    """The tables that are valid for themselves but for unknown keys, by name."""
     for name, field in ShipFile.model_fields.items():
         try:
             if name in data:
                 table: Any = field.annotation
-                yield name, TypeAdapter(table).validate_python(data[name])
+                yield name, TypeAdapter(table).validate_python(_leave_known(data[name], table))
             elif not field.is_required():
                 yield name, field.get_default(call_default_factory=True)
         except ValidationError:
             continue
+
+
+def _leave_known(given: Any, table: Any) -> Any:
+    """The table without its unknown keys, which are a problem of their own."""
+    known = next(model for model in (table, *get_args(table)) if hasattr(model, "model_fields")).model_fields
+    return {key: value for key, value in given.items() if key in known} if isinstance(given, Mapping) else given

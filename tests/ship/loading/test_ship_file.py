@@ -146,6 +146,10 @@ def test_refused(data: dict[str, Any], message: str) -> None:
 
 AT_ONCE: list[tuple[dict[str, Any], tuple[str, ...]]] = [
     (
+        ship_tables(particulars={"C_b": 1.7, "mass": None}, hull={"depth": 4.0, "bow": 3.0}),
+        ("[hull] bow is not a known key", "C_b = 1.7 must be 0.40 to 0.90", "depth = 4.0 m must be"),
+    ),
+    (
         ship_tables(particulars={"mass": -1.0, "B": -1.0, "T": -1.0}),
         ("B = -1.0 must be", "T = -1.0 must be", "mass = -1.0 must be"),
     ),
@@ -191,6 +195,12 @@ REMEDIES: list[tuple[dict[str, Any], str, dict[str, dict[str, Any] | None]]] = [
     (ship_tables(particulars={"mass": 10.3e6}), "allow_inconsistent", {"particulars": {"allow_inconsistent": "why"}}),
     (ship_tables(particulars={"mass": 3e6}), "and its draught", {"particulars": {"T": 2.0}}),
     (ship_tables(particulars={"mass": 3e6}), "allow_inconsistent", {"particulars": {"allow_inconsistent": "why"}}),
+    (ship_tables(particulars={"mass": None, "C_b": 1.7}), "C_b = 1.7 must be", {"particulars": {"C_b": 0.9}}),
+    (
+        ship_tables(particulars={"mass": None, "C_b": 0.3}),
+        "allow_inconsistent",
+        {"particulars": {"allow_inconsistent": "why"}},
+    ),
     (ship_tables(particulars={"C_b": 0.7}), "remove C_b", {"particulars": {"C_b": None}}),
     (ship_tables(particulars={"mass": None}), "or C_b instead", {"particulars": {"C_b": 0.7}}),
     (
