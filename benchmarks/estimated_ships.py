@@ -15,7 +15,13 @@ from statistics import mean, stdev
 from rich.console import Console
 from rich.table import Table
 
-from tests.manoeuvring.trials.four_numbers import COMPARED, FIGURES, sail_from_four_numbers, zigzag_from_four_numbers
+from tests.manoeuvring.trials.four_numbers import (
+    COMPARED,
+    FIGURES,
+    keep_speed_without_limit,
+    sail_from_four_numbers,
+    zigzag_from_four_numbers,
+)
 
 UNITS = {"advance": "L", "tactical diameter": "L", "steady radius": "L", "speed kept": "1"}
 
@@ -41,6 +47,8 @@ def main() -> None:
                     ship.name, f"{name} [{UNITS.get(name, 'deg')}]".replace("[", "\\["), f"{there:.2f}", f"{here:.2f}",
                     f"{100.0 * (here / there - 1.0):+.0f} %", source.grade, source.name,
                 )  # fmt: skip
+        if "speed kept" in ship.sources[0].figures():
+            table.add_row(ship.name, "speed kept, no limit of torque", "", f"{keep_speed_without_limit(ship):.2f}")
         table.add_section()
     console = Console(width=200)
     console.print(table)

@@ -8,7 +8,7 @@ Each ship is made from L, B, T, C_b and its type with `[manoeuvring] estimate = 
 
 from __future__ import annotations
 
-from math import log, nan
+from math import log, nan, sqrt
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import NamedTuple
@@ -19,7 +19,17 @@ from rich.text import Text
 
 from shipcollision_fmu.manoeuvring.trials.ship_summary import ShipSummary, summarise_ship
 from shipcollision_fmu.scenario.toml_writer import format_toml
+from shipcollision_fmu.ship.loading.engine_estimate import estimate_engine
 from shipcollision_fmu.ship.loading.library import load_ship
+from shipcollision_fmu.ship.loading.motora_charts import Dimensions
+from shipcollision_fmu.ship.loading.propulsion_estimate import (
+    compute_resistance_coefficient,
+    compute_service_power,
+    estimate_propeller,
+    estimate_service_speed,
+    solve_self_propulsion,
+)
+from shipcollision_fmu.ship.ship_type import KNOT, ShipType, find_ship_type
 
 
 class Ship(NamedTuple):
@@ -48,6 +58,7 @@ COASTER = Ship("general cargo ship", 84.0, 13.0, 5.5, 0.75)
 SUPPLY = Ship("offshore supply vessel", 80.0, 18.0, 6.5, 0.72)
 TUG = Ship("tug", 29.0, 11.0, 4.8, 0.55)
 TRAWLER = Ship("trawler", 28.0, 8.0, 3.5, 0.55)
+TITANIC = Ship("passenger liner", 259.1, 28.2, 10.5, 0.674)
 DESTROYER = Ship("destroyer", 142.0, 19.0, 6.2, 0.505)
 
 GUIDE = "Barrass and Derrett, secondary"
@@ -93,7 +104,7 @@ STOPPING: tuple[tuple[Ship, float, float, str], ...] = tuple(
         (SMALL_FERRY, 8.0, 9.0, 0.7),
         (CARGO, 5.0, 8.0, 1.9),
     )
-)
+) + ((TITANIC, 777.0 / 259.1, 777.0 / 259.1, "sea trials of 1912 from 20 kn, secondary"),)
 """Ship, track reach from and to [L], source."""
 
 GUIDE_TO_RULES = "Cockcroft and Lameijer"
@@ -114,6 +125,7 @@ def main() -> None:
     console.print(_compare_periods(found))
     console.print(_compare("installed power [MW]", POWER, {s: f.power / 1e6 for s, f in found.items()}))
     console.print(_compare("crash stop, track reach [L]", STOPPING, {s: f.track_reach / s.L for s, f in found.items()}))
+    console.print(_compare_propellers())
     console.print(_compare("crash stop, time [s]", TIME, {s: f.time_to_stop for s, f in found.items()}))
 
 
@@ -151,6 +163,25 @@ def _compare_periods(found: dict[Ship, ShipSummary]) -> Table:
         off = figures.roll_period / figures.code_period - 1.0
         table.add_row(_name(ship), f"{figures.code_period:.1f}", f"{figures.roll_period:.1f}", f"{off:+.0%}")
     return table
+
+
+def _compare_propellers() -> Table:
+    """Installed power of the two ships that miss: at their own and a faster speed, with the disc of one and of two."""
+    table = Table("ship", "speed [kn]", "one propeller [MW]", "two [MW]", title="power and speed", title_justify="left")
+    for ship, faster in ((FERRY, 25.0), (DESTROYER, 31.0)):
+        d, of = Dimensions(ship.L, ship.B, ship.T, ship.C_b, 0.0, 1025.0), find_ship_type(ship.kind)
+        for speed in (estimate_service_speed(d, of), faster * KNOT):
+            powers = [_compute_power(d, of, speed, discs) for discs in (1.0, 2.0)]
+            table.add_row(_name(ship), f"{speed / KNOT:.1f}", *(f"{power / 1e6:.1f}" for power in powers))
+    return table
+
+
+def _compute_power(d: Dimensions, of: ShipType, speed: float, discs: float) -> float:
+    propeller = {**estimate_propeller(d, of), "service_speed": speed}
+    propeller["D_p"] *= sqrt(discs)
+    R_0 = compute_resistance_coefficient(d, speed)
+    propeller["service_rev_per_s"] = n = solve_self_propulsion(d, R_0, propeller)
+    return estimate_engine(of, d.L, compute_service_power(d, propeller), n)[0]["power"]
 
 
 def _name(ship: Ship) -> str:

@@ -127,21 +127,24 @@ class ShipExchange:
                     )
                 out.force[:] = _NO_FORCE
                 continue
-            ledger = self.ledgers[i]
-            ledger.close(self._readings[i], state.issued, state.nu_received, state.x_applied, state.R_applied)
+            ledger, reading = self.ledgers[i], self._readings[i]
+            ledger.close(reading, state.issued, state.nu_received, state.x_applied, state.R_applied)
             out.impulse[:] = ledger.issued.tolist()
             out.force[:] = (state.issued / H).tolist() if state.issued.any() else _NO_FORCE
             self._last_received[i] = _as_received(t, H, received) if i in colliding else None
             nu = self._twist_at_the_end(i, state, H)
             out.position[:] = state.x.tolist()
-            out.attitude[:] = unwrap_attitude(attitude_from_rotation(state.R), received.attitude[2]).tolist()
+            out.attitude[:] = (
+                received.attitude if state.R is reading.R  # it did not turn
+                else unwrap_attitude(attitude_from_rotation(state.R), received.attitude[2]).tolist()
+            )  # fmt: skip
             out.velocity[:], out.rate[:] = nu[:3], nu[3:]
 
     def _twist_at_the_end(self, i: int, state: BodyState, H: float) -> list[float]:
-        """Twist (6,) at the end of the step, in b by then. After an impulse the law is asked again: a ship that adopts
-        the state then has the energy that the impulse left it."""
+        """Twist (6,) at the end of the step, in b by then. For a ship that adopts it after an impulse the law is asked
+        again: it then has the energy that the impulse left it."""
         law = self._bodies[i].coasting
-        if law is None or state.end_gain is None or not state.issued.any():
+        if law is None or self._feedback != "state" or state.end_gain is None or not state.issued.any():
             return [*state.twist_at_predicted_pose().tolist()]
         received, nu = self._inputs[i], state.nu.tolist()
         _, _, velocity, rate = law.coast(received.position, received.attitude, nu[:3], nu[3:], H)

@@ -42,20 +42,25 @@ def coast(
     """
     x, y, z = position
     phi, theta, psi = attitude
+    p, q, r = rate
+    is_straight = p == 0.0 == q and r == 0.0
+    if is_straight and phi == 0.0 == theta:  # most ships in most steps
+        u, v, w = velocity
+        c, s = cos(psi), sin(psi)
+        return (x + (c * (h * u) - s * (h * v)), y + (s * (h * u) + c * (h * v)), z + h * w), attitude, velocity
     cphi, sphi, cth, sth, cpsi, spsi = cos(phi), sin(phi), cos(theta), sin(theta), cos(psi), sin(psi)
     row_n = (cpsi * cth, cpsi * sth * sphi - spsi * cphi, spsi * sphi + cpsi * cphi * sth)
     row_e = (spsi * cth, cpsi * cphi + sphi * sth * spsi, sth * spsi * cphi - cpsi * sphi)
     row_d = (-sth, cth * sphi, cth * cphi)
-    p, q, r = rate
-    if p == 0.0 and q == 0.0 and r == 0.0:  # attitude and velocity of a straight course stay to the bit
+    if is_straight:  # attitude and velocity of a straight course stay to the bit
         u, v, w = velocity
         shift = (h * u, h * v, h * w)
         return (x + _dot(row_n, shift), y + _dot(row_e, shift), z + _dot(row_d, shift)), attitude, velocity
-    s = _cross(rate, r_bg)
-    v_g = (velocity[0] + s[0], velocity[1] + s[1], velocity[2] + s[2])
+    arm = _cross(rate, r_bg)
+    v_g = (velocity[0] + arm[0], velocity[1] + arm[1], velocity[2] + arm[2])
     shift, (forward, starboard, down) = _displace(v_g, rate, r_bg, h)
     place = (x + _dot(row_n, shift), y + _dot(row_e, shift), z + _dot(row_d, shift))
-    after = (_dot(forward, v_g) - s[0], _dot(starboard, v_g) - s[1], _dot(down, v_g) - s[2])
+    after = (_dot(forward, v_g) - arm[0], _dot(starboard, v_g) - arm[1], _dot(down, v_g) - arm[2])
     if p == 0.0 and q == 0.0 and phi == 0.0 and theta == 0.0:
         return place, (phi, theta, psi + h * r), after
     r_20, r_21, r_22 = _dot(row_d, forward), _dot(row_d, starboard), _dot(row_d, down)

@@ -30,7 +30,7 @@ from .coasting import coast
 from .damping import Damping
 from .degrees_of_freedom import Six, free_inverse
 from .kirchhoff_plane import Four, KirchhoffPlane
-from .kirchhoff_space import KirchhoffSpace
+from .kirchhoff_space import KirchhoffSpace, Three
 from .restoring import Restoring
 from .seakeeping import compute_seakeeping
 from .ship import Ship
@@ -51,6 +51,7 @@ MAXIMUM_SUBSTEPS = 10_000
 """Most substeps of a step: 0.5 s of computing. A step that needs more was meant in another unit."""
 
 Seq = Sequence[float]
+Rows = tuple[Three, Three, Three]
 Motion = tuple[Seq, Seq, Seq, Seq]
 """Position of CO [m] and attitude [rad] in n, velocity [m/s] and rate [rad/s] in b."""
 
@@ -190,7 +191,7 @@ class _Space:
             (a, b, c), (d, e, f), (g, i, j) = rows
             x, y, z = x + a * dx + b * dy + c * dz, y + d * dx + e * dy + f * dz, z + g * dx + i * dy + j * dz
             turned += dt * (g * mean[3] + i * mean[4] + j * mean[5])
-            rows = tuple(tuple(row[0] * m[0] + row[1] * m[1] + row[2] * m[2] for m in columns) for row in rows)
+            rows = _turn(rows, *columns)
             if sea is not None:
                 nu = self._kick(sea, nu, z, rows[2], dt if k < n else 0.5 * dt)
         return (x, y, z), _angles(rows, psi + turned), nu[:3], nu[3:]
@@ -201,16 +202,16 @@ class _Space:
             and (self._sea is None or (position[2] == 0.0 == attitude[0] and attitude[1] == 0.0))
         )  # fmt: skip
 
-    def _kick(self, sea: _Sea, nu: Six, z: float, down: tuple[float, ...], dt: float) -> Six:
+    def _kick(self, sea: _Sea, nu: Six, z: float, down: Three, dt: float) -> Six:
         """nu after dt [s] of restoring and damping, by the midpoint rule. down: the third row of R_nb."""
         s_theta, c_theta = -down[0], max(hypot(down[1], down[2]), 1e-9)
         X, Y, Z, K, M, N = sea.restoring(z, down[1] / c_theta, down[2] / c_theta, s_theta, c_theta)
         half = 0.5 * dt
         Z_D, K_D, M_D = sea.damping(nu[2], nu[3], nu[4])
-        mid = self._space.kick(
+        mid = self._space.kick_oscillation(
             nu, (half * X, half * Y, half * (Z + Z_D), half * (K + K_D), half * (M + M_D), half * N)
         )  # fmt: skip
-        Z_D, K_D, M_D = sea.damping(mid[2], mid[3], mid[4])
+        Z_D, K_D, M_D = sea.damping(*mid)
         return self._space.kick(nu, (dt * X, dt * Y, dt * (Z + Z_D), dt * (K + K_D), dt * (M + M_D), dt * N))
 
 
@@ -255,7 +256,7 @@ def _from_level(nu_l: Six, phi: float, theta: float) -> tuple[Seq, Seq]:
     return velocity, (p - s_theta * r, c_phi * q + s_phi * under, c_phi * under - s_phi * q)
 
 
-def _rows(phi: float, theta: float, psi: float) -> tuple[tuple[float, ...], ...]:
+def _rows(phi: float, theta: float, psi: float) -> Rows:
     """Rows of R_nb."""
     cphi, sphi, cth, sth, cpsi, spsi = cos(phi), sin(phi), cos(theta), sin(theta), cos(psi), sin(psi)
     return (
@@ -265,7 +266,18 @@ def _rows(phi: float, theta: float, psi: float) -> tuple[tuple[float, ...], ...]
     )
 
 
-def _angles(rows: tuple[tuple[float, ...], ...], expected: float) -> tuple[float, float, float]:
+def _turn(rows: Rows, e_x: Three, e_y: Three, e_z: Three) -> Rows:
+    """Rows of the product of a matrix and the one of these columns."""
+    (a, b, c), (d, e, f), (g, h, i) = rows
+    (j, k, m), (n, o, p), (q, r, s) = e_x, e_y, e_z
+    return (
+        (a * j + b * k + c * m, a * n + b * o + c * p, a * q + b * r + c * s),
+        (d * j + e * k + f * m, d * n + e * o + f * p, d * q + e * r + f * s),
+        (g * j + h * k + i * m, g * n + h * o + i * p, g * q + h * r + i * s),
+    )
+
+
+def _angles(rows: Rows, expected: float) -> tuple[float, float, float]:
     """Roll, pitch and heading [rad] of R_nb; the heading within half a turn of the expected one."""
     (a, b, _), (d, e, _), (g, i, j) = rows
     pitch = asin(min(1.0, max(-1.0, -g)))

@@ -65,15 +65,16 @@ def rotation(attitude: Sequence[float] | Array) -> Array:
 
 def attitude_from_rotation(R_nb: Array) -> Array:
     """Attitude (phi, theta, psi) [rad] of R_nb, psi in (-pi, pi], theta in [-pi/2, pi/2]; (3,)."""
-    theta = asin(min(1.0, max(-1.0, -float(R_nb[2, 0]))))
-    if hypot(R_nb[2, 1], R_nb[2, 2]) < 1e-12:  # bow straight up or down: roll and yaw are one angle; call it yaw
-        return np.array([0.0, theta, atan2(-R_nb[0, 1], R_nb[1, 1])])
-    return np.array([atan2(R_nb[2, 1], R_nb[2, 2]), theta, atan2(R_nb[1, 0], R_nb[0, 0])])
+    (a, b, _), (d, e, _), (g, i, j) = R_nb.tolist()
+    theta = asin(min(1.0, max(-1.0, -g)))
+    if hypot(i, j) < 1e-12:  # bow straight up or down: roll and yaw are one angle; call it yaw
+        return np.array([0.0, theta, atan2(-b, e)])
+    return np.array([atan2(i, j), theta, atan2(d, a)])
 
 
 def unwrap_attitude(attitude: Array, psi_near: float) -> Array:
     """The same attitude with psi within half a turn of `psi_near` [rad]: the heading that has no jump."""
-    phi, theta, psi = attitude
+    phi, theta, psi = attitude.tolist()
     return np.array([phi, theta, psi + 2 * pi * round((psi_near - psi) / (2 * pi))])
 
 

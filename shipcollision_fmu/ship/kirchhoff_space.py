@@ -46,20 +46,32 @@ class KirchhoffSpace:
         a, b, c, d, e, f = times(self._inverse, impulse)
         return nu[0] + a, nu[1] + b, nu[2] + c, nu[3] + d, nu[4] + e, nu[5] + f
 
+    def kick_oscillation(self, nu: Six, impulse: Sequence[float]) -> tuple[float, float, float]:
+        """w, p and q after an impulse (6,): what heave, roll and pitch are then."""
+        a, b, c, d, e, f = impulse
+        _, _, r2, r3, r4, _ = self._inverse
+        return (
+            nu[2] + (r2[0] * a + r2[1] * b + r2[2] * c + r2[3] * d + r2[4] * e + r2[5] * f),
+            nu[3] + (r3[0] * a + r3[1] * b + r3[2] * c + r3[3] * d + r3[4] * e + r3[5] * f),
+            nu[4] + (r4[0] * a + r4[1] * b + r4[2] * c + r4[3] * d + r4[4] * e + r4[5] * f),
+        )
+
     def step(self, nu: Six, guess: Six, h: float) -> tuple[Three, Columns, Six, Six]:
         """(d [m] in b of the start, columns of E, mean twist, twist after) of h [s].
 
         guess: the mean twist to begin with.
         """
         P_x, P_y, P_z, L_x, L_y, L_z = times(self._M, nu)
-        radius, inverse, mean, after, last = self._radius, self._inverse, guess, nu, 1e300
-        limit = CONVERGED * _size(nu, radius)
+        radius, inverse, last = self._radius, self._inverse, 1e300
+        u, v, w, p, q, r = nu
+        U, V, W, P, Q, R = guess
+        limit = CONVERGED * (abs(u) + abs(v) + abs(w) + radius * (abs(p) + abs(q) + abs(r)))
         for _ in range(MAX_ITERATIONS):
-            d, (e_x, e_y, e_z) = _exponential(mean, h)
+            d, (e_x, e_y, e_z) = _exponential((U, V, W, P, Q, R), h)
             x, y, z = d
             M_x, M_y, M_z = L_x - (y * P_z - z * P_y), L_y - (z * P_x - x * P_z), L_z - (x * P_y - y * P_x)
             # The change of the momentum, not the momentum: M M^-1 is 1 to rounding only, and energy would drift.
-            gain = times(
+            a, b, c, f, g, k = times(
                 inverse,
                 (
                     (e_x[0] - 1.0) * P_x + e_x[1] * P_y + e_x[2] * P_z,
@@ -70,21 +82,13 @@ class KirchhoffSpace:
                     e_z[0] * M_x + e_z[1] * M_y + e_z[2] * M_z - L_z,
                 ),
             )
-            after = (
-                nu[0] + gain[0], nu[1] + gain[1], nu[2] + gain[2], nu[3] + gain[3], nu[4] + gain[4], nu[5] + gain[5]
-            )  # fmt: skip
-            better = (
-                0.5 * (nu[0] + after[0]), 0.5 * (nu[1] + after[1]), 0.5 * (nu[2] + after[2]),
-                0.5 * (nu[3] + after[3]), 0.5 * (nu[4] + after[4]), 0.5 * (nu[5] + after[5]),
-            )  # fmt: skip
-            change = _size(
-                (better[0] - mean[0], better[1] - mean[1], better[2] - mean[2],
-                 better[3] - mean[3], better[4] - mean[4], better[5] - mean[5]), radius,
-            )  # fmt: skip
-            if change <= limit or (change >= last and change <= 1e3 * limit):
+            A, B, C, D, E, F = u + 0.5 * a, v + 0.5 * b, w + 0.5 * c, p + 0.5 * f, q + 0.5 * g, r + 0.5 * k
+            change = abs(A - U) + abs(B - V) + abs(C - W) + radius * (abs(D - P) + abs(E - Q) + abs(F - R))
+            U, V, W, P, Q, R = A, B, C, D, E, F
+            if change <= limit or last <= change <= 1e3 * limit:
                 break
-            mean, last = better, change
-        return d, (e_x, e_y, e_z), mean, after
+            last = change
+        return d, (e_x, e_y, e_z), (U, V, W, P, Q, R), (u + a, v + b, w + c, p + f, q + g, r + k)
 
 
 def times(rows: Sequence[Sequence[float]], x: Sequence[float]) -> Six:
@@ -99,11 +103,6 @@ def times(rows: Sequence[Sequence[float]], x: Sequence[float]) -> Six:
         r4[0] * a + r4[1] * b + r4[2] * c + r4[3] * d + r4[4] * e + r4[5] * f,
         r5[0] * a + r5[1] * b + r5[2] * c + r5[3] * d + r5[4] * e + r5[5] * f,
     )
-
-
-def _size(nu: Six, radius: float) -> float:
-    u, v, w, p, q, r = nu
-    return abs(u) + abs(v) + abs(w) + radius * (abs(p) + abs(q) + abs(r))
 
 
 def _exponential(nu: Six, h: float) -> tuple[Three, Columns]:

@@ -129,7 +129,7 @@ def test_a_ship_springs_between_two_walls_without_losing_or_gaining(
     for _ in range(1200):
         before = w.energy(0)
         w.step(H)
-        if w.work[-1] != 0.0:
+        if w.increments[-1][0][2].any():  # a bounce without loss may leave the energy as it was to the last bit
             bounces += 1
             if bounces == 1:
                 first = abs(w.work[-1]) / before

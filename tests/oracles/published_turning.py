@@ -4,10 +4,9 @@ Each figure has its source and a grade: `read` (in the source, or in a public qu
 published track), `sailed` (the published set of measured coefficients, sailed by the equations below, which share no
 code with the package), `recalled` (from memory, fairly sure, not read).
 
-Lengths are in L_pp. What no source was found for is left out, and so are ships of which no figure could be sourced:
-DTMB 5415, ONR Tumblehome, Series 60, Seiun Maru. MARIN's overshoots are read to 0.3 deg, of zigzags that begin to port.
-The Mariner set of Chislett & Strom-Tejsen (1965) is left out, too: as
-it circulates in public code it gives a tactical diameter of 6.4 L at 35 deg of rudder, far above the ship's trials.
+Lengths are in L_pp, of warships in the length of the waterline. What no source was found for is left out, and so are
+ships of which no figure could be sourced: DTMB 5415, ONR Tumblehome, Series 60; and Seiun Maru, whose public set is
+mostly the regression that is to be tested. MARIN's overshoots are read to 0.3 deg, of zigzags that begin to port.
 """
 
 from __future__ import annotations
@@ -94,6 +93,70 @@ def accelerate_s175_1982(state: State, delta: float, n: float) -> State:
     ]
 
 
+def accelerate_mariner_1965(state: State, delta: float) -> State:
+    """Chislett & Strom-Tejsen (1965), Hy-6: a Mariner class cargo ship at 15 kn, from planar motion tests.
+
+    Velocities are over the approach speed U_0, forces over 1/2 rho L^2 U_0^2. The coefficients show it: N_vu = N_v,
+    N_du = 2 N_d and N_duu = N_d are the expansion of v u and u^2 about U_0. Public code has the momentary speed in its
+    place. Then the rudder loses its force with (2 U - U_0)^2: a tactical diameter of 6.4 L at 35 deg.
+    """
+    L, U = 160.93, 7.7175
+    u, v, r, d = (state[0] - U) / U, state[1] / U, state[2] * L / U, -delta
+    m, x_G, I_z = 798.0, -0.023, 39.2  # these and all below times 1e-5
+    X = (
+        -184.0 * u - 110.0 * u * u - 215.0 * u**3 - 899.0 * v * v + 18.0 * r * r - 95.0 * d * d - 190.0 * u * d * d
+        + 798.0 * r * v + 93.0 * v * d + 93.0 * u * v * d
+    )  # fmt: skip
+    Y = (
+        -1160.0 * v * (1.0 + u) - 499.0 * r * (1.0 + u) - 8078.0 * v**3 + 15356.0 * v * v * r
+        + 278.0 * d * (1.0 + u) ** 2 - 90.0 * d**3 - 4.0 * v * d * d + 1190.0 * v * v * d - 4.0 * (1.0 + u) ** 2
+    )  # fmt: skip
+    N = (
+        -264.0 * v * (1.0 + u) - 166.0 * r * (1.0 + u) + 1636.0 * v**3 - 5483.0 * v * v * r
+        - 139.0 * d * (1.0 + u) ** 2 + 45.0 * d**3 + 13.0 * v * d * d - 489.0 * v * v * d + 3.0 * (1.0 + u) ** 2
+    )  # fmt: skip
+    m_v, m_vr, m_rv, m_r = m + 748.0, m * x_G + 9.354, m * x_G - 4.646, I_z + 43.8
+    v_dot, r_dot = _solve_two(m_v, m_vr, m_rv, m_r, Y, N)
+    return [X / (m + 42.0) * U * U / L, v_dot * U * U / L, r_dot * (U / L) ** 2]
+
+
+def accelerate_ferry_1981(state: State, delta: float) -> State:
+    """Wolff (1981), Institut fuer Schiffbau 412: a twin-screw ferry at 20 kn, from tests with a computerised carriage.
+
+    Velocities are over the momentary speed U, forces over 1/2 rho L^2 U^2; Delta u' = (u - U_0)/U.
+    """
+    L, U_0 = 139.6, 20.0 * 1852.0 / 3600.0
+    U = hypot(state[0], state[1])
+    u, v, r, d = state[0] / U, state[1] / U, state[2] * L / U, -delta
+    w = (state[0] - U_0) / U
+    m, mx_G, I_z = 6765.0, -116.0, 319.0  # these and all below times 1e-6
+    X = (
+        -4336.0 * w - 2355.0 * w * w - 2594.0 * w**3 - 3279.0 * v * v - 19.0 * r - 571.0 * r * r - 2879.0 * d * d
+        + 2185.0 * d**4 - 2559.0 * v * v * w - 734.0 * r * r * w + 3425.0 * d * d * w + 4627.0 * v * r + 877.0 * v * d
+        - 351.0 * r * d
+    )  # fmt: skip
+    Y = (
+        57.0 * w - 12095.0 * v - 137302.0 * v**3 + 1901.0 * r - 1361.0 * r**3 + 3587.0 * d + 98.0 * d * d
+        - 6262.0 * d**5 - 1297.0 * r * w - 5096.0 * d * w + 3192.0 * d**3 * w - 44365.0 * v * r * r
+        - 36490.0 * v * v * r + 2199.0 * v * d * d - 2752.0 * r * d * d
+    )  # fmt: skip
+    N = (
+        -36.0 * w - 3919.0 * v - 33857.0 * v**3 - 2579.0 * r - 2253.0 * r**3 - 1621.0 * d - 73.0 * d * d + 2886.0 * d**5
+        - 3666.0 * v * w - 1322.0 * r**3 * w + 2259.0 * d * w - 1382.0 * d**3 * w - 60110.0 * v * v * r
+        + 570.0 * v * d * d - 2950.0 * v * v * d + 237.0 * r * d * d - 329.0 * r * r * d
+    )  # fmt: skip
+    v_dot, r_dot = _solve_two(
+        m + 7396.0, mx_G + 600.0, mx_G - 426.0 - 10049.0 * v * v, I_z + 231.0, Y - m * u * r, N - mx_G * u * r
+    )
+    return [(X + m * v * r + mx_G * r * r) / m * U * U / L, v_dot * U * U / L, r_dot * (U / L) ** 2]
+
+
+def _solve_two(a: float, b: float, c: float, d: float, Y: float, N: float) -> tuple[float, float]:
+    """v_dot, r_dot of a v_dot + b r_dot = Y and c v_dot + d r_dot = N."""
+    det = a * d - b * c
+    return (d * Y - b * N) / det, (a * N - c * Y) / det
+
+
 def sail_published(model: Model, L: float, speed: float, extra: int) -> dict[str, float]:
     """Figures of the turning circle at 35 deg to starboard, and first overshoots of the 10/10 and 20/20 zigzags."""
     figures = _sail_circle(model, L, speed, extra)
@@ -178,7 +241,8 @@ class Source:
 class PublishedShip:
     """Kind, the four numbers, the approach speed [m/s] of the tests, and the sources; the first one is compared with.
 
-    Breadth and C_b of the tanker of 190 000 dwt are recalled; the other dimensions are read.
+    Recalled are breadth and C_b of the tanker of 190 000 dwt, breadth, draught and C_b of the ferry (their product fits
+    the mass that is read within 3 %), and all dimensions of the three ships of before 1950; the others are read.
     """
 
     name: str
@@ -237,5 +301,45 @@ S175 = PublishedShip(
     "S-175", "container ship", 175.0, 25.4, 8.5, 0.559, 8.28,
     (Source("Son & Nomoto (1982), Nav. Archit. Ocean Eng. 20:73-83", "sailed", cache(_sail_s175)),),
 )  # fmt: skip
-SHIPS = (KVLCC2, ESSO_OSAKA, TANKER, S175)
+MARINER = PublishedShip(
+    "Mariner", "cargo", 160.93, 23.17, 7.47, 0.60, 7.7175,
+    (
+        Source(
+            "Chislett & Strom-Tejsen (1965), Hydro- and Aerodynamics Laboratory, Hy-6", "sailed",
+            cache(lambda: sail_published(accelerate_mariner_1965, 160.93, 7.7175, 0)),
+        ),
+    ),
+)  # fmt: skip
+FERRY = PublishedShip(
+    "ferry of 140 m", "ferry", 139.6, 16.77, 5.90, 0.644, 10.289,
+    (
+        Source(
+            "Wolff (1981), Institut fuer Schiffbau Hamburg, report 412", "sailed",
+            cache(lambda: sail_published(accelerate_ferry_1981, 139.6, 10.289, 0)),
+        ),
+    ),
+)  # fmt: skip
+FLETCHER = PublishedShip(
+    "Fletcher class", "destroyer", 112.5, 12.04, 3.96, 0.462, 30.0 * 1852.0 / 3600.0,
+    (
+        Source(
+            "trials at 30 kn with one rudder, read in a secondary source", "read",
+            _fixed(tactical_diameter=867.0 / 112.5),
+        ),
+    ),
+)  # fmt: skip
+YAMATO = PublishedShip(
+    "Yamato", "battleship", 256.0, 38.7, 10.8, 0.648, 26.0 * 1852.0 / 3600.0,
+    (
+        Source(
+            "trials at 26 kn with two rudders, read in a secondary source", "read",
+            _fixed(advance=600.0 / 256.0, tactical_diameter=640.0 / 256.0),
+        ),
+    ),
+)  # fmt: skip
+TITANIC = PublishedShip(
+    "Titanic", "passenger liner", 259.1, 28.2, 10.5, 0.674, 20.0 * 1852.0 / 3600.0,
+    (Source("sea trials of 1912 at 20 kn, 40 deg", "recalled", _fixed(tactical_diameter=3850.0 / 850.0)),),
+)  # fmt: skip
+SHIPS = (KVLCC2, ESSO_OSAKA, TANKER, S175, MARINER, FERRY, FLETCHER, YAMATO, TITANIC)
 """KCS, whose set of coefficients this package ships, is compared with that ship's own trial (estimated_ships.py)."""

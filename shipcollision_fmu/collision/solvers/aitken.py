@@ -31,12 +31,13 @@ class Aitken:
         P: impulses after this sweep; last: impulses before it. Both as flat lists.
         """
         before, self._step = self._step, [x - y for x, y in zip(P, last, strict=True)]
-        square = sum(d * d for d in before)
-        if square == 0.0:
+        square, product = 0.0, 0.0
+        for d, e in zip(self._step, before, strict=False):  # before is empty after an extrapolation
+            square += e * e
+            product += d * e
+        if not 0.0 < product < MAX_RATIO * square:
             return P
-        ratio = sum(d * e for d, e in zip(self._step, before, strict=True)) / square
-        if not 0.0 < ratio < MAX_RATIO:
-            return P
-        factor, step = ratio / (1.0 - ratio), self._step
+        ratio, step = product / square, self._step
+        factor = ratio / (1.0 - ratio)
         self._step = []
         return [x + factor * d for x, d in zip(P, step, strict=True)]

@@ -17,7 +17,7 @@ More and Sorensen (1983), SIAM J. Sci. Stat. Comput. 4:553-572 (the quadratic fo
 
 from __future__ import annotations
 
-from math import atan2, cos, hypot, sin
+from math import atan2, copysign, cos, hypot, sin
 
 from .contact_law import ContactBlock, solve_friction_in_disc
 
@@ -82,9 +82,9 @@ def _solve_slide(W: ContactBlock, v: Row, mu: float, angle: float) -> tuple[Row,
         if slope == 0.0:
             return None
         step = -across / slope
-        if abs(step) <= 1e-14 * max(1.0, abs(angle)) or across == 0.0:
+        if abs(step) <= 1e-14 or abs(step) <= 1e-14 * abs(angle) or across == 0.0:
             return ((P_n, P_1, P_2), angle) if along <= 0.0 else None
-        angle += min(0.5, max(-0.5, step))
+        angle += step if abs(step) <= 0.5 else copysign(0.5, step)
     # Rounding may keep the step from getting smaller: then the slip across friction, which it would change, decides.
     return ((P_n, P_1, P_2), angle) if along < 0.0 and abs(across) <= 1e-12 * hypot(v_n, v_1, v_2) else None
 

@@ -12,7 +12,10 @@ from shipcollision_fmu.manoeuvring.trials.trials import sail_turning_circle, sai
 from tests.oracles.published_turning import SHIPS, PublishedShip, Source
 from tests.ship_files import estimated_toml
 
-__all__ = ["COMPARED", "FIGURES", "TYPES", "sail_from_four_numbers", "sail_type", "zigzag_from_four_numbers"]
+__all__ = [
+    "COMPARED", "FIGURES", "TYPES", "keep_speed_without_limit", "sail_from_four_numbers", "sail_type",
+    "zigzag_from_four_numbers",
+]  # fmt: skip
 
 FIGURES = ("advance", "tactical diameter", "steady radius", "drift angle", "speed kept", "10/10", "20/20")
 
@@ -53,8 +56,17 @@ def zigzag_from_four_numbers(ship: PublishedShip) -> Mapping[str, float]:
     return _sail(ship, sail_zigzags)
 
 
-def _sail(ship: PublishedShip, trial: Callable[[SteadyCourse], dict[str, float]]) -> dict[str, float]:
-    text = estimated_toml(ship.L, ship.B, ship.T, ship.C_b, kind=ship.kind, propeller={"service_speed": ship.speed})
+@cache
+def keep_speed_without_limit(ship: PublishedShip) -> float:
+    """Speed kept in the circle at constant revolutions: with an engine that no torque limits, as in model tests."""
+    return _sail(ship, sail_circle, engine={"power": 1e13})["speed kept"]
+
+
+def _sail(
+    ship: PublishedShip, trial: Callable[[SteadyCourse], dict[str, float]], **tables: dict[str, float]
+) -> dict[str, float]:
+    four = (ship.L, ship.B, ship.T, ship.C_b)
+    text = estimated_toml(*four, kind=ship.kind, propeller={"service_speed": ship.speed}, **tables)
     with TemporaryDirectory() as folder:
         path = Path(folder) / "ship.toml"
         path.write_text(text, encoding="utf-8")

@@ -70,31 +70,69 @@ def test_the_types_are_blendermanns() -> None:
     assert set(FORMS) == set(BLENDERMANN)
 
 
+CORNERS = {
+    "car carrier": (140.0, 6), "cargo vessel, loaded": (140.0, 3), "cargo vessel, container on deck": (60.0, 3),
+    "container ship, loaded": (250.0, 4), "destroyer": (140.0, 4), "diving support vessel": (60.0, 4),
+    "drilling vessel": (250.0, 3), "ferry": (250.0, 6), "fishing vessel": (24.0, 6),
+    "liquefied natural gas tanker": (400.0, 3), "offshore supply vessel": (60.0, 6), "passenger liner": (400.0, 6),
+    "research vessel": (24.0, 3), "speed boat": (10.0, 3), "tanker, loaded": (400.0, 4),
+    "tanker, in ballast": (10.0, 4), "tender": (10.0, 6),
+}  # fmt: skip
+"""Length [m] and degrees of freedom of each type: each type once, and each length in 3, 4 and 6 degrees of freedom, but
+24 m in 4."""
+
+
+def test_the_corners_cover_types_lengths_and_degrees_of_freedom() -> None:
+    assert CORNERS.keys() == FORMS.keys()
+    every = {(L, degrees_of_freedom) for L in LENGTHS for degrees_of_freedom in (3, 4, 6)}
+    assert set(CORNERS.values()) == every - {(24.0, 4)}  # 18 pairs, 17 types
+
+
 @pytest.mark.slow
+@pytest.mark.parametrize(("kind", "corner"), CORNERS.items())
+def test_a_ship_of_every_type_stops_plausibly(kind: str, corner: tuple[float, int], tmp_path: Path) -> None:
+    check_stop(kind, *corner, tmp_path)
+
+
+@pytest.mark.soak
 @pytest.mark.parametrize("degrees_of_freedom", [3, 4, 6])
 @pytest.mark.parametrize("kind", FORMS)
 def test_every_type_of_every_size_stops_plausibly(kind: str, degrees_of_freedom: int, tmp_path: Path) -> None:
     for L in LENGTHS if degrees_of_freedom == 3 else (10.0, 60.0, 400.0):
-        trial = stop(written(tmp_path, kind, L), degrees_of_freedom)
-        most = 20.0 if load_ship(tmp_path / "ship.toml").mass > 150e6 else 15.0
-        assert (1.5 if L < 100.0 else 2.0) < trial["track reach"] < most, (L, trial["track reach"])
-        assert abs(trial["lateral deviation"]) < 1e-6
+        check_stop(kind, L, degrees_of_freedom, tmp_path)
+
+
+def check_stop(kind: str, L: float, degrees_of_freedom: int, folder: Path) -> None:
+    trial = stop(written(folder, kind, L), degrees_of_freedom)
+    most = 20.0 if load_ship(folder / "ship.toml").mass > 150e6 else 15.0
+    assert (1.5 if L < 100.0 else 2.0) < trial["track reach"] < most, (L, trial["track reach"])
+    assert abs(trial["lateral deviation"]) < 1e-6
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize(("kind", "corner"), CORNERS.items())
+def test_a_ship_of_every_type_floats_and_rolls_plausibly(kind: str, corner: tuple[float, int], tmp_path: Path) -> None:
+    check_stability(kind, corner[0], tmp_path)
+
+
+@pytest.mark.soak
 @pytest.mark.parametrize("kind", FORMS)
 def test_every_type_of_every_size_floats_and_rolls_plausibly(kind: str, tmp_path: Path) -> None:
+    for L in LENGTHS:
+        check_stability(kind, L, tmp_path)
+
+
+def check_stability(kind: str, L: float, folder: Path) -> None:
     """GM from the Code's 0.15 m to 15 % of the breadth, 30 % in ballast, where a hull is wide for its draught; the
     Code's period within a quarter, where its coefficient, made for ships of up to 150 m or so, asks for a possible
     mass."""
-    for L in LENGTHS:
-        ship = load_ship(written(tmp_path, kind, L))
-        GM = compute_seakeeping(ship).GM_T
-        most = (0.30 if "ballast" in kind else 0.15) * ship.B
-        assert 0.15 - 1e-9 <= GM <= max(0.15, most) + 1e-9
-        code, natural = compute_is_code_period(L, ship.B, ship.T, GM), compute_natural_period(ship.M, ship.mass, GM)
-        assert natural == pytest.approx(code, rel=0.25 if L <= 150.0 else inf)
-        assert 1.0 < natural < 60.0
+    ship = load_ship(written(folder, kind, L))
+    GM = compute_seakeeping(ship).GM_T
+    most = (0.30 if "ballast" in kind else 0.15) * ship.B
+    assert 0.15 - 1e-9 <= GM <= max(0.15, most) + 1e-9
+    code, natural = compute_is_code_period(L, ship.B, ship.T, GM), compute_natural_period(ship.M, ship.mass, GM)
+    assert natural == pytest.approx(code, rel=0.25 if L <= 150.0 else inf)
+    assert 1.0 < natural < 60.0
 
 
 @pytest.mark.parametrize(

@@ -82,6 +82,22 @@ def test_power_is_that_of_ships_in_service(
     assert 0.75 * least < loaded.engine.power / 1e6 < 1.25 * most
 
 
+@pytest.mark.parametrize(
+    ("ship", "speed", "least"),
+    [(("ferry", 180.0, 27.5, 6.5, 0.58), 25.0, 22e6), (("destroyer", 142.0, 19.0, 6.2, 0.505), 31.0, 0.6 * 70e6)],
+    ids=["ferry", "destroyer"],
+)
+def test_ships_whose_power_is_missed_are_too_slow_and_not_short_of_a_propeller(
+    ship: tuple[str, float, float, float, float], speed: float, least: float
+) -> None:
+    """At the speed of such ships the power comes near theirs; with the disc of two propellers it falls."""
+    slow, fast = made(*ship), made(*ship, propeller={"service_speed": speed * KNOT})
+    assert slow.propeller is not None
+    two = made(*ship, propeller={"D_p": slow.propeller.D_p * sqrt(2.0)})
+    powers = [of.engine.power or 0.0 for of in (two, slow, fast) if of.engine is not None]
+    assert 0.0 < powers[0] < powers[1] < least < powers[2]
+
+
 @pytest.mark.parametrize("L", [10.0, 30.0, 100.0, 400.0])
 @pytest.mark.parametrize(("LB", "BT", "C_b"), [(2.5, 2.0, 0.85), (3.0, 5.0, 0.45), (6.0, 3.0, 0.7), (9.0, 2.2, 0.42)])
 def test_it_does_not_run_away(L: float, LB: float, BT: float, C_b: float) -> None:
