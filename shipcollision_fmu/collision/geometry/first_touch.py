@@ -10,8 +10,8 @@ itself. As long as s along one axis is positive, the parts do not touch:
     3. repeat from there, until the gap is no more than the target
 
 Parts that touch at the start have an axis already: the last normal of the pair, carried by its hull. The next touch of
-such parts is where the overlap along the normal has grown by `growth`, as when a log that was hit at one end swings its
-other end round.
+such parts is where the overlap along the normal has grown to `growth`, or by two TOUCH if it is more: a log that was
+hit at one end swings its other end round.
 
 Mirtich (1996), conservative advancement; Catto (2013), Continuous collision: the search along local separating axes.
 """
@@ -77,7 +77,7 @@ def find_first_touch(
 ) -> float | None:  # fmt: skip
     """Time [s] at which two hulls first touch within h [s], or touch on; None: they do not.
 
-    speed: bound of the relative speed of any two points [m/s]; growth: overlap [m] by which parts that touch already
+    speed: bound of the relative speed of any two points [m/s]; growth: overlap [m] at which parts that touch already
     touch on; carried: the last normal of the pair (detection.py), None without one.
     """
     pieces = min(MOST_TURNS, ceil(h * max(a.turning, b.turning) / TURN)) or 1
@@ -143,7 +143,7 @@ class _Parts:
             if gap <= 0.0 and (tau > begin or (tau > 0.0 and carried is None)):
                 return tau
             if gap <= 0.0:
-                return self._touch_on(begin, end, normal, growth, carried)
+                return self._touch_on(begin, end, normal, max(2.0 * TOUCH, growth + gap), carried)
             then = self._reach(tau, end, _constant(normal), gap - target)
             if then is None:
                 return None
