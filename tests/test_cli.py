@@ -303,10 +303,20 @@ def test_a_signal_leaves_no_unpacked_fmu_behind(
     assert not (folder / "runs").exists()
 
 
-@pytest.mark.parametrize("command", ["run", "build"])
-def test_without_pybullet_it_is_one_line(folder: Path, command: str) -> None:
+def test_without_pybullet_both_fmus_are_built_with_a_note(folder: Path) -> None:
+    """ShipManoeuvring needs no pybullet, and the file of ShipCollision may run elsewhere."""
+    result = fresh("build", "--out", "fmus", cwd=folder, prelude="import sys; sys.modules['pybullet'] = None")
+    assert result.returncode == 0
+    assert result.stdout.split() == ["fmus/ShipCollision.fmu", "fmus/ShipManoeuvring.fmu"]
+    assert result.stderr.startswith(
+        "note: ShipCollision runs with pybullet, which this Python has not; run `python -m "
+    )
+    assert result.stderr.count("\n") == 1
+
+
+def test_without_pybullet_a_run_is_refused_in_one_line(folder: Path) -> None:
     """Python treats a module that is None in sys.modules as one that is not installed."""
-    result = fresh(command, cwd=folder, prelude="import sys; sys.modules['pybullet'] = None")
+    result = fresh("run", cwd=folder, prelude="import sys; sys.modules['pybullet'] = None")
     assert result.returncode == 1
     assert result.stdout == ""
     assert result.stderr.startswith("error: pybullet, which detects the contacts, is not installed: run `python -m pip")

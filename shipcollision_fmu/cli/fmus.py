@@ -27,15 +27,16 @@ def build(out: Path, fmi: str, scalar: bool, ships: str) -> None:
     one folder. FMI 3.0 needs `pip install 'shipcollision-fmu[fmi3]'`. For hosts that do not pass arrays, such as
     OMSimulator and Ecos, --scalar makes ShipCollision.fmi3-scalar.fmu and ShipManoeuvring.fmi3-scalar.fmu.
     """
-    from ..cosim.fmu_files import require_pybullet
+    from ..cosim.fmu_files import PYBULLET, has_pybullet
     from ..fmi.builder.package import build_fmus
 
     if scalar and fmi != "3":
         raise click.UsageError("--scalar is for FMI 3.0: FMI 2.0 has no arrays; add --fmi 3 or leave it out")
-    require_pybullet()
     names = tuple(name.strip() for name in ships.split(","))
     for path in build_fmus(out, ships=names, fmi=int(fmi), scalar=scalar).values():
         click.echo(path)
+    if not has_pybullet():
+        click.echo(f"note: ShipCollision runs with pybullet, which this Python has not; {PYBULLET}", err=True)
 
 
 @click.command()

@@ -1,7 +1,8 @@
 """Compliance of an FMU file with FMI 2.0 or 3.0.
 
     report.py   validate(): FMPy's validator, then the rules, then the calls, as a list of findings
-    rules.py    rules for modelDescription.xml and the archive that FMPy does not check
+    rules.py, archive_rules.py    rules for modelDescription.xml and the archive that FMPy does not check
+    subject.py  an FMU file as the rules need it
     calls.py    calls that an FMU must refuse or repeat exactly, made in another process
 
 Data flow: FMU file -> Subject (rules) and Instance (calls) -> Finding. Imports from: fmi (record of a build), errors;

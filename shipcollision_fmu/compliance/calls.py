@@ -33,11 +33,13 @@ from ..fmi.builder.resource_uri import locate_resources
 
 __all__ = ["PROBES", "Probe", "run_probes"]
 
-OK, WARNING = 0, 1
+OK, WARNING, DISCARD = 0, 1, 2
 TIME_OUT = 60.0
 """[s] Limit of a process with all its probes; a process that takes longer is ended and reported."""
 FOLDER_NAME = "a(1) é#%25"
 """Name of a folder with what a URI encodes: brackets, a space, a letter beyond ASCII, and what a URI uses itself."""
+UNKNOWN_REFERENCE = 4_294_967_294
+"""A value reference that no FMU has."""
 _MARK = "finding "
 """Beginning of a line with findings, since the FMU may print lines of its own."""
 
@@ -77,16 +79,17 @@ class Instance:
         status: int = getattr(self.dll, f"fmi{self.fmi}{name}")(self.component, *arguments)
         return status
 
-    def enter(self) -> int:
-        """Enter initialisation; returns the status."""
+    def enter(self, start: float = 0.0, stop: float | None = None) -> int:
+        """Enter initialisation of an experiment from start to stop [s]; returns the status."""
+        time = (start, stop is not None, stop or 0.0)
         if self.fmi == 3:
-            return self.call("EnterInitializationMode", False, 0.0, 0.0, False, 0.0)
-        status = self.call("SetupExperiment", 0, 0.0, 0.0, 0, 0.0)
+            return self.call("EnterInitializationMode", False, 0.0, *time)
+        status = self.call("SetupExperiment", 0, 0.0, *time)
         return status if status > WARNING else self.call("EnterInitializationMode")
 
-    def begin(self) -> int:
+    def begin(self, start: float = 0.0, stop: float | None = None) -> int:
         """Enter and leave initialisation with the start values; returns the status."""
-        status = self.enter()
+        status = self.enter(start, stop)
         return status if status > WARNING else self.call("ExitInitializationMode")
 
     def step(self, t: float, h: float) -> int:
@@ -120,6 +123,13 @@ class Instance:
                 found += [value.hex() for value in values]
         return found
 
+    def read(self, references: list[int]) -> tuple[int, list[float]]:
+        """Status and values of scalars of type Real or Float64."""
+        values, n = (c_double * len(references))(), len(references)
+        sizes = (n,) if self.fmi == 3 else ()
+        status = self.call(f"Get{'Float64' if self.fmi == 3 else 'Real'}", (c_uint * n)(*references), n, values, *sizes)
+        return status, list(values)
+
     def find_variable(self, causality: str) -> Any:
         """The first numeric variable of a causality, or None."""
         for variable in self.description.modelVariables:
@@ -130,11 +140,12 @@ class Instance:
 
 @dataclass(frozen=True)
 class Probe:
-    """A probe: its name, its demand in words, whether a breach is a problem (else a note), its function."""
+    """A probe: its name, its demand in words, the versions of FMI in which a breach is a problem (else a note), its
+    function."""
 
     name: str
     demand: str
-    binding: bool
+    binding: tuple[int, ...]
     run: Callable[[Path], Iterator[str]]
 
 
@@ -181,14 +192,58 @@ def probe_step_after_terminate(folder: Path) -> Iterator[str]:
 
 
 def probe_step_sizes(folder: Path) -> Iterator[str]:
-    """A step of negative size or NaN is refused, and a proper step follows."""
+    """A step of negative size or NaN is refused. After a discarded step a proper step follows; after an error FMI
+    allows no step, so none is asked for."""
+    for h in (-1.0, math.nan):
+        instance = Instance(folder)
+        if instance.begin() > WARNING:
+            return
+        status = instance.step(0.0, h * instance.step_size())
+        if status <= WARNING:
+            yield f"a step of {h * instance.step_size()} s is not refused"
+        if status <= DISCARD and instance.step(0.0, instance.step_size()) > WARNING:
+            yield "after a discarded step no further step succeeds: only reset or a saved state helps"
+            return
+
+
+def probe_stop_time(folder: Path) -> Iterator[str]:
+    """A step that ends after the stop time of the experiment is refused, and the last one before it is not."""
     instance = Instance(folder)
-    instance.begin()
-    for h in (-instance.step_size(), math.nan):
-        if instance.step(0.0, h) <= WARNING:
-            yield f"a step of {h} s is not refused"
-    if instance.step(0.0, instance.step_size()) > WARNING:
-        yield "after a refused step no further step succeeds: only reset or a saved state helps"
+    h = instance.step_size()
+    if instance.begin(0.0, 2.0 * h) > WARNING:
+        return
+    if any(instance.step(k * h, h) > WARNING for k in range(2)):
+        yield "a step that ends at the stop time is refused"
+    elif instance.step(2.0 * h, h) <= WARNING:
+        yield "a step that ends after the stop time is not refused"
+
+
+def probe_start_time(folder: Path) -> Iterator[str]:
+    """The variable `time` begins at the start time of the experiment."""
+    instance = Instance(folder)
+    time = [v for v in instance.description.modelVariables if v.causality == "independent"]
+    start = 100.0 * instance.step_size()
+    if not time or time[0].type not in ("Real", "Float64") or instance.begin(start) > WARNING:
+        return
+    status, (value,) = instance.read([time[0].valueReference])
+    if status <= WARNING and not math.isclose(value, start, rel_tol=1e-9):
+        yield f"the independent variable is {value} at the start time {start}"
+
+
+def probe_wrong_reference(folder: Path) -> Iterator[str]:
+    """A read that is not refused gives the values of the references that are right, whatever stands beside them."""
+    instance = Instance(folder)
+    scalars = [
+        v.valueReference
+        for v in instance.description.modelVariables
+        if v.type in ("Real", "Float64") and v.causality == "output" and not getattr(v, "dimensions", None)
+    ]
+    if not scalars or instance.begin() > WARNING:
+        return
+    _, (right,) = instance.read(scalars[:1])
+    status, values = instance.read([scalars[0], UNKNOWN_REFERENCE])
+    if status <= WARNING and values[0].hex() != right.hex():
+        yield "one unknown value reference spoils the other values of the call, which is not refused"
 
 
 def probe_setting_outputs(folder: Path) -> Iterator[str]:
@@ -208,9 +263,7 @@ def probe_unknown_references(folder: Path) -> Iterator[str]:
     """A value reference that is not in the model description is refused."""
     instance = Instance(folder)
     instance.begin()
-    values, kind = (c_double * 1)(), "Float64" if instance.fmi == 3 else "Real"
-    sizes = (1,) if instance.fmi == 3 else ()
-    status = instance.call(f"Get{kind}", (c_uint * 1)(4_294_967_294), 1, values, *sizes)
+    status, _ = instance.read([UNKNOWN_REFERENCE])
     if status <= WARNING and instance.step(0.0, instance.step_size()) <= WARNING:
         yield "reading a value reference that does not exist is not refused"
 
@@ -219,9 +272,10 @@ def probe_reset(folder: Path) -> Iterator[str]:
     """After reset it repeats the first step to the bit."""
     instance = Instance(folder)
     results = []
-    for _ in range(2):
+    for again in (False, True):
         if instance.begin() > WARNING or instance.step(0.0, instance.step_size()) > WARNING:
-            yield "after terminate and reset it does not run again"
+            if again:
+                yield "after terminate and reset it does not run again"
             return
         results.append(instance.read_outputs())
         instance.call("Terminate")
@@ -238,7 +292,8 @@ def probe_instances(folder: Path) -> Iterator[str]:
     other = Instance(folder)
     for each in (instance, other):
         if each.begin() > WARNING or each.step(0.0, each.step_size()) > WARNING:
-            yield "two instances do not run side by side"
+            if each is other:
+                yield "two instances do not run side by side"
             return
     instance.fmu.freeInstance()
     if other.step(other.step_size(), other.step_size()) > WARNING:
@@ -256,8 +311,8 @@ def probe_state(folder: Path) -> Iterator[str]:
         if instance.fmi == 3
         else ("getFMUstate", "setFMUstate", instance.step_size())
     )
-    instance.begin()
-    instance.step(0.0, h)
+    if instance.begin() > WARNING or instance.step(0.0, h) > WARNING:
+        return
     saved = getattr(instance.fmu, get)()
     instance.step(h, h)
     expected = instance.read_outputs()
@@ -297,23 +352,29 @@ def probe_folder_name(folder: Path) -> Iterator[str]:
         yield f"in a folder named {FOLDER_NAME} it does not initialise"
 
 
+_ALL = (2, 3)
+
 PROBES = (
-    Probe("runs", "initialises with its start values and steps", True, probe_run),
-    Probe("step-first", "no step before initialisation", True, probe_step_first),
-    Probe("exit-first", "no end of initialisation before its start", True, probe_exit_first),
-    Probe("enter-twice", "initialisation starts once", True, probe_enter_twice),
-    Probe("step-after-end", "no step after terminate", True, probe_step_after_terminate),
-    Probe("step-size", "no step backwards", True, probe_step_sizes),
-    Probe("set-output", "outputs cannot be set", True, probe_setting_outputs),
-    Probe("set-parameter", "fixed parameters stay", True, probe_setting_parameters),
-    Probe("reference", "unknown value references are refused", True, probe_unknown_references),
-    Probe("reset", "reset is a fresh start", True, probe_reset),
-    Probe("instances", "two instances do not disturb each other", True, probe_instances),
-    Probe("state", "a restored state repeats to the bit", True, probe_state),
+    Probe("runs", "initialises with its start values and steps", _ALL, probe_run),
+    Probe("step-first", "no step before initialisation", _ALL, probe_step_first),
+    Probe("exit-first", "no end of initialisation before its start", _ALL, probe_exit_first),
+    Probe("enter-twice", "initialisation starts once", _ALL, probe_enter_twice),
+    Probe("step-after-end", "no step after terminate", _ALL, probe_step_after_terminate),
+    Probe("step-size", "no step backwards", _ALL, probe_step_sizes),
+    Probe("set-output", "outputs cannot be set", _ALL, probe_setting_outputs),
+    Probe("set-parameter", "fixed parameters stay", _ALL, probe_setting_parameters),
+    Probe("reference", "unknown value references are refused", _ALL, probe_unknown_references),
+    # pythonfmu3 passes neither start nor stop time on, so the author of such an FMU cannot comply.
+    Probe("stop-time", "no step after the stop time", (2,), probe_stop_time),
+    Probe("start-time", "time begins at the start time", (2,), probe_start_time),
+    Probe("wrong-reference", "a wrong value reference spoils no other value", (), probe_wrong_reference),
+    Probe("reset", "reset is a fresh start", _ALL, probe_reset),
+    Probe("instances", "two instances do not disturb each other", _ALL, probe_instances),
+    Probe("state", "a restored state repeats to the bit", _ALL, probe_state),
     # Not binding: no wrapper in Python passes the token on, so the author of a Python FMU cannot comply.
-    Probe("wrong-token", "another token is refused", False, probe_wrong_token),
+    Probe("wrong-token", "another token is refused", (), probe_wrong_token),
     # Nor does pythonfmu's wrapper decode a URI. The last, since it ends the process.
-    Probe("folder-name", f"any name of its folder will do, such as {FOLDER_NAME}", False, probe_folder_name),
+    Probe("folder-name", f"any name of its folder will do, such as {FOLDER_NAME}", (), probe_folder_name),
 )
 """Every probe, in the order of the report."""
 

@@ -11,7 +11,8 @@ from fmpy.validation import validate_fmu
 
 from ..errors import InputError
 from .calls import PROBES, run_probes
-from .rules import RULES, Subject
+from .rules import RULES
+from .subject import Subject
 
 __all__ = ["NAMES", "Finding", "find_problems", "validate"]
 
@@ -59,7 +60,8 @@ def validate(fmu: Path, *, calls: bool = True, ignore: Collection[str] = ()) -> 
         if rule.name not in ignore:
             found += [Finding(rule.name, line, rule.binding) for line in rule.check(subject)]
     if calls:
-        found += [Finding(probe.name, line, probe.binding) for probe, line in run_probes(fmu)]
+        fmi = int(subject.description.fmiVersion[0])
+        found += [Finding(probe.name, line, fmi in probe.binding) for probe, line in run_probes(fmu)]
     return [finding for finding in found if finding.check not in ignore]
 
 

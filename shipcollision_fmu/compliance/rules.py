@@ -1,51 +1,28 @@
-"""Rules for modelDescription.xml and the archive that FMPy's validator does not check, a function for each rule.
+"""Rules for modelDescription.xml that FMPy's validator does not check, a function for each rule; and all rules.
 
-A rule takes a Subject and yields a line for each breach. RULES is the table of all rules.
+A rule takes a Subject and yields a line for each breach. RULES is the table of all rules, with those for the archive.
 """
 
 from __future__ import annotations
 
-import json
-import re
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from functools import cached_property
-from pathlib import Path
 from typing import Any
-from uuid import UUID
-from xml.etree import ElementTree
-from zipfile import ZipFile
 
-from fmpy import read_model_description
+from .archive_rules import (
+    check_documents,
+    check_icon,
+    check_library,
+    check_platforms,
+    check_reproducible,
+    check_token_of_content,
+)
+from .subject import Subject, join_some
 
-from ..fmi.build_record import RECORD, digest
-
-__all__ = ["RULES", "Rule", "Subject"]
+__all__ = ["RULES", "Rule"]
 
 _REALS = ("Real", "Float64", "Float32")
 _WHOLE = ("Integer", "Int8", "UInt8", "Int16", "UInt16", "Int32", "UInt32", "Int64", "UInt64", "Enumeration")
-_LIBRARY = re.compile(r"binaries/([^/]+)/([^/]+)\.(so|dll|dylib)$")
-
-
-class Subject:
-    """An FMU file in the forms that the rules need.
-
-    Raises the errors of FMPy and ElementTree for a description that cannot be read.
-    """
-
-    def __init__(self, file: Path) -> None:
-        self.file = file
-        with ZipFile(file) as archive:
-            self.entries = archive.infolist()
-            self.root = ElementTree.fromstring(archive.read("modelDescription.xml"))
-        self.description: Any = read_model_description(str(file), validate=False)
-        self.variables: list[Any] = self.description.modelVariables
-
-    @cached_property
-    def contents(self) -> dict[str, bytes]:
-        """All files in the archive by name."""
-        with ZipFile(self.file) as archive:
-            return {name: archive.read(name) for name in archive.namelist()}
 
 
 @dataclass(frozen=True)
@@ -67,14 +44,23 @@ def check_units(subject: Subject) -> Iterator[str]:
         and not (v.unit or (v.declaredType is not None and v.declaredType.unit))
     ]  # fmt: skip
     if bare:
-        yield f"without a unit: {_join_some(bare)}; give each a unit, '1' where it is a mere number"
+        yield f"without a unit: {join_some(bare)}; give each a unit, '1' where it is a mere number"
 
 
 def check_unit_exponents(subject: Subject) -> Iterator[str]:
     """Every unit has exponents of the SI base units, by which importers convert; its name is not used."""
     bare = [unit.name for unit in subject.description.unitDefinitions if unit.baseUnit is None]
     if bare:
-        yield f"units without exponents of the SI base units: {_join_some(bare)}; add a BaseUnit to each"
+        yield f"units without exponents of the SI base units: {join_some(bare)}; add a BaseUnit to each"
+    empty = [
+        node.get("name", "") for node in subject.root.iter("Unit")
+        if (base := node.find("BaseUnit")) is not None and not base.attrib
+    ]  # fmt: skip
+    if empty:
+        yield (
+            f"units whose BaseUnit is empty: {join_some(empty)}; some importers take them for unknown: write "
+            'factor="1.0"'
+        )
 
 
 def check_start_values(subject: Subject) -> Iterator[str]:
@@ -119,7 +105,7 @@ def check_dependencies(subject: Subject) -> Iterator[str]:
     silent = [unknown.variable.name for unknown in subject.description.outputs if unknown.dependencies is None]
     if silent:
         yield (
-            f"outputs without dependencies, which then depend on every input: {_join_some(silent)}; add "
+            f"outputs without dependencies, which then depend on every input: {join_some(silent)}; add "
             'dependencies, "" where an output follows from the last step alone'
         )
 
@@ -130,6 +116,29 @@ def check_dependency_kinds(subject: Subject) -> Iterator[str]:
         for known in unknown.dependencies or []:
             if known.causality in ("parameter", "output", "structuralParameter") and known.derivative is None:
                 yield f"output {unknown.variable.name} depends on {known.name}, which is a {known.causality}"
+
+
+def check_nominals(subject: Subject) -> Iterator[str]:
+    """Every Real has a nominal value, its own or its type's, by which solvers scale and plots choose their range."""
+    if not (bare := [v.name for v in subject.variables if v.type in _REALS and not _find_nominal(v)]):
+        return
+    yield f"without a nominal value: {join_some(bare)}; give one to each or to its type"
+
+
+def check_experiment(subject: Subject) -> Iterator[str]:
+    """The default experiment has what a user of an importer would otherwise have to guess."""
+    experiment = subject.description.defaultExperiment
+    named = {"stopTime": "stopTime", "tolerance": "tolerance", "stepSize": "stepSize"}
+    missing = [name for name in named if experiment is None or getattr(experiment, name) is None]
+    if missing:
+        yield f"DefaultExperiment has no {', '.join(missing)}: hosts then take values of their own"
+
+
+def check_authorship(subject: Subject) -> Iterator[str]:
+    """Author, copyright and licence are said."""
+    missing = [name for name in ("author", "copyright", "license") if not subject.root.get(name)]
+    if missing:
+        yield f"the description does not say {', '.join(missing)}"
 
 
 def check_enumerations(subject: Subject) -> Iterator[str]:
@@ -144,52 +153,10 @@ def check_enumerations(subject: Subject) -> Iterator[str]:
                 yield f"two items of type {kind.name} have the same {what}"
 
 
-def check_library(subject: Subject) -> Iterator[str]:
-    """There is a library with the name of the model identifier, the only name that importers load."""
-    identifiers = {
-        one.modelIdentifier
-        for one in (subject.description.coSimulation, subject.description.modelExchange)
-        if one is not None
-    }
-    found = [match for entry in subject.entries if (match := _LIBRARY.match(entry.filename))]
-    named = {match[2] for match in found}
-    sources = any(entry.filename.startswith("sources/") for entry in subject.entries)
-    if not found and not sources:
-        yield "no library under binaries/ and no sources"
-    if found and not identifiers <= named:
-        libraries, expected = _join_some(sorted(named)), _join_some(sorted(identifiers))
-        yield f"the libraries are called {libraries}, the model identifier is {expected}"
-
-
 def check_token(subject: Subject) -> Iterator[str]:
     """The guid of FMI 2.0, or instantiation token of 3.0, is not empty: it distinguishes builds."""
     if not (subject.description.guid or "").strip():
         yield "guid (instantiationToken) is empty"
-
-
-def check_token_of_content(subject: Subject) -> Iterator[str]:
-    """In an FMU of this project the guid is a digest of all other content, and equals the guid in its record."""
-    record = f"resources/{RECORD}"
-    if record not in subject.contents:
-        return
-    said = json.loads(subject.contents[record])
-    guid = subject.description.guid
-    if said.get("guid") != guid:
-        yield f"guid is {guid}, but {record} has {said.get('guid')}: the file was changed after it was built"
-        return
-    files = {name: data for name, data in subject.contents.items() if name != record}
-    anonymous = files["modelDescription.xml"].replace(f'"{guid}"'.encode(), b'""')
-    made = str(UUID(digest({**files, "modelDescription.xml": anonymous})[:32]))
-    if made != guid:
-        yield f"guid is {guid}, but the content gives {made}: the file was changed after it was built"
-
-
-def check_reproducible(subject: Subject) -> Iterator[str]:
-    """The same inputs should give the same bytes: no date of the build anywhere."""
-    if subject.root.get("generationDateAndTime") is not None:
-        yield "generationDateAndTime makes every build another file"
-    if len({entry.date_time for entry in subject.entries}) > 1:
-        yield "the files in the archive have different dates: set one, and every build gives the same bytes"
 
 
 RULES = (
@@ -201,17 +168,18 @@ RULES = (
     Rule("dependencies", "outputs say what they depend on", False, check_dependencies),
     Rule("knowns", "outputs depend on knowns only", True, check_dependency_kinds),
     Rule("enumerations", "enumerations have items, all different", True, check_enumerations),
+    Rule("nominals", "every Real has a nominal value", False, check_nominals),
+    Rule("experiment", "DefaultExperiment has stop time, tolerance and step size", False, check_experiment),
+    Rule("authorship", "author, copyright and licence", False, check_authorship),
     Rule("library", "a library with the name of the model identifier", True, check_library),
+    Rule("platforms", "libraries that can be loaded where they lie", True, check_platforms),
+    Rule("documents", "external dependencies and licences where importers look", True, check_documents),
+    Rule("icon", "an icon", False, check_icon),
     Rule("token", "guid or instantiation token", True, check_token),
     Rule("content", "the guid of our own FMUs is that of their content", True, check_token_of_content),
     Rule("reproducible", "same inputs, same bytes", False, check_reproducible),
 )
 """Every rule, in the order of the report."""
-
-
-def _join_some(names: list[str]) -> str:
-    """The first five names and the count of the others."""
-    return ", ".join(names[:5]) + (f" and {len(names) - 5} more" if len(names) > 5 else "")
 
 
 def _list_numbers(v: Any) -> list[str]:
@@ -223,6 +191,11 @@ def _list_numbers(v: Any) -> list[str]:
 
 def _parse_number(kind: str, text: str) -> float:
     return float(text.replace("INF", "inf")) if kind in _REALS else int(text)
+
+
+def _find_nominal(v: Any) -> Any:
+    """Nominal value of a Real or of its type."""
+    return v.nominal or (v.declaredType is not None and v.declaredType.nominal)
 
 
 def _find_limits(v: Any) -> tuple[Any, Any]:

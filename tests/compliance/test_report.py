@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
+import math
 import re
 import subprocess
 import sys
 import zipfile
+from functools import partial
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
 from click.testing import CliRunner
 
 from shipcollision_fmu.cli import main
+from shipcollision_fmu.compliance import calls
 from shipcollision_fmu.compliance.calls import PROBES, run_probes
 from shipcollision_fmu.compliance.report import NAMES, find_problems, validate
-from shipcollision_fmu.compliance.rules import RULES, Subject
+from shipcollision_fmu.compliance.rules import RULES
+from shipcollision_fmu.compliance.subject import Subject
 from shipcollision_fmu.cosim.fmu_files import ready_fmus
 from shipcollision_fmu.errors import InputError
 
@@ -29,9 +35,9 @@ from shipcollision_fmu.errors import InputError
     ],
 )
 def test_our_fmus_have_no_problem(name: str, fmi: int) -> None:
-    """The notes are faults of the wrappers: they do not tell a slave which guid the host gave, and that of FMI 2.0
-    decodes %20 alone in the URI of its resources."""
-    notes = {2: ["wrong-token", "folder-name"], 3: ["wrong-token"]}[fmi]
+    """The notes are faults of the wrappers: they do not tell a slave which guid the host gave, that of FMI 2.0
+    decodes %20 alone in the URI of its resources, that of FMI 3.0 drops start and stop time."""
+    notes = {2: ["wrong-token", "folder-name"], 3: ["stop-time", "start-time", "wrong-token"]}[fmi]
     assert [one.check for one in validate(ready_fmus(fmi=fmi)[name])] == notes
 
 
@@ -81,6 +87,17 @@ def changed(folder: Path, fmi: int, *replaced: str) -> Path:
     return path
 
 
+def repacked(folder: Path, fmi: int, files: dict[str, bytes | None]) -> Path:
+    """ShipManoeuvring with files replaced, added, or left out where there is None."""
+    path = folder / "repacked.fmu"
+    with zipfile.ZipFile(ready_fmus(fmi=fmi)["ShipManoeuvring"]) as good, zipfile.ZipFile(path, "w") as bad:
+        packed = {name: good.read(name) for name in good.namelist()}
+        for name, data in {**packed, **files}.items():
+            if data is not None:
+                bad.writestr(name, data)
+    return path
+
+
 def renamed(folder: Path) -> Path:
     """Its library under another name, and one file with another date."""
     path = folder / "renamed.fmu"
@@ -97,7 +114,8 @@ TYPES = f'<SimpleType name="T"><Enumeration>{ITEMS}</Enumeration></SimpleType>'
 BROKEN = {
     "units": [(2, ('unit="m/s" ', ""), "without a unit: velocity.surge, velocity.sway, velocity.heave"),
               (3, ('unit="m/s"', ""), "without a unit: velocity, current, wind.speed, initial.velocity")],
-    "exponents": [(2, (r'<BaseUnit kg="1" m="1" s="-2" />', ""), "units without exponents of the SI base units: N;")],
+    "exponents": [(2, (r'<BaseUnit kg="1" m="1" s="-2" />', ""), "units without exponents of the SI base units: N;"),
+                  (2, (r'<BaseUnit m="1" />', "<BaseUnit />"), "units whose BaseUnit is empty: m;")],
     "start": [(2, ('start="false"', ""), "hydrodynamics has no start value"),
               (2, ('max="6" start="6"', 'max="6" start="7"'), "7 of degrees_of_freedom is outside its limits 3 to 6"),
               (2, ('start="6"', 'start="six"'), "the start value 'six' of degrees_of_freedom is no Integer"),
@@ -112,6 +130,11 @@ BROKEN = {
                 "output position depends on substep, which is a parameter")],
     "enumerations": [(2, ("<LogCategories>", f"<TypeDefinitions>{TYPES}</TypeDefinitions><LogCategories>"),
                       "two items of type T have the same value")],
+    "nominals": [(2, (' nominal="100.0"', ""), "without a nominal value: position.north, position.east, position.down"),
+                 (3, (' nominal="100.0"', ""), "without a nominal value: position, initial.position")],
+    "experiment": [(2, ('stopTime="60.0" tolerance="1e-06" ', ""), "DefaultExperiment has no stopTime, tolerance"),
+                   (3, ('<DefaultExperiment [^>]*>', ""), "DefaultExperiment has no stopTime, tolerance, stepSize")],
+    "authorship": [(2, ('author="[^"]*" copyright="[^"]*" ', ""), "the description does not say author, copyright")],
     "token": [(2, ('guid="[^"]*"', 'guid=" "'), "guid (instantiationToken) is empty")],
     "content": [(2, ('start="0.05"', 'start="0.06"'), "the file was changed after it was built"),
                 (3, ('instantiationToken="....', 'instantiationToken="0123'), "but resources/build.json has")],
@@ -136,8 +159,39 @@ def test_rules_about_the_archive(tmp_path: Path) -> None:
     assert "the file was changed after it was built" in found["content"]
 
 
+REPACKED = {
+    "documents": [
+        (3, {"documentation/externalDependencies.txt": None}, "needsExecutionTool is true: documentation/externalD"),
+        (2, {"documentation/licenses/license.txt": None}, "there are licences, but documentation/licenses/license.txt"),
+    ],
+    "icon": [
+        (2, {"model.png": None}, "there is no icon: add model.png"),
+        (3, {"terminalsAndIcons/icon.png": None}, "there is no icon: add terminalsAndIcons/icon.png"),
+    ],
+    "platforms": [
+        (2, {"binaries/win64/ShipManoeuvring.dll": b"\x7fELF"}, "binaries/win64/ShipManoeuvring.dll is no library of"),
+        (2, {"binaries/linux64/ShipManoeuvring.so": b"MZ"}, "binaries/linux64/ShipManoeuvring.so is no library of"),
+        (2, {"resources/requirements.txt": b"numpy\npybullet>=3.2.5\n"},
+         "binaries/win64/ShipManoeuvring.dll cannot work: pybullet of resources/requirements.txt exists for Linux"),
+    ],
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("rule", "fmi", "files", "line"), [(rule, *case) for rule, cases in REPACKED.items() for case in cases]
+)
+def test_a_rule_finds_a_file_that_is_missing_or_wrong(
+    tmp_path: Path, rule: str, fmi: int, files: dict[str, bytes | None], line: str
+) -> None:
+    (check,) = (one.check for one in RULES if one.name == rule)
+    assert list(check(Subject(ready_fmus(fmi=fmi)["ShipManoeuvring"]))) == []
+    found = list(check(Subject(repacked(tmp_path, fmi, files))))
+    assert len(found) == 1
+    assert line in found[0]
+
+
 def test_every_rule_has_a_case() -> None:
-    assert {*BROKEN, "library"} == {rule.name for rule in RULES}
+    assert {*BROKEN, *REPACKED, "library"} == {rule.name for rule in RULES}
     assert len(set(NAMES)) == len(NAMES)
 
 
@@ -161,12 +215,12 @@ class Careless(Fmi2Slave):
         self.register_variable(Real("gain", causality=Fmi2Causality.parameter, variability=Fmi2Variability.fixed))
 
     def get_real(self, vrs):
-        return [self.x for _ in vrs]
+        return [self.x if min(vrs) >= 0 else 0.5 for _ in vrs]
 
     def do_step(self, t, h):
         self.hidden += 1.0
         self.x = self.hidden + 100.0 * self.number
-        return self.number == 0 or self.number > 1
+        return self.number not in (1, 18)  # 18: the second of the two that should run side by side
 """
 FAILING = """
 from pythonfmu import Fmi2Slave
@@ -197,12 +251,93 @@ def badly_made(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
 
 def test_every_probe_finds_what_breaks_it(badly_made: list[Path]) -> None:
     careless, failing = ([(probe.name, line) for probe, line in run_probes(fmu)] for fmu in badly_made)
-    assert {name for name, _ in careless + failing} == {probe.name for probe in PROBES}
+    names = {probe.name for probe in PROBES}
+    assert {name for name, _ in careless + failing} == names - {"start-time"}  # found in our own FMUs for FMI 3.0
     assert ("step-size", "a step of -0.01 s is not refused") in careless
+    assert ("stop-time", "a step that ends after the stop time is not refused") in careless
+    assert (
+        "wrong-reference",
+        "one unknown value reference spoils the other values of the call, which is not refused",
+    ) in (careless)
     assert ("set-output", "setting output x is not refused") in careless
     assert ("reset", "after reset the outputs of the first step differ from the first time") in careless
     assert ("runs", "initialisation with the start values answers status 4") in failing
     assert ("step-first", "crashes the host (SIGABRT): no step before initialisation") in failing
+
+
+class Strict:
+    """An instance that follows the state machine of FMI 2.0 (section 4.2.4) to the letter: a call that is not allowed
+    answers fmi2Error, and after that everything but reset and free does."""
+
+    fmi = 2
+
+    def __init__(self, folder: Path, token: str | None = None, *, by_standard: bool = False) -> None:
+        if token is not None:
+            raise ValueError("another guid")
+        capabilities = SimpleNamespace(canBeInstantiatedOnlyOncePerProcess=False, canGetAndSetFMUstate=False)
+        variable = partial(SimpleNamespace, type="Real", dimensions=[])
+        self.description = SimpleNamespace(coSimulation=capabilities, modelVariables=[
+            variable(name="x", valueReference=0, causality="output", variability="continuous"),
+            variable(name="k", valueReference=1, causality="parameter", variability="fixed"),
+        ])  # fmt: skip
+        self.fmu = SimpleNamespace(freeInstance=lambda: None)
+        self.mode, self.stop, self.now = "instantiated", math.inf, 0.0
+
+    def call(self, name: str, *arguments: Any) -> int:
+        """A call by name."""
+        if name == "Reset":
+            self.mode = "instantiated"
+            return 0
+        before, after = {
+            "EnterInitializationMode": ("instantiated", "initialising"),
+            "ExitInitializationMode": ("initialising", "running"),
+            "Terminate": ("running", "terminated"),
+        }[name]
+        return self._answer(self.mode == before, after)
+
+    def _answer(self, allowed: bool, after: str) -> int:
+        self.mode = after if allowed else "error"
+        return 0 if allowed else 3
+
+    def enter(self, start: float = 0.0, stop: float | None = None) -> int:
+        """Set up the experiment and enter."""
+        self.now, self.stop = start, math.inf if stop is None else stop
+        return self.call("EnterInitializationMode")
+
+    def begin(self, start: float = 0.0, stop: float | None = None) -> int:
+        """Through initialisation."""
+        return self.enter(start, stop) or self.call("ExitInitializationMode")
+
+    def step(self, t: float, h: float) -> int:
+        """A step."""
+        allowed = self.mode == "running" and h > 0.0 and t + h <= self.stop * (1.0 + 1e-9)
+        self.now = t + h
+        return self._answer(allowed, "running")
+
+    def step_size(self) -> float:
+        """Proposed."""
+        return 0.1
+
+    def set(self, variable: Any, value: float) -> int:
+        """Neither an output nor a parameter may be set on the way."""
+        return self._answer(self.mode == "instantiated" and variable.causality == "parameter", self.mode)
+
+    def read(self, references: list[int]) -> tuple[int, list[float]]:
+        """Values."""
+        return self._answer(max(references) < 2, self.mode), [self.now for _ in references]
+
+    def read_outputs(self) -> list[str]:
+        """All outputs."""
+        return [self.now.hex()]
+
+    find_variable = calls.Instance.find_variable
+
+
+def test_an_fmu_that_follows_the_state_machine_is_not_blamed(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """After an error FMI allows no step: a probe that asks for one has itself to blame."""
+    monkeypatch.setattr(calls, "Instance", Strict)
+    (tmp_path / "modelDescription.xml").write_text("")
+    assert [(probe.name, line) for probe in PROBES for line in probe.run(tmp_path)] == []
 
 
 def test_the_command_tells_problems_and_notes(badly_made: list[Path]) -> None:
