@@ -17,6 +17,7 @@ from ..ship.hull.hull import build_hull
 from ..ship.hull.solid import HullMesh
 from ..ship.loading.library import Ship, load_ship
 from .dynamics.body_state import BodyState
+from .feedback import PRESCRIBED, choose_feedbacks
 from .fender import Fender, build_fender
 from .geometry.broad_phase import Rectangle
 from .geometry.bullet import BulletBody
@@ -44,6 +45,7 @@ class Body:
     bullet: BulletBody
     fender: Fender | None
     coasting: CoastingLaw | None = None  # None: straight
+    feedback: str = PRESCRIBED  # of a ship; an obstacle never answers
     wall: BodyState | None = None
     rectangle: Rectangle = (0.0, 0.0, 0.0, 0.0)
     fender_thickness: float = field(init=False)
@@ -65,10 +67,11 @@ class Body:
 
 def prepare_bodies(names: Sequence[str], parameters: CollisionParameters, directory: Path | None = None) -> list[Body]:
     """The bodies that the parameters ask for; ship files are looked for in `directory` first. Raises InputError."""
+    feedbacks = choose_feedbacks(names, parameters)
     ships = [load_ship(p.ship, directory) for p in parameters.ships]
     if parameters.response == "bullet":
-        _refuse_what_bullet_lacks(names, ships, parameters.ships)
-    bodies = [_ship(name, ship, p) for name, ship, p in zip(names, ships, parameters.ships, strict=True)]
+        _refuse_what_bullet_lacks(names, ships, parameters.ships, feedbacks)
+    bodies = [_ship(*each) for each in zip(names, ships, parameters.ships, feedbacks, strict=True)]
     for obstacle in read_obstacles(parameters.obstacles):
         if obstacle.name in names:
             raise InputError(f"obstacles: {obstacle.name!r} is the name of a ship: give the obstacle another name")
@@ -76,16 +79,20 @@ def prepare_bodies(names: Sequence[str], parameters: CollisionParameters, direct
     return bodies
 
 
-def _ship(name: str, ship: Ship, parameters: ShipParameters) -> Body:
+def _ship(name: str, ship: Ship, parameters: ShipParameters, feedback: str) -> Body:
     hull = build_hull(ship.L_oa, ship.B, ship.T, ship.hull)
     S, fender = skew(ship.r_bg), parameters.fender
     inertia_g = np.diag(ship.M_RB[3:, 3:] + ship.mass * S @ S).copy()
+    M_inverse, held = free_inverse(ship.M, parameters.degrees_of_freedom), None
+    if feedback == PRESCRIBED:  # no impulse changes its motion
+        M_inverse = np.zeros((6, 6))
+    else:
+        held = held_mobility(ship.M, parameters.degrees_of_freedom)
     return Body(
         name, hull, float(np.linalg.norm(hull.vertices, axis=1).max()),
-        parameters.degrees_of_freedom, free_inverse(ship.M, parameters.degrees_of_freedom),
-        held_mobility(ship.M, parameters.degrees_of_freedom), BulletBody(ship.mass, inertia_g, np.array(ship.r_bg)),
+        parameters.degrees_of_freedom, M_inverse, held, BulletBody(ship.mass, inertia_g, np.array(ship.r_bg)),
         build_fender(f"{name}.fender", fender.stiffness, fender.damping, fender.thickness),
-        _predict_coasting(name, ship, parameters),
+        _predict_coasting(name, ship, parameters), feedback,
     )  # fmt: skip
 
 
@@ -111,13 +118,20 @@ def _wall(obstacle: Obstacle) -> Body:
     (n_0, e_0, _), (n_1, e_1, _) = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()
     return Body(
         obstacle.name, obstacle.solid, float(np.linalg.norm(obstacle.solid.vertices, axis=1).max()),
-        0, wall.M_inverse, None, BulletBody(0.0, np.zeros(3), np.zeros(3)), obstacle.fender, None, wall,
+        0, wall.M_inverse, None, BulletBody(0.0, np.zeros(3), np.zeros(3)), obstacle.fender, None, PRESCRIBED, wall,
         (n_0, n_1, e_0, e_1),
     )  # fmt: skip
 
 
-def _refuse_what_bullet_lacks(names: Sequence[str], ships: Sequence[Ship], given: Sequence[ShipParameters]) -> None:
-    for name, ship, parameters in zip(names, ships, given, strict=True):
+def _refuse_what_bullet_lacks(
+    names: Sequence[str], ships: Sequence[Ship], given: Sequence[ShipParameters], feedbacks: Sequence[str]
+) -> None:
+    for name, ship, parameters, feedback in zip(names, ships, given, feedbacks, strict=True):
+        if feedback == PRESCRIBED:
+            raise InputError(
+                f"response 'bullet' moves bodies by their mass, and {name} is prescribed: take response 'pgs', or "
+                "feedback 'none'"
+            )
         if parameters.degrees_of_freedom != 6:
             raise InputError(
                 f"response 'bullet' moves bodies freely, and {name}.degrees_of_freedom = "

@@ -7,7 +7,7 @@ from math import hypot, isfinite
 
 from ..errors import InputError, StepError
 from .bodies import Body
-from .dynamics.impulse_ledger import FEEDBACKS
+from .feedback import COMMON_FEEDBACKS
 from .interface import CollisionParameters, ShipState
 from .responses import RESPONSES
 
@@ -40,8 +40,8 @@ def check_parameters(p: CollisionParameters) -> None:
             raise InputError(f"{name} = {value} must be a positive number: leave it out, or give e.g. {usual}")
     if p.response not in RESPONSES:
         raise InputError(f"response = {p.response!r} is not known: choose one of {', '.join(RESPONSES)}")
-    if p.feedback not in FEEDBACKS:
-        raise InputError(f"feedback = {p.feedback!r} is not known: choose one of {', '.join(FEEDBACKS)}")
+    if p.feedback not in COMMON_FEEDBACKS:
+        raise InputError(f"feedback = {p.feedback!r} is not known: choose one of {', '.join(COMMON_FEEDBACKS)}")
 
 
 def check_step(t: float, H: float, bodies: Sequence[Body], states: Sequence[ShipState]) -> None:

@@ -4,13 +4,14 @@
                  minimum_separation_time
     scratch      contact of a pair without a pause longer than SCRATCH_PAUSE
 
-Both are numbered from 1. Contacts are read and never changed. With `answer_once` (feedback "none", for ship models that
-ignore contact) only the impact is answered with impulses; the rest of the collision is merely recorded.
+Both are numbered from 1. Contacts are read and never changed. Of ships `answered_once` (feedback "none": models that
+ignore contact) only the impact is answered with impulses; the rest of the collision is merely recorded. So are all
+contacts of two bodies that are `immovable`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from dataclasses import dataclass, field
 from math import acos, degrees
 from typing import Any
@@ -44,8 +45,11 @@ class _Pair:
 class Collisions:
     """Opens, numbers and closes the collisions and scratches of every pair. count: collisions so far."""
 
-    def __init__(self, minimum_separation_time: float, answer_once: bool = False) -> None:
-        self._separation, self._answer_once = minimum_separation_time, answer_once
+    def __init__(
+        self, minimum_separation_time: float, answered_once: Container[int] = (), immovable: Container[int] = ()
+    ) -> None:
+        self._separation = minimum_separation_time
+        self._answered_once, self._immovable = answered_once, immovable
         self._pairs: dict[Pair, _Pair] = {}
         self.count = 0
         self.scratches = 0
@@ -63,10 +67,16 @@ class Collisions:
 
     def split_by_answer(self, pairs: Sequence[Pair]) -> tuple[Sequence[Pair], Sequence[Pair]]:
         """(pairs whose contacts are answered with impulses, pairs whose contacts are merely recorded)."""
-        if not self._answer_once:
+        if not (self._answered_once or self._immovable):
             return pairs, ()
-        is_open = {pair for pair in pairs if pair in self._pairs and self._pairs[pair].collision}
-        return [pair for pair in pairs if pair not in is_open], [pair for pair in pairs if pair in is_open]
+        recorded = {pair for pair in pairs if self._is_recorded(*pair)}
+        return [pair for pair in pairs if pair not in recorded], [pair for pair in pairs if pair in recorded]
+
+    def _is_recorded(self, a: int, b: int) -> bool:
+        if a in self._immovable and b in self._immovable:
+            return True
+        pair = self._pairs.get((a, b))
+        return (a in self._answered_once or b in self._answered_once) and pair is not None and pair.collision > 0
 
     def register(self, t: float, contacts: Sequence[Contact], states: Sequence[BodyState]) -> Numbers:
         """Open what begins with these contacts at time t [s]; the numbers of every pair in contact.

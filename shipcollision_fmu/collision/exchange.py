@@ -37,9 +37,9 @@ class ShipExchange:
     """Ledgers and last received states of the ships. inputs, outputs: of the model, one each per ship."""
 
     def __init__(
-        self, bodies: Sequence[Body], feedback: str, inputs: Sequence[ShipState], outputs: Sequence[ShipPost]
+        self, bodies: Sequence[Body], feedbacks: Sequence[str], inputs: Sequence[ShipState], outputs: Sequence[ShipPost]
     ) -> None:
-        self._bodies, self._feedback, self._inputs, self._outputs = bodies, feedback, inputs, outputs
+        self._bodies, self._feedbacks, self._inputs, self._outputs = bodies, feedbacks, inputs, outputs
         self._centres = [body.bullet.r_bg.tolist() for body in bodies[: len(inputs)]]
         self._laws = [body.coasting for body in bodies[: len(inputs)]]
         self.ledgers = [ImpulseLedger() for _ in inputs]
@@ -57,7 +57,7 @@ class ShipExchange:
         return [
             None
             if self._last_received[i] is None
-            and self.ledgers[i].is_quiet(self._feedback, self._inputs[i].impulse_applied)
+            and self.ledgers[i].is_quiet(self._feedbacks[i], self._inputs[i].impulse_applied)
             else self._receive(i, t, H)
             for i in range(len(self._inputs))
         ]
@@ -73,7 +73,7 @@ class ShipExchange:
 
     def _receive(self, i: int, t: float, H: float) -> BodyState:
         """State of a ship, corrected by what is pending and by other forces."""
-        received, body, feedback = self._inputs[i], self._bodies[i], self._feedback
+        received, body, feedback = self._inputs[i], self._bodies[i], self._feedbacks[i]
         nu, x = np.array(received.velocity + received.rate), np.array(received.position)
         M_inverse = body.inverse_at(received.attitude)
         state = BodyState.at(x, np.array(received.attitude), nu, M_inverse, body.bullet.r_bg, body.held)
@@ -144,7 +144,7 @@ class ShipExchange:
         """Twist (6,) at the end of the step, in b by then. For a ship that adopts it after an impulse the law is asked
         again: it then has the energy that the impulse left it."""
         law = self._bodies[i].coasting
-        if law is None or self._feedback != "state" or state.end_gain is None or not state.issued.any():
+        if law is None or self._feedbacks[i] != "state" or state.end_gain is None or not state.issued.any():
             return [*state.twist_at_predicted_pose().tolist()]
         received, nu = self._inputs[i], state.nu.tolist()
         _, _, velocity, rate = law.coast(received.position, received.attitude, nu[:3], nu[3:], H)

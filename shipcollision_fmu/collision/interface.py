@@ -42,12 +42,15 @@ class FenderParameters:
 @dataclass
 class ShipParameters:
     """Which ship it is: a name or a file; degrees_of_freedom 3 (surge, sway, yaw), 4 (and roll) or 6, as its model
-    has; the law by which it is expected to move between impulses (ship/coasting_law.py); the fender around its hull."""
+    has; the law by which it is expected to move between impulses (ship/coasting_law.py); the fender around its hull;
+    its feedback (feedback.py), and the same as text, empty where the other one holds."""
 
     ship: str = "kvlcc2"
     degrees_of_freedom: int = 6
     coasting: str = COASTING[0]
     fender: FenderParameters = field(default_factory=FenderParameters)
+    feedback: str = "common"
+    feedback_name: str = ""
 
 
 @dataclass

@@ -42,6 +42,7 @@ from .dynamics.contact import book_impulses
 from .dynamics.passivity import enforce_passivity
 from .dynamics.self_stress import remove_self_stress
 from .exchange import ShipExchange
+from .feedback import PRESCRIBED
 from .fender_ledger import FenderLedger, select_fenders
 from .geometry.broad_phase import Pair
 from .geometry.detection import Detector
@@ -95,13 +96,18 @@ class ShipCollision:
         check_states(0.0, bodies, self.inputs.ships)
         self.close()
         self._bodies = bodies
+        feedbacks = [body.feedback for body in bodies[:n]]
         self._detector = Detector([body.hull for body in bodies])
-        self._exchange = ShipExchange(bodies, parameters.feedback, self.inputs.ships, self.outputs.ships)
+        self._exchange = ShipExchange(bodies, feedbacks, self.inputs.ships, self.outputs.ships)
         self._proximity = Proximity(bodies, n, self._detector, parameters.clearance_range)
-        self._collisions = Collisions(parameters.minimum_separation_time, parameters.feedback == "none")
+        self._collisions = Collisions(
+            parameters.minimum_separation_time,
+            {i for i in range(n) if feedbacks[i] == "none"},
+            {i for i, body in enumerate(bodies) if body.feedback == PRESCRIBED} if PRESCRIBED in feedbacks else (),
+        )
         self._fenders, self._caches, self._totals = FenderLedger(), ContactCaches(), Totals()
         self._diagnosis = Diagnosis(
-            bodies, [parameters.feedback] * n, self._exchange.ledgers, self.inputs.ships, self.outputs.diagnosis
+            bodies, feedbacks, self._exchange.ledgers, self.inputs.ships, self.outputs.diagnosis
         )
         self._bullet_bodies = [body.bullet for body in bodies]
         self._walls = [body.wall for body in bodies if body.wall is not None]

@@ -14,7 +14,7 @@ from __future__ import annotations
 from math import pi
 
 from ..collision.checks import MAXIMUM_FRICTION
-from ..collision.dynamics.impulse_ledger import FEEDBACKS
+from ..collision.feedback import COMMON_FEEDBACKS, SHIP_FEEDBACKS
 from ..collision.findings import FINDINGS
 from ..collision.interface import contact_point_count
 from ..collision.model import ShipCollision
@@ -69,6 +69,7 @@ def table(ships: tuple[str, ...] = SHIPS) -> Table:
         *(_coasting(i, name) for i, name in enumerate(ships)),
         *_starts(contact_point_count(len(ships))),
         *_diagnosis(len(ships)),
+        *(line for i, name in enumerate(ships) for line in _feedback(i, name)),
     )
 
 
@@ -371,7 +372,7 @@ def _parameters() -> Table:
         ),
         enumeration("parameter", "response", tuple(RESPONSES), "parameters.response", "Solver of the contact problem"),
         enumeration(
-            "parameter", "feedback", tuple(FEEDBACKS), "parameters.feedback",
+            "parameter", "feedback", COMMON_FEEDBACKS, "parameters.feedback",
             "How the ship models respond: by impulse_applied, by force, by adopting post.*, or not at all",
         ),
         string(
@@ -409,6 +410,21 @@ def _diagnosis(ships: int) -> Table:
         string(
             "output", "diagnosis.text", "outputs.diagnosis.text", "Text of the first finding, with its remedy",
             depends_on=(),
+        ),
+    )  # fmt: skip
+
+
+def _feedback(i: int, s: str) -> Table:
+    """How one ship responds, where it is not as the others do."""
+    return (
+        enumeration(
+            "parameter", f"{s}.feedback", SHIP_FEEDBACKS, f"parameters.ships.{i}.feedback",
+            f"How the model of {s} responds: as the parameter feedback says; by impulse_applied, by force, by adopting "
+            "post.*, or not at all; or prescribed: it follows its track, as if its mass were infinite",
+        ),
+        string(
+            "parameter", f"{s}.feedback_name", f"parameters.ships.{i}.feedback_name",
+            f"{s}.feedback as text, for hosts that do not pass enumerations; empty: {s}.feedback holds",
         ),
     )  # fmt: skip
 

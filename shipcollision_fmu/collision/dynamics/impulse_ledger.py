@@ -6,10 +6,11 @@ whatever the order in which the master calls the models.
 
 `feedback` says how the ship model shows what it has applied:
 
-    ledger   the ship model returns impulse_applied
-    force    the ship model takes the mean force; the velocity that it returns shows the impulse
-    state    the ship model adopts the post-impact state; the velocity that it returns shows the impulse
-    none     the ship model ignores contact: nothing is ever applied, and nothing is pending
+    ledger      the ship model returns impulse_applied
+    force       the ship model takes the mean force; the velocity that it returns shows the impulse
+    state       the ship model adopts the post-impact state; the velocity that it returns shows the impulse
+    none        the ship model ignores contact: nothing is ever applied, and nothing is pending
+    prescribed  the same, and the mass of the ship is infinite: what is issued is the reaction that its track takes
 
 An impulse in b determines an impulse in n only together with a pose. A sequential master applies it at the pose for
 which it was solved. A parallel master applies it one step later, at another pose: the *one-step delay*. The ledger is
@@ -101,7 +102,9 @@ class ImpulseLedger:
             pending = FEEDBACKS[feedback](self, nu, M_inverse)
             if pending.any():
                 nu = nu + M_inverse @ pending
-            return Reading(x, R, nu, applied, self._applied_n, pending, _NOTHING, False, False)
+            # A prescribed ship applies nothing: its pose is that of the time at which the other ships apply theirs.
+            delay = None if feedback == "prescribed" else False
+            return Reading(x, R, nu, applied, self._applied_n, pending, _NOTHING, delay, False)
         if self.is_quiet(feedback, applied.tolist()):
             out_of_range = _is_out_of_range(nu, reach, H)
             return Reading(x, R, nu, applied, self._applied_n, _NOTHING, _NOTHING, self.one_step_delay, out_of_range)
@@ -189,6 +192,7 @@ FEEDBACKS: dict[str, Callable[[ImpulseLedger, Array, Array], Array]] = {
     "force": ImpulseLedger.infer_pending,
     "state": ImpulseLedger.infer_pending,
     "none": _infer_nothing,
+    "prescribed": _infer_nothing,
 }
 """By name, how the pending impulse (6,) is inferred. With "ledger" it is received, not inferred."""
 
