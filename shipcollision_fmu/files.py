@@ -13,7 +13,7 @@ from pathlib import Path
 
 from .errors import HostError
 
-__all__ = ["IN_PLACE", "check_writable", "user_cache", "write_file", "write_files"]
+__all__ = ["IN_PLACE", "check_writable", "refuse_other_texts", "user_cache", "write_file", "write_files"]
 
 ANOTHER_FOLDER = "give another folder with --out"
 """Remedy in messages about a folder that the user chose."""
@@ -38,6 +38,17 @@ def check_writable(out: Path) -> None:
         Path(tempfile.mkdtemp(prefix=".shipcollision-", dir=place)).rmdir()
     except OSError as error:
         raise _describe_failure(out, error) from None
+
+
+def refuse_other_texts(out: Path, texts: Mapping[str, str]) -> None:
+    """Raise HostError when the folder `out` has a file of one of these names with another text than the one given."""
+    for name, text in texts.items():
+        path = out / name
+        if path.exists() and path.read_bytes() != text.encode():
+            raise HostError(
+                f"{path} exists and would be replaced by another text: name the scenario differently with --out, or "
+                "replace it with --overwrite"
+            )
 
 
 def write_files(out: Path, files: Mapping[str, str | bytes], remedy: str = ANOTHER_FOLDER) -> None:

@@ -95,6 +95,31 @@ def test_a_page_that_cannot_be_made_does_not_undo_the_run(folder: Path, monkeypa
     assert not (folder / "runs" / "encounter" / "replay.html").exists()
 
 
+def test_run_replaces_no_file_of_other_origin_unless_told_so(folder: Path) -> None:
+    """Measured data called states.csv, a picture, a summary of another program: kept. Both remedies work."""
+    run = ("run", "encounter.toml", "--in-process", "--out", "data")
+    for name, text in (("states.csv", "mine"), ("still.png", "mine"), ("summary.json", '{"versions": 3}')):
+        Path("data").mkdir(exist_ok=True)
+        Path("data", name).write_text(text, encoding="utf-8")
+        refused = called(*run)
+        assert (refused.exit_code, refused.stdout) == (1, ""), name
+        assert "error: data holds " in refused.stderr
+        assert "of other origin (no run of this program has its summary.json there): give another" in refused.stderr
+        assert name in refused.stderr
+        assert refused.stderr.count("\n") == 1
+    assert sorted(p.name for p in Path("data").iterdir()) == ["states.csv", "still.png", "summary.json"]
+    assert Path("data", "states.csv").read_text(encoding="utf-8") == "mine"
+    assert called(*run[:-1], "elsewhere").exit_code == 0
+    assert called(*run, "--overwrite").exit_code == 0
+    assert Path("data", "states.csv").read_text(encoding="utf-8").startswith("time,own.")
+    assert not Path("data", "still.png").exists()  # of an earlier run, as far as anybody knows
+    assert called(*run).exit_code == 0  # a run replaces an earlier one
+    Path("notes").mkdir()
+    Path("notes", "read.me").write_text("mine", encoding="utf-8")
+    assert called(*run[:-1], "notes").exit_code == 0
+    assert Path("notes", "read.me").exists()
+
+
 def test_run_compares_with_what_was_published(folder: Path) -> None:
     reference = """
         [reference]
@@ -392,6 +417,24 @@ def test_a_traffic_situation_becomes_a_scenario_with_its_ships(folder: Path) -> 
     result = called("run", "in/s.toml", "--in-process")
     assert result.exit_code == 0, result.stderr
     assert "own - target" in result.stdout  # head-on, 1.1 km apart, 18 kn: 110 s
+
+
+def test_import_replaces_no_other_ship_file_unless_told_so(folder: Path) -> None:
+    Path("s.json").write_text(SITUATION, encoding="utf-8")
+    Path("s-own.toml").write_text(BARGE, encoding="utf-8")
+    made = ("import", "s.json", "--out", "s.toml", "--duration", "115", "--step", "0.5")
+    refused = called(*made)
+    assert (refused.exit_code, refused.stdout) == (1, "")
+    assert refused.stderr == (
+        "error: s-own.toml exists and would be replaced by another text: name the scenario differently with --out, or "
+        "replace it with --overwrite\n"
+    )
+    assert Path("s-own.toml").read_text(encoding="utf-8") == BARGE
+    assert not Path("s.toml").exists()
+    assert called("import", "s.json", "--out", "t.toml", *made[4:]).exit_code == 0
+    assert called(*made, "--overwrite").exit_code == 0
+    assert Path("s-own.toml").read_text(encoding="utf-8") != BARGE
+    assert called(*made).exit_code == 0  # the same text again
 
 
 @pytest.mark.parametrize(

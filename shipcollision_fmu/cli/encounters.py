@@ -88,21 +88,25 @@ def encounter(kind: str, out: Path | None, case: int | None, degrees_of_freedom:
 @click.option("--step", type=NUMBER, default=0.05, show_default=True, metavar="S", help="Communication step.")
 @click.option("--hydrodynamics", is_flag=True, help="Sail the ships along their waypoints; else they coast.")
 @click.option("--out", type=TOML_PATH, required=True, metavar="FILE.toml", help="Scenario to write.")
+@click.option("--overwrite", is_flag=True, help="Replace other ship files of the same names beside it, too.")
 def import_(
-    file: Path, ship: str | None, own: str | None, duration: float | None, step: float, hydrodynamics: bool, out: Path
-) -> None:
+    file: Path, ship: str | None, own: str | None, duration: float | None, step: float, hydrodynamics: bool, out: Path,
+    overwrite: bool,
+) -> None:  # fmt: skip
     """Make a scenario of a traffic situation in JSON.
 
     FILE comes from DNV's trafficgen or maritime-schema, version 0.1 or 0.2. A ship without --ship gets a ship file of
     its dimensions beside the scenario.
     """
     from ..encounters.traffic.situation import traffic_scenario
-    from ..files import check_writable, write_files
+    from ..files import check_writable, refuse_other_texts, write_files
 
     traffic = traffic_scenario(
         file, out=out, ship=ship, own=own, duration=duration, step=step, hydrodynamics=hydrodynamics
     )
     check_writable(out.parent)
+    if not overwrite:
+        refuse_other_texts(out.parent, traffic.ship_files)
     write_files(out.parent, {**traffic.ship_files, out.name: traffic.text})
     for name in (*traffic.ship_files, out.name):
         click.echo(out.parent / name)

@@ -21,6 +21,7 @@ __all__ = ["run", "show"]
 @click.option("--step", type=NUMBER, metavar="S", help="Communication step in seconds, instead of the scenario's.")
 @click.option("--in-process", is_flag=True, help="Drive the models without FMI; gives the same bits.")
 @click.option("--fmi", type=FMI, default="2", show_default=True, help="Version of the FMUs; gives the same bits.")
+@click.option("--overwrite", is_flag=True, help="Replace files of other origin in the folder of the results, too.")
 @click.option("--page/--no-page", default=True, help="Write replay.html, which shows the run.  [default: --page]")
 def run(
     scenario: str,
@@ -29,6 +30,7 @@ def run(
     step: float | None,
     in_process: bool,
     fmi: str,
+    overwrite: bool,
     page: bool,
 ) -> None:
     """Co-simulate SCENARIO and store the results.
@@ -36,9 +38,12 @@ def run(
     SCENARIO is a name that `shipcollision scenarios` lists, or the path of a TOML file. Without one it is guan2014, the
     published collision. The FMUs are built first when they are missing or older than the sources.
     """
+    from ..cosim.earlier_run import refuse_foreign_files
     from ..cosim.fmu_files import require_pybullet
+    from ..cosim.run import RUN_FILES
     from ..cosim.simulate import simulate
     from ..scenario.scenario import load_scenario
+    from ..show.outputs import PICTURES
     from .run_table import make_run_tables, summarise_run
 
     if in_process and fmi != "2":
@@ -46,10 +51,13 @@ def run(
     require_pybullet()
     loaded = load_scenario(scenario)
     folder = out if out is not None else Path("runs") / loaded.name
+    if not overwrite:
+        refuse_foreign_files(folder, (*RUN_FILES, *PICTURES))
     with progress(loaded.name) as report:
         finished = simulate(
-            loaded, algorithm=algorithm, step=step, in_process=in_process, fmi=int(fmi), out=folder, progress=report
-        )
+            loaded, algorithm=algorithm, step=step, in_process=in_process, fmi=int(fmi), out=folder,
+            overwrite=overwrite, progress=report,
+        )  # fmt: skip
     _remove_pictures(folder)
     stdout = console()
     for table in make_run_tables(finished):

@@ -14,7 +14,12 @@ from .run_frames import RunFrames, data_frames
 from .run_page import RunPage, run_page
 from .run_repr import run_html, run_text
 
-__all__ = ["Run"]
+__all__ = ["RUN_FILES", "Run"]
+
+RUN_FILES = (
+    "states.csv", "contacts.csv", "events.json", "summary.json", "signals.csv", "bodies.json", "timing.json",
+)  # fmt: skip
+"""Files of a run in its folder."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -41,15 +46,11 @@ class Run:
 
         Everything but timing.json is the same, to the byte, for the same scenario and software.
         """
-        write_files(Path(out), {
-            "states.csv": csv_text(self.states),
-            "contacts.csv": csv_text(self.contacts),
-            "events.json": json_text(self.events),
-            "summary.json": json_text(self.summary),
-            "signals.csv": csv_text(self.signals),
-            "bodies.json": json_text(self.bodies),
-            "timing.json": json_text(self.timing),
-        })  # fmt: skip
+        texts = (
+            csv_text(self.states), csv_text(self.contacts), json_text(self.events), json_text(self.summary),
+            csv_text(self.signals), json_text(self.bodies), json_text(self.timing),
+        )  # fmt: skip
+        write_files(Path(out), dict(zip(RUN_FILES, texts, strict=True)))
 
     def to_pandas(self) -> RunFrames:
         """The tables as pandas DataFrames: `states` and `signals` by time [s], `contacts` by row.

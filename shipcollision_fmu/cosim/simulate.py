@@ -23,12 +23,13 @@ from ..results.record import Record
 from ..results.summary import build_summary
 from ..scenario.scenario import Scenario, load_scenario
 from ..ship.ship import Ship
+from .earlier_run import refuse_foreign_files
 from .factories import Factories, fmu_factories, model_factories
 from .fmu_files import ready_fmus, require_pybullet
 from .interrupt import delay_interrupts
 from .master import ALGORITHMS
 from .recorder import Recorder
-from .run import Run
+from .run import RUN_FILES, Run
 from .wiring import connect
 
 __all__ = ["Progress", "run_steps", "simulate"]
@@ -45,9 +46,12 @@ def simulate(
     in_process: bool = False,
     fmi: int = 2,
     out: str | Path | None = None,
+    overwrite: bool = False,
     progress: Progress | None = None,
 ) -> Run:
     """The finished run of a scenario, of its name or of its path; written into the folder `out`, if given.
+
+    There it replaces the files of an earlier run; files of other origin only with `overwrite`.
 
     `algorithm` ("gauss-seidel" or "jacobi") and `step` [s] replace those of the scenario; `fmi` is the version of the
     FMUs, 2 or 3, which give the same bits. FMUs are built when they are missing or older than the sources. Raises
@@ -61,6 +65,8 @@ def simulate(
     require_pybullet()
     if out is not None:
         check_writable(Path(out))
+        if not overwrite:
+            refuse_foreign_files(Path(out), RUN_FILES)
     ships, names = scenario.load_ships(), tuple(scenario.ships)
     with ExitStack() as stack:
         if in_process:

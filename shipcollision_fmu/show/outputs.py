@@ -13,9 +13,9 @@ from .page import PAGE, build_page
 from .plots import FOLDER, write_plots
 from .scene.scene import Scene, load_scene
 
-__all__ = ["PAGE", "describe", "load_scene", "remove", "write", "write_page"]
+__all__ = ["PAGE", "PICTURES", "describe", "load_scene", "remove", "write", "write_page"]
 
-_FILES = {
+PICTURES = {
     PAGE: "the page: open it in a browser",
     "scene.glb": "glTF 2.0, --glb",
     "scene.osgt": "OpenSceneGraph, --osg",
@@ -24,6 +24,7 @@ _FILES = {
     "impact.mp4": "film, --mp4",
     "still.png": "picture, --still S",
 }
+"""Pictures in the folder of a run, and what they are."""
 
 
 def write_page(scene: Scene, folder: Path) -> Path:
@@ -60,7 +61,7 @@ def write(
 
 def remove(folder: Path) -> None:
     """Remove all pictures from the folder; other files stay."""
-    for name in _FILES:
+    for name in PICTURES:
         place = folder / name
         for file in sorted(place.iterdir()) if place.is_dir() else [place]:
             if file.suffix in (".html", ".glb", ".osgt", ".png", ".svg", ".gif", ".mp4"):
@@ -73,7 +74,7 @@ def describe(scene: Scene, folder: Path) -> list[str]:
     count = len(scene.events)
     collisions = f"{count or 'no'} collision{'' if count == 1 else 's'}"
     lines = [f"{_replace_unprintable(scene.name)}: {scene.end - scene.start:g} s, {collisions}, ships {ships}"]
-    for name, what in _FILES.items():
+    for name, what in PICTURES.items():
         there = "" if (folder / name).exists() else " (not written yet)"
         lines.append(f"  {name:<12} {what}{there}")
     return lines
