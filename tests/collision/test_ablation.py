@@ -211,6 +211,16 @@ ABLATIONS = {
             fixture("world"), fixture("boat")
         ),
     ),
+    "return to a missed first touch": Ablation(
+        detection.Detector, "misses_first_touch", lambda *_: False,
+        lambda fixture: touches.test_corners_that_graze_by_a_centimetre_meet_end_on(fixture("world"), fixture("boat")),
+    ),
+    "steep normals that follow the last": Ablation(
+        detection, "STEEP", 2.0,
+        lambda fixture: touches.test_a_ship_that_is_driven_on_does_not_pass_over_a_low_rock(
+            fixture("world"), fixture("boat")
+        ),
+    ),
     "normals that follow a thin hull": Ablation(
         detection, "FOLLOWS", 2.0,
         lambda fixture: touches.test_a_ship_slides_along_a_pole_that_is_inside_it(fixture("world"), fixture("boat")),
