@@ -1,6 +1,7 @@
 """Impulses that come too late: under a parallel master a ship moves on for a step after the impact.
 
-A sequential master applies the impulse predicted for a step at its start, and hulls never overlap. Under a parallel
+A sequential master applies the impulse predicted for a step at its start. Hulls then overlap only where the impulse
+turns a body that touches late in the step: its other end has turned the other way from the start on. Under a parallel
 master a ship that an impulse stops from the speed V moves V H past the first touch. It is stopped there, with the right
 impulse. Where V H exceeds the thinner hull, the ship then stands on the far side of what it hit. No model can put it
 back: poses belong to the ship model.
