@@ -4,6 +4,7 @@
     contact          a contact point; velocities there; booking of impulses and the energy that they cost
     contact_frame    axes of a contact
     delassus         approach velocities v and Delassus operator W of all contacts
+    small_blocks     products and linear systems of many contacts, without threads
     passivity        scales back impulses that would add energy
     impulse_ledger   what was issued to a ship, and what the ship model applied
     other_forces     velocity that other forces add within a step

@@ -26,6 +26,7 @@ import numpy as np
 from ...ship.frames import Array
 from .body_state import BodyState
 from .contact import Contact
+from .small_blocks import multiply_matrices
 
 __all__ = ["approach_velocities", "delassus", "held_delassus", "mobility"]
 
@@ -49,7 +50,7 @@ def delassus(contacts: Sequence[Contact], states: Sequence[BodyState]) -> Array:
         G[row, column[c.b]] = c.G_b
         G[row] = c.axes @ G[row]
     GM = np.hstack([G[:, column[body]] @ states[body].M_inverse for body in bodies])
-    W: Array = GM @ G.T
+    W = multiply_matrices(GM, G.T)
     symmetric: Array = 0.5 * (W + W.T)
     return symmetric
 
@@ -64,21 +65,22 @@ def mobility(c: Contact, states: Sequence[BodyState]) -> Array:
 def held_delassus(contacts: Sequence[Contact], states: Sequence[BodyState]) -> Array | None:
     """H (3k, 3k) [1/kg] in contact axes; None where no motion is held."""
     H: Array | None = None
-    for body in sorted({body for c in contacts for body in (c.a, c.b)}):
+    at, down = np.array([c.at for c in contacts]), np.array([c.axes[:, 2] for c in contacts])
+    ends = np.array([(c.a, c.b) for c in contacts])
+    for body in np.unique(ends).tolist():
         if (held := states[body].held) is None:
             continue
-        rows = np.zeros((3 * len(contacts), 3))
-        for i, c in enumerate(contacts):
-            if body in (c.a, c.b):
-                down = c.axes[:, 2] if body == c.b else -c.axes[:, 2]
-                rows[3 * i : 3 * i + 3] = np.outer(down, _vertical_velocity(c.at, states[body]))
-        added = rows @ held @ rows.T
+        sign = (ends == body) @ (-1.0, 1.0)
+        g = _vertical_velocities(at, states[body])
+        rows = ((sign[:, None] * down)[:, :, None] * g[:, None, :]).reshape(-1, 3)
+        added = multiply_matrices(rows @ held, rows.T)
         H = added if H is None else H + added
     return H
 
 
-def _vertical_velocity(at: Array, state: BodyState) -> tuple[float, float, float]:
-    """g: velocity down [m/s] of a point of a body per heave [m/s], roll and pitch [rad/s]."""
+def _vertical_velocities(at: Array, state: BodyState) -> Array:
+    """g (k, 3): velocity down [m/s] of points of a body per heave [m/s], roll and pitch [rad/s]."""
     (c_x, s_x), (x, y) = state.R_applied[:2, 0].tolist(), state.x_applied[:2].tolist()  # heading times cos(trim)
-    north, east = float(at[0]) - x, float(at[1]) - y
-    return 1.0, c_x * east - s_x * north, -(c_x * north + s_x * east) / max(hypot(c_x, s_x), ON_END)
+    north, east = at[:, 0] - x, at[:, 1] - y
+    on_end = max(hypot(c_x, s_x), ON_END)
+    return np.column_stack([np.ones(len(at)), c_x * east - s_x * north, -(c_x * north + s_x * east) / on_end])

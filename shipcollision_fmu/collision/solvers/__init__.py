@@ -14,7 +14,6 @@ contacts.
         aclm_fixed_point   where Newton's method cycles: a sequence of convex problems (ACLM)
     held_motions           friction of ships whose heave and pitch are held
     work_limit             the bound on the work of a communication step
-    small_blocks           products and linear systems of many contacts, without threads
     poisson_restitution    all contacts of an impact with restitution: the solver of response `pgs`
     resultant_contact      the contacts of a pair reduced to one
     impact_process         one contact followed along its normal impulse: the solver of response `closed_form`

@@ -21,8 +21,8 @@ from __future__ import annotations
 import numpy as np
 
 from ...ship.frames import Array
+from ..dynamics.small_blocks import MOST_ROWS, multiply
 from .contact_law import law_residual
-from .small_blocks import MOST_ROWS, multiply
 from .work_limit import WorkLimit
 
 __all__ = ["solve_aclm"]

@@ -27,8 +27,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...ship.frames import Array
+from ..dynamics.small_blocks import multiply, solve_system
 from .contact_law import law_residual
-from .small_blocks import multiply, solve_system
 from .work_limit import WorkLimit
 
 __all__ = ["solve_alart_curnier"]
@@ -47,7 +47,9 @@ MAX_WARM_STEPS = 6
 MAX_STEPS = 15
 """Bound on Newton's steps for one weight. Fewer than ten cost time: 5 twice as much, on 1 080 patches of two ships."""
 
-_UNIT, _ROW = np.eye(3), np.arange(3)
+Indices = NDArray[np.intp]
+
+_PLANE, _ROW = np.eye(2), np.arange(3)
 
 
 def solve_alart_curnier(
@@ -59,16 +61,19 @@ def solve_alart_curnier(
     solver may do.
     """
     work = work or WorkLimit()
-    D = np.diag(W)
-    D = np.where(D > 0.0, D, np.repeat(D[0::3], 3))  # also along tangents in which no ship moves
+    diagonal = W.diagonal()
+    D = np.where(diagonal > 0.0, diagonal, diagonal[0::3].repeat(3))  # also along tangents in which no ship moves
+    weighted, on_diagonal = W.copy(), slice(None, None, len(W) + 1)
     best, least = P, law_residual(W, v, mu, P)
     warm = [(w, MAX_WARM_STEPS) for w in WARM_WEIGHTS]
     for i, (w, steps) in enumerate(warm + [(w, MAX_STEPS) for w in PROXIMAL_WEIGHTS]):
         if i == len(warm):
             P = best
-        P = _solve_newton(W + np.diag(w * D), v - w * D * P.ravel(), mu, P, 0.3 * tolerance, work, steps)
+        weighted.ravel()[on_diagonal] = diagonal + w * D
+        P = _solve_newton(weighted, v - w * D * P.ravel(), mu, P, 0.3 * tolerance, work, steps)
         inside = _clip_to_cones(P, mu)
         residual = law_residual(W, v, mu, inside)
+        work.spend_residual(len(P))
         if residual < least:
             best, least = inside, residual
         if least <= tolerance or work.is_spent:
@@ -81,14 +86,17 @@ def _clip_to_cones(P: Array, mu: float) -> Array:
     normal = np.maximum(P[:, 0], 0.0)
     size, radius = np.hypot(P[:, 1], P[:, 2]), mu * normal
     share = np.where(size > radius, radius / np.where(size > 0.0, size, 1.0), 1.0)
-    return np.column_stack([normal, P[:, 1:] * share[:, None]])
+    inside = P * share[:, None]
+    inside[:, 0] = normal
+    return inside
 
 
 def _solve_newton(W: Array, v: Array, mu: float, P: Array, tolerance: float, work: WorkLimit, steps: int) -> Array:
     """Impulses (k, 3) at which every equation holds to `tolerance` [m/s] after at most so many steps, or the best on
     the way."""
-    stiff = np.diag(W).reshape(-1, 3)
-    rho = 1.0 / np.column_stack([stiff[:, 0], np.maximum(stiff[:, 1:].max(axis=1), 1e-300)])
+    stiff = W.diagonal().reshape(-1, 3)
+    rho_n, rho_t = 1.0 / stiff[:, 0], 1.0 / np.maximum(stiff[:, 1:].max(axis=1), 1e-300)
+    rho = np.column_stack([rho_n, rho_t, rho_t])
     best, least = P, np.inf
     for _ in range(steps):
         equations = _evaluate_equations(P, (v + multiply(W, P.ravel())).reshape(-1, 3), mu, rho)
@@ -97,9 +105,9 @@ def _solve_newton(W: Array, v: Array, mu: float, P: Array, tolerance: float, wor
             best, least = P, size
         if size <= tolerance or work.is_spent:
             break
-        work.spend_newton_step(len(P), int(np.count_nonzero(equations.closed)))
+        work.spend_newton_step(len(P), len(equations.closed))
         try:
-            P = P - _newton_step(W, equations, rho)
+            P = P - _newton_step(W, equations, mu, rho)
         except np.linalg.LinAlgError:  # the step before led to infinity, or to a singular system
             break
         if not np.isfinite(P).all():
@@ -108,56 +116,67 @@ def _solve_newton(W: Array, v: Array, mu: float, P: Array, tolerance: float, wor
 
 
 class Equations(NamedTuple):
-    """Error (k, 3) [m/s] and its derivatives: by own P A (k, 3, 3) [1/kg], by own v B (k, 3, 3). closed (k,): contacts
-    that touch; of the others the equation is P / rho = 0."""
+    """Error (k, 3) [m/s]; closed, sliding: indices of the contacts that touch, and of those of them that slide; unit
+    (s, 2), share (s,): direction and friction radius / |t| of those that slide, t = P_t - rho_t v_t.
+
+    Of a contact that is apart the equation is P / rho = 0, of one that sticks v = 0.
+    """
 
     error: Array
-    A: Array
-    B: Array
-    closed: NDArray[np.bool_]
+    closed: Indices
+    sliding: Indices
+    unit: Array
+    share: Array
 
 
 def _evaluate_equations(P: Array, after: Array, mu: float, rho: Array) -> Equations:
-    """The equations at impulses P (k, 3) that leave the velocities `after` (k, 3); rho (k, 2): along and across."""
-    k = len(P)
-    s, t = P[:, 0] - rho[:, 0] * after[:, 0], P[:, 1:] - rho[:, 1:] * after[:, 1:]
-    size, radius = np.hypot(t[:, 0], t[:, 1]), mu * s
-    closed = s > 0.0
-    error, A, B = np.where(closed[:, None], after, 0.0), np.zeros((k, 3, 3)), np.zeros((k, 3, 3))
-    error[~closed] = P[~closed] / rho[~closed][:, [0, 1, 1]]
-    B[:] = _UNIT
-    slide = np.flatnonzero(closed & (size > radius))
-    if len(slide):
-        size, radius, rho_n, rho_t = size[slide], radius[slide], rho[slide, 0], rho[slide, 1]
-        unit = t[slide] / size[:, None]
-        share = radius / size
-        error[slide, 1:] = (P[slide, 1:] - radius[:, None] * unit) / rho_t[:, None]
-        turning = share[:, None, None] * (_UNIT[1:, 1:] - unit[:, :, None] * unit[:, None, :])
-        A[slide, 1:, 1:] = (_UNIT[1:, 1:] - turning) / rho_t[:, None, None]
-        A[slide, 1:, 0] = -mu * unit / rho_t[:, None]
-        B[slide, 1:, 1:] = turning
-        B[slide, 1:, 0] = mu * unit * (rho_n / rho_t)[:, None]
-    return Equations(error, A, B, closed)
+    """The equations at impulses P (k, 3) that leave the velocities `after` (k, 3); rho (k, 3)."""
+    moved = P - rho * after
+    s, size = moved[:, 0], np.hypot(moved[:, 1], moved[:, 2])
+    touches = s > 0.0
+    closed, sliding = touches.nonzero()[0], (touches & (size > mu * s)).nonzero()[0]
+    error = after if len(closed) == len(P) and not len(sliding) else np.where(touches[:, None], after, P / rho)
+    size = size[sliding]
+    unit, share = moved[sliding, 1:] / size[:, None], mu * s[sliding] / size
+    if len(sliding):
+        error[sliding, 1:] = (P[sliding, 1:] - share[:, None] * moved[sliding, 1:]) / rho[sliding, 1:]
+    return Equations(error, closed, sliding, unit, share)
 
 
-def _newton_step(W: Array, equations: Equations, rho: Array) -> Array:
-    """Newton's step (k, 3): what is taken off P. A contact that is apart loses its impulse; the others are solved."""
-    error, A, B, closed = equations
-    k = len(error)
-    step = error * rho[:, [0, 1, 1]]
-    touching = np.flatnonzero(closed)
-    if not len(touching):
+def _newton_step(W: Array, equations: Equations, mu: float, rho: Array) -> Array:
+    """Newton's step (k, 3): what is taken off P. A contact that is apart loses its impulse; the others are solved.
+
+    With velocity v, a contact that slides in the direction d has the equations v_n = 0 and
+
+        (P_t - mu s d) / rho_t = 0      ds = dP_n - rho_n dv_n,   d(s d) = d ds + (s/|t|) (1 - d d') (dP_t - rho_t dv_t)
+    """
+    error, closed, sliding, unit, share = equations
+    k, n = len(error), len(closed)
+    step = error * rho
+    if not n:
         return step
-    W_closed, lost = W, np.zeros(0)
-    if len(touching) < k:
-        rows = (3 * touching[:, None] + _ROW).ravel()
+    slope, right = W, error
+    if n < k:
+        rows = (3 * closed[:, None] + _ROW).ravel()
         W_rows = W[rows]
-        lost = np.where(closed[:, None], 0.0, step).ravel()
-        error = error[touching] - np.einsum("kab,kb->ka", B[touching], multiply(W_rows, lost).reshape(-1, 3))
-        W_closed, A, B = W_rows[:, rows], A[touching], B[touching]
-    n = len(touching)
-    slope = B @ W_closed.reshape(n, 3, 3 * n)
-    each = np.arange(n)
-    slope.reshape(n, 3, n, 3)[each, :, each, :] += A
-    step[touching] = solve_system(slope.reshape(3 * n, 3 * n), error.ravel()).reshape(-1, 3)
+        lost = step.copy()
+        lost[closed] = 0.0
+        change = multiply(W_rows, lost.ravel()).reshape(-1, 3)
+        slope, right = W_rows[:, rows], error[closed] - change
+        places = np.searchsorted(closed, sliding)
+    else:
+        slope, places = W.copy(), sliding
+    if len(sliding):
+        rho_n, rho_t = rho[sliding, 0, None], rho[sliding, 1, None]
+        turning = share[:, None, None] * (_PLANE - unit[:, :, None] * unit[:, None, :])
+        B = np.empty((len(sliding), 2, 3))  # by the velocity of the contact
+        B[:, :, 0], B[:, :, 1:] = mu * unit * (rho_n / rho_t), turning
+        blocks = slope.reshape(n, 3, 3 * n)
+        blocks[places, 1:] = B @ blocks[places]
+        A = np.empty((len(sliding), 2, 3))  # by its impulse
+        A[:, :, 0], A[:, :, 1:] = -mu * unit / rho_t, (_PLANE - turning) / rho_t[:, :, None]
+        slope.reshape(n, 3, n, 3)[places, 1:, places, :] += A
+        if n < k:
+            right[places, 1:] = error[sliding, 1:] - np.einsum("kab,kb->ka", B, change[places])
+    step[closed] = solve_system(slope, right.ravel()).reshape(-1, 3)
     return step

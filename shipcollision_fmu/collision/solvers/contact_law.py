@@ -21,9 +21,12 @@ from typing import NamedTuple
 import numpy as np
 
 from ...ship.frames import Array
-from .small_blocks import multiply
+from ..dynamics.small_blocks import multiply
 
-__all__ = ["ContactBlock", "law_residual", "solve_friction_in_disc"]
+__all__ = ["MANY_CONTACTS", "ContactBlock", "law_residual", "solve_friction_in_disc"]
+
+MANY_CONTACTS = 7
+"""Contacts from which arrays are faster than loops over plain floats."""
 
 
 class ContactBlock(NamedTuple):
@@ -38,10 +41,14 @@ class ContactBlock(NamedTuple):
     h_2: float
 
     @classmethod
-    def of(cls, W: Array) -> ContactBlock:
-        """The block of W (3, 3), in principal tangents, with exact zeros along a tangent in which no ship moves."""
-        W_nn, w_1, w_2, a_1, a_2 = (float(x) for x in (W[0, 0], W[0, 1], W[0, 2], W[1, 1], W[2, 2]))
-        return cls(W_nn, w_1, w_2, a_1, a_2, 1.0 / a_1 if a_1 > 0.0 else 0.0, 1.0 / a_2 if a_2 > 0.0 else 0.0)
+    def of_all(cls, W: Array) -> list[ContactBlock]:
+        """The blocks on the diagonal of W (3k, 3k), in principal tangents, with exact zeros along a tangent in which no
+        ship moves."""
+        on, beside, further = (W.diagonal(offset).tolist() for offset in (0, 1, 2))
+        return [
+            cls(W_nn, w_1, w_2, a_1, a_2, 1.0 / a_1 if a_1 > 0.0 else 0.0, 1.0 / a_2 if a_2 > 0.0 else 0.0)
+            for W_nn, a_1, a_2, w_1, w_2 in zip(on[0::3], on[1::3], on[2::3], beside[0::3], further[0::3], strict=True)
+        ]
 
 
 def solve_friction_in_disc(W: ContactBlock, v_1: float, v_2: float, radius: float) -> tuple[float, float]:
@@ -80,14 +87,32 @@ def law_residual(W: Array, v: Array, mu: float, P: Array) -> float:
     Of a contact it is the larger of |min(W_nn P_n, v_n)| and of what friction misses its projection on the disc by (the
     natural map of the complementarity problem). W (3k, 3k) [1/kg], v (3k,) [m/s] before, P (k, 3) [N s], any tangents.
     """
-    after, stiff = (v + multiply(W, P.ravel())).reshape(-1, 3), np.diag(W).reshape(-1, 3).tolist()
+    after = (v + multiply(W, P.ravel())).reshape(-1, 3)
     if not np.isfinite(after).all():
         return inf
+    stiff = W.diagonal().reshape(-1, 3)
+    if len(P) >= MANY_CONTACTS:
+        return _residual_of_many(stiff, after, mu, P)
     worst = 0.0
-    for (P_n, P_1, P_2), (v_n, v_1, v_2), (w_n, w_1, w_2) in zip(P.tolist(), after.tolist(), stiff, strict=True):
+    for (P_n, P_1, P_2), (v_n, v_1, v_2), (w_n, w_1, w_2) in zip(
+        P.tolist(), after.tolist(), stiff.tolist(), strict=True
+    ):
         rho = max(w_1, w_2) or 1.0
         x, y = P_1 - v_1 / rho, P_2 - v_2 / rho
         size, radius = hypot(x, y), mu * max(P_n, 0.0)
         share = radius / size if size > radius else 1.0
         worst = max(worst, abs(min(P_n * w_n, v_n)), hypot(P_1 - x * share, P_2 - y * share) * rho)
     return worst
+
+
+def _residual_of_many(stiff: Array, after: Array, mu: float, P: Array) -> float:
+    """The same of many contacts, as arrays: stiff (k, 3) [1/kg], the diagonal of W; after (k, 3) [m/s]."""
+    rho = stiff[:, 1:].max(axis=1)
+    rho[rho == 0.0] = 1.0
+    P_n, P_t = P[:, 0], P[:, 1:]
+    t = P_t - after[:, 1:] / rho[:, None]
+    size, radius = np.hypot(t[:, 0], t[:, 1]), mu * np.maximum(P_n, 0.0)
+    share = np.divide(radius, size, out=np.ones_like(size), where=size > radius)
+    missed = P_t - share[:, None] * t
+    along = np.abs(np.minimum(P_n * stiff[:, 0], after[:, 0])).max()
+    return float(max(along, (np.hypot(missed[:, 0], missed[:, 1]) * rho).max()))

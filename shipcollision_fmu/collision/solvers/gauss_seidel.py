@@ -34,12 +34,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...ship.frames import Array
+from ..dynamics.small_blocks import multiply, rotate_rows
 from .aclm_fixed_point import solve_aclm
 from .aitken import Aitken
 from .alart_curnier import solve_alart_curnier
-from .contact_law import ContactBlock, law_residual
+from .contact_law import MANY_CONTACTS, ContactBlock, law_residual
 from .one_contact import solve_one_contact
-from .small_blocks import multiply, rotate_rows
 from .work_limit import WorkLimit
 
 __all__ = ["SWEEP_TOLERANCE", "Solution", "clear_rounding", "principal_axes", "solve_gauss_seidel", "turn_tangents"]
@@ -59,9 +59,6 @@ contacts that a solver of a fixed count of sweeps would stop."""
 LEAST_NEWTON_STEPS = 6
 """Steps of Newton's method for many contacts, in the same case. They cost less than LEAST_SWEEPS, and solve half of all
 patches from the impulses of the substep before."""
-
-MANY_CONTACTS = 7
-"""Contacts from which rows of W are multiplied as arrays. With fewer, loops over plain floats are faster."""
 
 MAX_SWEEPS_OF_MANY = 2
 """Bound on the sweeps of so many contacts. Sweeps pass impulses through a raft of ships from ship to ship, so Newton's
@@ -111,25 +108,26 @@ def solve_gauss_seidel(
     if approach <= 0.0:
         return Solution(np.zeros((k, 3)), 0.0, 0)
     T = principal_axes(W)
-    W_p, v_p = turn_tangents(T, W), T @ v
+    W_p, v_p = turn_tangents(T, W), multiply(T, v)
     clear_rounding(W_p, v_p)
-    blocks = [ContactBlock.of(W_p[i : i + 3, i : i + 3]) for i in range(0, 3 * k, 3)]
+    blocks = ContactBlock.of_all(W_p)
     if k == 1:
         v_n, v_1, v_2 = v_p.tolist()
         P_p, sweeps = np.array([solve_one_contact(blocks[0], (v_n, v_1, v_2), mu)[0]]), 1
     else:
         P_p, sweeps = _sweep(W_p, v_p, mu, blocks, scale, _scale_start(W, v, start, T), work or WorkLimit())
-    return Solution((P_p.ravel() @ T).reshape(k, 3), law_residual(W_p, v_p, mu, P_p) / scale, sweeps)
+    return Solution(multiply(T.T, P_p.ravel()).reshape(k, 3), law_residual(W_p, v_p, mu, P_p) / scale, sweeps)
 
 
 def principal_axes(W: Array) -> Array:
     """Rotation T (3k, 3k) of the tangents of every contact to the principal axes of its own W_tt."""
-    T = np.eye(len(W))
-    for i in range(1, len(W), 3):
-        a, b, d = W[i, i], W[i, i + 1], W[i + 1, i + 1]
-        angle = 0.5 * np.arctan2(2.0 * b, a - d)
-        c, s = np.cos(angle), np.sin(angle)
-        T[i, i], T[i, i + 1], T[i + 1, i], T[i + 1, i + 1] = c, s, -s, c
+    n = len(W)
+    diagonal, T = W.diagonal(), np.eye(n)
+    angle = 0.5 * np.arctan2(2.0 * W.diagonal(1)[1::3], diagonal[1::3] - diagonal[2::3])
+    c, s = np.cos(angle), np.sin(angle)
+    entries, contact = T.reshape(-1), 3 * (n + 1)
+    entries[n + 1 :: contact], entries[n + 2 :: contact] = c, s
+    entries[2 * n + 1 :: contact], entries[2 * n + 2 :: contact] = -s, c
     return T
 
 
@@ -143,9 +141,10 @@ def turn_tangents(T: Array, W: Array) -> Array:
 
 def clear_rounding(W: Array, v: Array) -> None:
     """Set to zero, in place, the rows and columns of tangents along which no ship moves."""
-    largest = float(np.diag(W).max())
-    for n in range(len(v)):
-        if n % 3 and W[n, n] <= IMMOBILE * largest:
+    diagonal = W.diagonal().tolist()
+    least = IMMOBILE * max(diagonal)
+    for n, w in enumerate(diagonal):
+        if n % 3 and w <= least:
             W[n], W[:, n] = 0.0, 0.0
             if abs(v[n]) <= IMMOBILE * float(np.abs(v).max()):
                 v[n] = 0.0
@@ -160,15 +159,15 @@ def _scale_start(W: Array, v: Array, start: Array | None, T: Array) -> Array:
         return np.zeros((len(v) // 3, 3))
     P = start.ravel()
     share = max(0.0, -float(P @ v)) / float(P @ multiply(W, P))
-    return (T @ (share * P)).reshape(-1, 3) if np.isfinite(share) else np.zeros((len(v) // 3, 3))
+    return multiply(T, share * P).reshape(-1, 3) if np.isfinite(share) else np.zeros((len(v) // 3, 3))
 
 
 def _sweep(
     W: Array, v: Array, mu: float, blocks: list[ContactBlock], scale: float, start: Array, work: WorkLimit
 ) -> tuple[Array, int]:
     """Impulses (k, 3) and the sweeps taken. scale: largest approach speed [m/s]."""
-    rows, before = W.tolist(), v.tolist()
-    many = len(blocks) >= MANY_CONTACTS
+    before, many = v.tolist(), len(blocks) >= MANY_CONTACTS
+    rows = [] if many else W.tolist()
     triples, impulses = [W[n : n + 3] for n in range(0, len(v), 3)] if many else [], np.empty(len(v))
     contacts = range(len(blocks))
     P: list[float] = start.ravel().tolist()

@@ -23,10 +23,10 @@ from __future__ import annotations
 import numpy as np
 
 from ...ship.frames import Array
+from ..dynamics.small_blocks import multiply
 from .aitken import Aitken
 from .contact_law import ContactBlock, solve_friction_in_disc
 from .gauss_seidel import SWEEP_TOLERANCE, Solution, clear_rounding, principal_axes, solve_gauss_seidel, turn_tangents
-from .small_blocks import multiply
 from .work_limit import WorkLimit
 
 __all__ = ["solve_poisson_impact"]
@@ -92,10 +92,10 @@ def _solve_restitution(W: Array, v: Array, mu: float, P: Array, work: WorkLimit)
     energy, so the sweeps converge. v: velocity [m/s] after compression.
     """
     T = principal_axes(W)
-    W, v = turn_tangents(T, W), T @ v
+    W, v = turn_tangents(T, W), multiply(T, v)
     clear_rounding(W, v)
-    P = T @ P
-    blocks = [ContactBlock.of(W[n : n + 3, n : n + 3]) for n in range(0, len(P), 3)]
+    P = multiply(T, P)
+    blocks = ContactBlock.of_all(W)
     tangents = [W[n + 1 : n + 3] for n in range(0, len(P), 3)]
     impulses: list[float] = P.tolist()
     scale = float(np.abs(v).max() + np.abs(multiply(W, P)).max())
@@ -118,4 +118,4 @@ def _solve_restitution(W: Array, v: Array, mu: float, P: Array, work: WorkLimit)
         if change <= SWEEP_TOLERANCE * scale or work.left < kept:
             break
         impulses = aitken.extrapolate(P.tolist(), last)
-    return P @ T
+    return multiply(T.T, P)

@@ -47,6 +47,10 @@ class WorkLimit:
         """A step of Newton's method with a linear system of 3 rows for every closed contact."""
         self.left -= self._newton_step(contacts, closed)
 
+    def spend_residual(self, contacts: int) -> None:
+        """The residual of the law of contact, and what goes with it."""
+        self.left -= 20.0 + 0.5 * contacts
+
     def reserve_newton_steps(self, steps: int, contacts: int) -> None:
         """Allow so many steps of Newton's method, though the work be spent."""
         self.left = max(self.left, steps * self._newton_step(contacts, contacts))

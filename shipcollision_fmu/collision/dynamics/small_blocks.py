@@ -11,7 +11,7 @@ import numpy as np
 
 from ...ship.frames import Array
 
-__all__ = ["multiply", "rotate_rows", "solve_system"]
+__all__ = ["multiply", "multiply_matrices", "rotate_rows", "solve_system"]
 
 ROWS = 60
 """Rows and columns of a block in a product of matrices: 60^3 multiplications. Larger: threads begin. Smaller: more
@@ -28,6 +28,20 @@ def multiply(W: Array, x: Array) -> Array:
         return product
     rows = max(1, MOST_ROWS * MOST_ROWS // W.shape[1])
     return np.concatenate([W[i : i + rows] @ x for i in range(0, len(W), rows)])
+
+
+def multiply_matrices(A: Array, B: Array) -> Array:
+    """A B (n, m) of A (n, q) and B (q, m)."""
+    (n, q), m = A.shape, B.shape[1]
+    if n * q * m <= ROWS**3:
+        whole: Array = A @ B
+        return whole
+    product = np.empty((n, m))
+    rows = max(1, min(ROWS, ROWS**3 // (ROWS * q)))
+    for i in range(0, n, rows):
+        for j in range(0, m, ROWS):
+            product[i : i + rows, j : j + ROWS] = A[i : i + rows] @ B[:, j : j + ROWS]
+    return product
 
 
 def rotate_rows(T: Array, W: Array) -> Array:
@@ -50,9 +64,6 @@ def solve_system(A: Array, b: Array) -> Array:
     m = ROWS
     X: Array = np.asarray(np.linalg.solve(A[:m, :m], np.column_stack([A[:m, m:], b[:m]])), np.float64)
     below = A[m:, :m]
-    product = np.empty((n - m, X.shape[1]))
-    for i in range(0, n - m, ROWS):
-        for j in range(0, X.shape[1], ROWS):
-            product[i : i + ROWS, j : j + ROWS] = below[i : i + ROWS] @ X[:, j : j + ROWS]
+    product = multiply_matrices(below, X)
     last = solve_system(A[m:, m:] - product[:, :-1], b[m:] - product[:, -1])
     return np.concatenate([X[:, -1] - multiply(X[:, :-1], last), last])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from shipcollision_fmu.collision.solvers.small_blocks import MOST_ROWS, ROWS, multiply, rotate_rows, solve_system
+from shipcollision_fmu.collision.dynamics.small_blocks import MOST_ROWS, ROWS, multiply, rotate_rows, solve_system
 
 SIZES = (3, 30, 96, 99, 150, 240)
 
