@@ -35,11 +35,12 @@ __all__ = ["solve_alart_curnier"]
 
 WARM_WEIGHTS = (1e-7, 1e-10)
 """Weights that are tried first. From the impulses of the substep before, half of all patches are solved so in some four
-steps instead of eight."""
+steps instead of eight. Where Newton's method fails at the first, it fails at the second as well."""
 
-PROXIMAL_WEIGHTS = tuple(10.0**-k for k in range(2, 14))
+PROXIMAL_WEIGHTS = tuple(10.0**-k for k in range(4, 14))
 """Weights w, one after the other. Without any, all patches tried are solved as well, with twice the calls of ACLM. With
-half as many, more patches of jammed rafts are left unsolved."""
+half as many, more patches of jammed rafts are left unsolved. Begun at 1e-2, half as many again are left unsolved when
+their work is spent."""
 
 MAX_WARM_STEPS = 6
 """Bound on Newton's steps for one of the weights that are tried first: more are wasted where these do not work."""
@@ -65,12 +66,14 @@ def solve_alart_curnier(
     D = np.where(diagonal > 0.0, diagonal, diagonal[0::3].repeat(3))  # also along tangents in which no ship moves
     weighted, on_diagonal = W.copy(), slice(None, None, len(W) + 1)
     best, least = P, law_residual(W, v, mu, P)
-    warm = [(w, MAX_WARM_STEPS) for w in WARM_WEIGHTS]
+    warm, solved = [(w, MAX_WARM_STEPS) for w in WARM_WEIGHTS], True
     for i, (w, steps) in enumerate(warm + [(w, MAX_STEPS) for w in PROXIMAL_WEIGHTS]):
+        if i < len(warm) and not solved:
+            continue
         if i == len(warm):
             P = best
         weighted.ravel()[on_diagonal] = diagonal + w * D
-        P = _solve_newton(weighted, v - w * D * P.ravel(), mu, P, 0.3 * tolerance, work, steps)
+        P, solved = _solve_newton(weighted, v - w * D * P.ravel(), mu, P, 0.3 * tolerance, work, steps)
         inside = _clip_to_cones(P, mu)
         residual = law_residual(W, v, mu, inside)
         work.spend_residual(len(P))
@@ -91,9 +94,10 @@ def _clip_to_cones(P: Array, mu: float) -> Array:
     return inside
 
 
-def _solve_newton(W: Array, v: Array, mu: float, P: Array, tolerance: float, work: WorkLimit, steps: int) -> Array:
-    """Impulses (k, 3) at which every equation holds to `tolerance` [m/s] after at most so many steps, or the best on
-    the way."""
+def _solve_newton(
+    W: Array, v: Array, mu: float, P: Array, tolerance: float, work: WorkLimit, steps: int
+) -> tuple[Array, bool]:
+    """Impulses (k, 3), and whether every equation holds to `tolerance` [m/s]; if none does, the best on the way."""
     stiff = W.diagonal().reshape(-1, 3)
     rho_n, rho_t = 1.0 / stiff[:, 0], 1.0 / np.maximum(stiff[:, 1:].max(axis=1), 1e-300)
     rho = np.column_stack([rho_n, rho_t, rho_t])
@@ -103,7 +107,9 @@ def _solve_newton(W: Array, v: Array, mu: float, P: Array, tolerance: float, wor
         size = float(np.abs(equations.error).max())
         if size < least:
             best, least = P, size
-        if size <= tolerance or work.is_spent:
+        if size <= tolerance:
+            return P, True
+        if work.is_spent:
             break
         work.spend_newton_step(len(P), len(equations.closed))
         try:
@@ -112,7 +118,7 @@ def _solve_newton(W: Array, v: Array, mu: float, P: Array, tolerance: float, wor
             break
         if not np.isfinite(P).all():
             break
-    return best
+    return best, False
 
 
 class Equations(NamedTuple):
