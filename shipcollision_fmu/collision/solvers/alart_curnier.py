@@ -50,6 +50,10 @@ MAX_STEPS = 15
 
 Indices = NDArray[np.intp]
 
+STALLED = 1e3
+"""Error, in units of the tolerance, up to which Newton's method has ended in rounding when a step makes it no smaller.
+With 1, a boat between ships takes all steps of every weight, since its impulses are known to 1e-13 of theirs."""
+
 _PLANE, _ROW = np.eye(2), np.arange(3)
 
 
@@ -105,10 +109,11 @@ def _solve_newton(
     for _ in range(steps):
         equations = _evaluate_equations(P, (v + multiply(W, P.ravel())).reshape(-1, 3), mu, rho)
         size = float(np.abs(equations.error).max())
+        stalls = least <= size <= STALLED * tolerance
         if size < least:
             best, least = P, size
-        if size <= tolerance:
-            return P, True
+        if size <= tolerance or stalls:
+            return best, True
         if work.is_spent:
             break
         work.spend_newton_step(len(P), len(equations.closed))
