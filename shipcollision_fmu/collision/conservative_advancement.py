@@ -36,6 +36,9 @@ __all__ = ["MAXIMUM_SUBSTEPS", "ConservativeAdvancement"]
 MAXIMUM_SUBSTEPS = 10_000
 """Substeps of a communication step in which hulls are near each other: 100 s at 0.01 s. More is a mistake in a unit."""
 
+LEAST_TOUCHES = 4
+"""First touches of a communication step however many pairs are near each other: a boat hits one or two ships in it."""
+
 NEVER = 10**9
 """Substeps after which a pair that does not approach is examined: beyond any step."""
 
@@ -43,6 +46,10 @@ NEVER = 10**9
 MOST_TOUCHES = 40
 """First touches in a communication step at which the bodies stop. Beyond, hulls are examined at the ends of substeps
 only: a fast thin body may then pass another. Without a limit, a body that rattles between others takes any time."""
+
+MOST_EXAMINED = 120
+"""Pairs examined at first touches in a communication step: MOST_TOUCHES for a boat between a ship and a quay, which are
+three pairs. Larger: four boats that rattle between ships take more than 100 ms in a step."""
 
 
 class ConservativeAdvancement:
@@ -62,7 +69,8 @@ class ConservativeAdvancement:
         self._fast = {pair: FAST * detector.thickness(*pair) / self.h for pair in near}  # speed limits [m/s]
         self._apart = {pair for pair in near if near[pair].gap > 0.0}  # when last measured
         self.touched = False  # set it when impulses were given at a stop
-        self.touches_left = MOST_TOUCHES
+        self.touches_left = min(MOST_TOUCHES, max(LEAST_TOUCHES, MOST_EXAMINED // len(near)))
+        self._most_touches = self.touches_left
         self._pending_substeps = 0  # by which the predicted poses lag
 
     def pairs_due(self, substep: int) -> list[Pair]:
@@ -148,8 +156,8 @@ class ConservativeAdvancement:
     def describe_exhausted(self, t: float) -> str:
         """The warning of the step from t [s] if it had more first touches than are looked for."""
         return (
-            f"fast or thin bodies touched {MOST_TOUCHES} times in the step from t = {t:g} s by {self._H:g} s; later "
-            "touches in it may be missed: take shorter steps"
+            f"fast or thin bodies touched {self._most_touches} times in the step from t = {t:g} s by {self._H:g} s; "
+            "later touches in it may be missed: take shorter steps"
         )
 
     def finish(self) -> None:

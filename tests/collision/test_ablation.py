@@ -19,9 +19,10 @@ from shipcollision_fmu.collision.dynamics.contact import Booked
 from shipcollision_fmu.collision.dynamics.impulse_ledger import ImpulseLedger, Reading
 from shipcollision_fmu.collision.geometry import detection, first_touch
 from shipcollision_fmu.collision.geometry.bullet import Closest
-from shipcollision_fmu.collision.solvers import gauss_seidel, touching_pair
+from shipcollision_fmu.collision.solvers import gauss_seidel, touching_pair, work_limit
 from shipcollision_fmu.collision.solvers import held_motions as held_motions_solver
 from shipcollision_fmu.collision.solvers.aitken import Aitken
+from tests.collision import test_bounded_step as bounded
 from tests.collision import test_coasting_ships as coasting_ships
 from tests.collision import test_energy_split as energy_split
 from tests.collision import test_first_touch as touches
@@ -35,11 +36,12 @@ from tests.collision import test_similarity as similarity
 from tests.collision.geometry import test_compound_hull as compound
 from tests.collision.geometry.test_compound_hull import pair, sailed
 from tests.collision.solvers import test_gauss_seidel as patches
+from tests.collision.test_bounded_step import box, last_resort
 from tests.collision.test_first_touch import boat
 from tests.collision.test_held_motions import WEST
 from tests.collision.test_quay import berthed
 
-__all__ = ["berthed", "boat", "pair", "sailed"]
+__all__ = ["berthed", "boat", "box", "last_resort", "pair", "sailed"]
 
 Fixture = Callable[[str], Any]
 NOTHING = np.zeros(6)
@@ -196,6 +198,18 @@ ABLATIONS = {
         conservative_advancement.ConservativeAdvancement, "_free_substeps", lambda *_: 0,
         lambda fixture: mechanisms.test_ships_that_approach_are_examined_when_they_could_meet(
             fixture("make_ship"), fixture("world"), fixture("monkeypatch")
+        ),
+    ),
+    "bound on the work of a step": Ablation(
+        work_limit.StepWork, "renew", lambda *_: None,
+        lambda fixture: bounded.test_an_early_end_keeps_momentum_and_moves_each_ship_by_its_impulse(
+            fixture("world"), fixture("box"), fixture("last_resort"), fixture("monkeypatch"), 0.5
+        ),
+    ),
+    "bound on the pairs examined at first touches": Ablation(
+        conservative_advancement, "MOST_EXAMINED", 10**6,
+        lambda fixture: bounded.test_boats_that_rattle_between_a_ship_and_a_quay(
+            fixture("world"), fixture("tmp_path"), fixture("monkeypatch"), "pgs"
         ),
     ),
     # -- geometry

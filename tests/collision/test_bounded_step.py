@@ -13,7 +13,10 @@ import numpy as np
 import pytest
 
 from shipcollision_fmu.collision import responses
-from shipcollision_fmu.collision.solvers import aclm_fixed_point, alart_curnier, work_limit
+from shipcollision_fmu.collision.geometry.bullet import ITERATIONS, bullet_module
+from shipcollision_fmu.collision.geometry.detection import Detector
+from shipcollision_fmu.collision.solvers import aclm_fixed_point, alart_curnier, gauss_seidel, work_limit
+from shipcollision_fmu.ship.frames import rotation
 from shipcollision_fmu.ship.loading.library import load_ship
 from tests.collision.conftest import World
 from tests.ship_files import ship_toml
@@ -61,7 +64,7 @@ def last_resort(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     return calls
 
 
-@pytest.mark.parametrize("restitution", [0.05, 0.1, 0.5, 1.0])
+@pytest.mark.parametrize("restitution", [0.0, 0.05, 0.1, 0.5, 1.0])
 def test_ships_pressed_on_each_other_and_a_quay(
     world: MakeWorld, box: str, last_resort: list[int], restitution: float
 ) -> None:
@@ -140,3 +143,86 @@ def test_closed_form_answers_a_bounded_number_of_impacts(
     w.step(0.1)
     assert 4 <= answers[0] <= 4 * 10
     assert w.work[-1] <= 1e-6 * had, "energy from contact"
+
+
+def motion_in_n(R: np.ndarray, nu: np.ndarray, r_bg: np.ndarray) -> np.ndarray:
+    """Velocity of CG [m/s] and angular velocity [rad/s] in n, (6,), of a twist nu in b with the attitude R."""
+    return np.concatenate([R @ (nu[:3] + np.cross(nu[3:], r_bg)), R @ nu[3:]])
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.5])
+def test_an_early_end_keeps_momentum_and_moves_each_ship_by_its_impulse(
+    world: MakeWorld, box: str, last_resort: list[int], monkeypatch: pytest.MonkeyPatch, restitution: float
+) -> None:
+    """Three flush boxes closed on each other without any work allowed: the impulses miss the law of contact, and are
+    counted so, but act on both ships of a pair alike. No walls, so the momentum of all is constant."""
+    monkeypatch.setattr(work_limit, "FOUR_SHIPS", 0.0)
+    monkeypatch.setattr(gauss_seidel, "LEAST_NEWTON_STEPS", 1)
+    monkeypatch.setattr(gauss_seidel, "LEAST_SWEEPS", 1)
+    speed = [0.5, -0.2, -0.9]
+    start = [
+        {"position": (3.0 * i, 18.8 * i, 0.0), "nu": np.array([0.3 * i, speed[i], 0.0, 0.0, 0.0, 0.002 * i])}
+        for i in range(3)
+    ]
+    w = world([box] * 3, start, friction=0.3, restitution=restitution)
+    for _ in range(5):
+        last_resort[0] = 0
+        w.step(0.02)
+        assert last_resort[0] <= 60, "work beyond the bound"
+        assert w.work[-1] <= 1e-6 * w.energy(0), "energy from contact"
+        total, moment, largest = np.zeros(3), np.zeros(3), 0.0
+        for i, ((x, R, J), out) in enumerate(zip(w.increments[-1], w.model.outputs.ships, strict=True)):
+            # The world has changed the twist by M^-1 J, the model by what it solved: the same motion in n.
+            world_motion = motion_in_n(w.R[i], w.nu[i], w.r_bg[i])
+            model_motion = motion_in_n(rotation(out.attitude), np.array([*out.velocity, *out.rate]), w.r_bg[i])
+            np.testing.assert_allclose(model_motion, world_motion, rtol=0.0, atol=1e-10)
+            total, moment = total + R @ J[:3], moment + np.cross(x, R @ J[:3]) + R @ J[3:]
+            largest = max(largest, float(np.abs(J[:3]).max()))
+        assert np.abs(total).max() <= 1e-10 * largest
+        assert np.abs(moment).max() <= 1e-10 * largest * 80.0
+    assert w.model.outputs.solver.unconverged > 0
+
+
+@pytest.mark.parametrize("response", ["pgs", "closed_form", "bullet"])
+def test_boats_that_rattle_between_a_ship_and_a_quay(
+    world: MakeWorld, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, response: str
+) -> None:
+    """Three elastic boats at 25 m/s between a ship and a quay, eight pairs, touch some hundred times in 0.1 s. Counted
+    are the pairs examined; of Bullet's own dynamics the steps, each with a bounded count of iterations."""
+    no_added_mass = dict.fromkeys(("m_x", "m_y", "m_z", "j_x", "j_y", "j_z", "z_y"), 0.0)
+    ships = []
+    for name, (L, B, T, mass) in {"ship": (60.0, 10.0, 4.0, 2e6), "boat": (4.0, 1.0, 0.5, 1e3)}.items():
+        path = tmp_path / f"{name}.toml"
+        particulars = {"L_pp": L, "B": B, "T": T, "mass": mass, "allow_inconsistent": "a box"}
+        path.write_text(ship_toml(particulars=particulars, hull={"depth": 2.0 * T}, added_mass=no_added_mass))
+        ships.append(str(path))
+    examined, steps, iterations = [0], [0], set[int]()
+    bullet = bullet_module()
+    contacts, touching = Detector.contacts, Detector.touching
+    step, parameter = bullet.stepSimulation, bullet.setPhysicsEngineParameter
+
+    def count(counter: list[int], plain: Callable[..., Any]) -> Callable[..., Any]:
+        def call(*args: Any, **named: Any) -> Any:
+            counter[0] += 1
+            return plain(*args, **named)
+
+        return call
+
+    def set_parameter(**named: Any) -> None:
+        iterations.add(named["numSolverIterations"])
+        parameter(**named)
+
+    monkeypatch.setattr(Detector, "contacts", count(examined, contacts))
+    monkeypatch.setattr(Detector, "touching", count(examined, touching))
+    monkeypatch.setattr(bullet, "stepSimulation", count(steps, step))
+    monkeypatch.setattr(bullet, "setPhysicsEngineParameter", set_parameter)
+    start = [{"position": (0.0, -5.01, 0.0), "nu": np.zeros(6)}] + [
+        {"position": (-6.0 + 6.0 * i, 0.51, 0.0), "nu": np.array([3.0, 25.0, 0.0, 0.0, 0.0, 0.3])} for i in range(3)
+    ]
+    quay = QUAY.replace("38.2", "11.05")
+    w = world([ships[0]] + [ships[1]] * 3, start, obstacles=quay, friction=0.3, restitution=1.0, response=response)
+    w.step(0.1)
+    assert 10 * 3 <= examined[0] <= 200, "120 at first touches, 8 pairs at ten substeps"
+    if response == "bullet":
+        assert 0 < steps[0] <= 2 * examined[0]
+        assert iterations == {ITERATIONS}

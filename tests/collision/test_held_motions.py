@@ -21,9 +21,13 @@ from shipcollision_fmu.collision.dynamics.contact import Contact, make_contact
 from shipcollision_fmu.collision.dynamics.delassus import held_delassus
 from shipcollision_fmu.collision.dynamics.passivity import enforce_passivity
 from shipcollision_fmu.collision.responses import RESPONSES
+from shipcollision_fmu.collision.solvers import held_motions
+from shipcollision_fmu.collision.solvers.held_motions import yield_to_friction
+from shipcollision_fmu.collision.solvers.work_limit import WorkLimit
 from shipcollision_fmu.ship.frames import rotation
 from tests.collision.conftest import World
 from tests.collision.impacts import Array, Impact, floats, impacts
+from tests.collision.solvers.test_gauss_seidel import random_patch
 
 Make, MakeWorld = Callable[..., str], Callable[..., World]
 
@@ -173,3 +177,21 @@ def test_the_impulse_is_continuous_in_the_slope_of_the_normal(impact: Impact, mo
     tilted = impact.normal + more * across / np.linalg.norm(across)
     P, moved = respond(impact, response), respond(replace(impact, normal=tilted), response)
     np.testing.assert_allclose(moved, P, rtol=0.0, atol=1e-4 * np.linalg.norm(P))
+
+
+def test_the_slip_of_hulls_that_heel_little_is_as_exact_as_it_needs_to_be(monkeypatch: pytest.MonkeyPatch) -> None:
+    """P_n of a jam is solved less exactly the smaller H_tn is; H_tn P_n is the same to 1e-7 of the approach, at a part
+    of the work."""
+    for seed in range(6):
+        W, v = random_patch(seed, 9, scatter=0.02)
+        v[0::3] = -np.abs(v[0::3])
+        H = 1e-3 * random_patch(seed + 100, 9, scatter=0.3)[0]
+        H *= np.diag(W).max() / np.diag(H).max() * 1e-3
+        work, exact_work = WorkLimit(1e6), WorkLimit(1e6)
+        slip = yield_to_friction(W, v, 0.3, H, None, work).slip
+        with monkeypatch.context() as exact:
+            exact.setattr(held_motions, "SLIP_TOLERANCE", 1e-300)
+            exact_slip = yield_to_friction(W, v, 0.3, H, None, exact_work).slip
+        assert np.abs(exact_slip).max() > 0.0
+        np.testing.assert_allclose(slip, exact_slip, rtol=0.0, atol=1e-7 * -v[0::3].min())
+        assert work.left >= exact_work.left

@@ -34,6 +34,10 @@ MARGIN = 0.001
 """PyBullet's collision margin [m], which it adds to every hull and which is taken off again here. It cannot be zero:
 without it Bullet returns wrong normals for faces that lie flat on each other."""
 
+ITERATIONS = 50
+"""Iterations of Bullet's own solver in a step, PyBullet's default: the bound on its work. A pair of hulls has at most
+four contact points there."""
+
 
 def bullet_module() -> ModuleType:
     """pybullet, imported when first needed. Raises HostError when it is missing."""
@@ -186,7 +190,12 @@ class BulletAdapter:
         """
         p, client = self._p, self._client
         p.setPhysicsEngineParameter(
-            fixedTimeStep=h, numSolverIterations=50, erp=0.0, contactERP=0.0, frictionERP=0.0, physicsClientId=client
+            fixedTimeStep=h,
+            numSolverIterations=ITERATIONS,
+            erp=0.0,
+            contactERP=0.0,
+            frictionERP=0.0,
+            physicsClientId=client,
         )
         handles = [
             self._dynamic_body(ship, body, friction, restitution, *pose_w(x + R_nb @ body.r_bg, R_nb))

@@ -5,7 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from shipcollision_fmu.collision.dynamics.small_blocks import MOST_ROWS, ROWS, multiply, rotate_rows, solve_system
+from shipcollision_fmu.collision.dynamics.small_blocks import (
+    MOST_ROWS,
+    ROWS,
+    multiply,
+    multiply_matrices,
+    rotate_rows,
+    solve_system,
+)
 
 SIZES = (3, 30, 96, 99, 150, 240)
 
@@ -17,6 +24,14 @@ def test_the_product_and_the_system_of_a_whole_array(n: int) -> None:
     A, x = half @ half.T / n + np.eye(n), rng.normal(size=n)
     np.testing.assert_allclose(multiply(A, x), A @ x, atol=1e-12 * n)
     np.testing.assert_allclose(solve_system(A, A @ x), x, atol=1e-9)
+
+
+@pytest.mark.parametrize("shape", [(3, 6, 9), (150, 6, 150), (132, 72, 132), (60, 240, 61), (7, 5000, 130)])
+def test_the_product_of_whole_matrices(shape: tuple[int, int, int]) -> None:
+    n, q, m = shape
+    rng = np.random.default_rng(n)
+    A, B = rng.normal(size=(n, q)), rng.normal(size=(q, m))
+    np.testing.assert_allclose(multiply_matrices(A, B), A @ B, atol=1e-13 * q)
 
 
 def test_a_block_diagonal_turns_the_rows() -> None:
