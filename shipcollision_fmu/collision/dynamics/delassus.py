@@ -26,7 +26,7 @@ import numpy as np
 from ...ship.frames import Array
 from .body_state import BodyState
 from .contact import Contact
-from .small_blocks import multiply_matrices
+from .small_blocks import ROWS, multiply_matrices
 
 __all__ = ["approach_velocities", "delassus", "held_delassus", "mobility"]
 
@@ -50,7 +50,7 @@ def delassus(contacts: Sequence[Contact], states: Sequence[BodyState]) -> Array:
         G[row, column[c.b]] = c.G_b
         G[row] = c.axes @ G[row]
     GM = np.hstack([G[:, column[body]] @ states[body].M_inverse for body in bodies])
-    W = multiply_matrices(GM, G.T)
+    W: Array = GM @ G.T if GM.size * len(G) <= ROWS**3 else multiply_matrices(GM, G.T)
     symmetric: Array = 0.5 * (W + W.T)
     return symmetric
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from ...ship.frames import Array
 
-__all__ = ["multiply", "multiply_matrices", "rotate_rows", "solve_system"]
+__all__ = ["MOST_ROWS", "ROWS", "multiply", "multiply_matrices", "rotate_rows", "solve_system"]
 
 ROWS = 60
 """Rows and columns of a block in a product of matrices: 60^3 multiplications. Larger: threads begin. Smaller: more

@@ -34,7 +34,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...ship.frames import Array
-from ..dynamics.small_blocks import multiply, rotate_rows
+from ..dynamics.small_blocks import MOST_ROWS, multiply, rotate_rows
 from .aclm_fixed_point import solve_aclm
 from .aitken import Aitken
 from .alart_curnier import solve_alart_curnier
@@ -108,7 +108,8 @@ def solve_gauss_seidel(
     if approach <= 0.0:
         return Solution(np.zeros((k, 3)), 0.0, 0)
     T = principal_axes(W)
-    W_p, v_p = turn_tangents(T, W), multiply(T, v)
+    few = len(v) <= MOST_ROWS  # where BLAS begins no threads
+    W_p, v_p = turn_tangents(T, W), T @ v if few else multiply(T, v)
     clear_rounding(W_p, v_p)
     blocks = ContactBlock.of_all(W_p)
     if k == 1:
@@ -116,7 +117,8 @@ def solve_gauss_seidel(
         P_p, sweeps = np.array([solve_one_contact(blocks[0], (v_n, v_1, v_2), mu)[0]]), 1
     else:
         P_p, sweeps = _sweep(W_p, v_p, mu, blocks, scale, _scale_start(W, v, start, T), work or WorkLimit())
-    return Solution(multiply(T.T, P_p.ravel()).reshape(k, 3), law_residual(W_p, v_p, mu, P_p) / scale, sweeps)
+    P = P_p.ravel() @ T if few else multiply(T.T, P_p.ravel())
+    return Solution(P.reshape(k, 3), law_residual(W_p, v_p, mu, P_p) / scale, sweeps)
 
 
 def principal_axes(W: Array) -> Array:
@@ -159,7 +161,9 @@ def _scale_start(W: Array, v: Array, start: Array | None, T: Array) -> Array:
         return np.zeros((len(v) // 3, 3))
     P = start.ravel()
     share = max(0.0, -float(P @ v)) / float(P @ multiply(W, P))
-    return multiply(T, share * P).reshape(-1, 3) if np.isfinite(share) else np.zeros((len(v) // 3, 3))
+    if not np.isfinite(share):
+        return np.zeros((len(v) // 3, 3))
+    return (T @ (share * P) if len(v) <= MOST_ROWS else multiply(T, share * P)).reshape(-1, 3)
 
 
 def _sweep(

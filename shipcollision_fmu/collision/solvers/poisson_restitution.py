@@ -23,7 +23,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...ship.frames import Array
-from ..dynamics.small_blocks import multiply
+from ..dynamics.small_blocks import MOST_ROWS, multiply
 from .aitken import Aitken
 from .contact_law import ContactBlock, solve_friction_in_disc
 from .gauss_seidel import SWEEP_TOLERANCE, Solution, clear_rounding, principal_axes, solve_gauss_seidel, turn_tangents
@@ -91,10 +91,10 @@ def _solve_restitution(W: Array, v: Array, mu: float, P: Array, work: WorkLimit)
     Projected Gauss-Seidel on the tangential pairs alone, in discs of radius mu P_n. The friction minimises a convex
     energy, so the sweeps converge. v: velocity [m/s] after compression.
     """
-    T = principal_axes(W)
-    W, v = turn_tangents(T, W), multiply(T, v)
+    T, few = principal_axes(W), len(v) <= MOST_ROWS  # where BLAS begins no threads
+    W, v = turn_tangents(T, W), T @ v if few else multiply(T, v)
     clear_rounding(W, v)
-    P = multiply(T, P)
+    P = T @ P if few else multiply(T, P)
     blocks = ContactBlock.of_all(W)
     tangents = [W[n + 1 : n + 3] for n in range(0, len(P), 3)]
     impulses: list[float] = P.tolist()
@@ -118,4 +118,4 @@ def _solve_restitution(W: Array, v: Array, mu: float, P: Array, work: WorkLimit)
         if change <= SWEEP_TOLERANCE * scale or work.left < kept:
             break
         impulses = aitken.extrapolate(P.tolist(), last)
-    return multiply(T.T, P)
+    return P @ T if few else multiply(T.T, P)
