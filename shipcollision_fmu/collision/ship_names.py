@@ -9,7 +9,7 @@ from ..errors import InputError
 __all__ = ["NAME_RULE", "RESERVED", "check_ship_names", "is_identifier", "is_ship_name"]
 
 RESERVED = frozenset({
-    "clearance", "clearance_range", "contact", "energy", "feedback", "fender", "friction", "impact",
+    "clearance", "clearance_range", "contact", "diagnosis", "energy", "feedback", "fender", "friction", "impact",
     "minimum_separation_time", "nearest", "obstacles", "response", "restitution", "scratch", "solver", "substep",
     "time",
 })  # fmt: skip
