@@ -47,7 +47,14 @@ def build(out: Path, fmi: str, scalar: bool, ships: str) -> None:
 @click.option(
     "--initial-orders", is_flag=True, help="Hold the orders of time 0, leave out the later ones and autopilots."
 )
-def package(scenario: str, ssp: bool, osp: bool, out: Path | None, initial_orders: bool) -> None:
+@click.option("--fmi", type=FMI, default="2", show_default=True, help="Version of FMI; 3.0 without arrays.")
+@click.option(
+    "--inputs", is_flag=True,
+    help="With --ssp: connectors for orders, wind and current; not for FMPy, which fails on them.",
+)  # fmt: skip
+def package(
+    scenario: str, ssp: bool, osp: bool, out: Path | None, initial_orders: bool, fmi: str, inputs: bool
+) -> None:
     """Make a system of FMUs of SCENARIO for other hosts.
 
     SCENARIO is a name that `shipcollision scenarios` lists, or the path of a TOML file. The package holds an FMU for
@@ -60,15 +67,17 @@ def package(scenario: str, ssp: bool, osp: bool, out: Path | None, initial_order
 
     if ssp == osp:
         raise click.UsageError("choose one form: --ssp or --osp")
+    if inputs and not ssp:
+        raise click.UsageError("--inputs is for --ssp: an OSP system has all variables without it")
     loaded = load_scenario(scenario)
     if ssp:
         place = out if out is not None else Path(f"{loaded.name}.ssp")
         if place.suffix != ".ssp":
             raise click.UsageError(f"--out {place}: hosts recognise the file by its suffix; call it {place.name}.ssp")
-        left_out = write_ssp(loaded, place, initial_orders=initial_orders)
+        left_out = write_ssp(loaded, place, initial_orders=initial_orders, fmi=int(fmi), inputs=inputs)
     else:
         place = out if out is not None else Path(f"{loaded.name}-osp")
-        left_out = write_osp(loaded, place, initial_orders=initial_orders)
+        left_out = write_osp(loaded, place, initial_orders=initial_orders, fmi=int(fmi))
     for line in left_out:
         click.echo(f"note: {line}", err=True)
     click.echo(place)

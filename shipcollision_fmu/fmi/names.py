@@ -9,10 +9,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 __all__ = [
-    "ANGLES", "ANSWERS", "APPLIED", "ATTITUDE", "AXES", "CONTACT_INTEGERS", "CONTACT_REALS", "CONTACT_START", "CURRENT",
-    "ENERGY", "FORCE", "HULL", "IMPACT_POINT", "IMPULSE", "LINEAR", "MOMENT", "NED", "ORDERS", "POSITION", "POST",
-    "PROPELLER", "PROPELLER_ORDER", "RATE", "RUDDER", "RUDDER_ORDER", "STATE", "SURROUNDINGS", "VELOCITY", "WIND",
-    "WIND_DIRECTION", "WIND_SPEED", "contact_point", "named",
+    "ANGLES", "ANSWERS", "APPLIED", "ATTITUDE", "AXES", "CLEARANCE", "CONTACT", "CONTACT_INTEGERS", "CONTACT_POINT",
+    "CONTACT_REALS", "CONTACT_START", "CURRENT", "ENERGY", "FENDER", "FORCE", "HULL", "IMPACT_EVENT", "IMPACT_POINT",
+    "IMPULSE", "LINEAR", "MOMENT", "NED", "ORDERS", "POSITION", "POST", "PROPELLER", "PROPELLER_ORDER", "RATE",
+    "RUDDER", "RUDDER_ORDER", "STATE", "STEERING", "SURROUNDINGS", "VELOCITY", "WIND", "WIND_DIRECTION", "WIND_SPEED",
+    "contact_point", "named",
 ]  # fmt: skip
 
 
@@ -50,6 +51,8 @@ HULL, PROPELLER, RUDDER, WIND = (
 """Forces on a ship by origin, in b about CO [N, N m]."""
 ORDERS = RUDDER_ORDER, PROPELLER_ORDER = "rudder_order", "propeller_order"
 """What a helm gives [rad, rev/s]."""
+STEERING = ("rudder_angle", "propeller_speed")
+"""What the ship makes of the orders [rad, rev/s]."""
 CURRENT = named("current", NED[:2])
 WIND_SPEED, WIND_DIRECTION = "wind.speed", "wind.direction"
 SURROUNDINGS = (*CURRENT, WIND_SPEED, WIND_DIRECTION)
@@ -67,6 +70,15 @@ CONTACT_START = ("start", *named("first", NED), "closing_speed", "angle")
 """Real variables of a contact point about its collision: when and where it began, and how."""
 IMPACT_POINT = named("impact", NED)
 """First contact point of the latest collision, in n [m]."""
+IMPACT_EVENT = named("impact", ("count", "time", "closing_speed", "angle", "ship_a", "ship_b"))
+"""The latest collision but for its place."""
+CONTACT = ("contact.active", "contact.count", "scratch.id")
+"""Whether hulls touch."""
+CONTACT_POINT = ("gap", "impulse_normal", "impulse_tangential", "energy", *CONTACT_INTEGERS)
+"""A contact point but for vectors."""
+CLEARANCE = ("clearance", "nearest.ship_a", "nearest.ship_b")
+FENDER = named("fender", ("stored", "dissipated"))
+"""Energy in fenders [J]."""
 ENERGY = named("energy", ("dissipated", "normal", "tangential"))
 """Kinetic energy lost to contact [J]."""
 

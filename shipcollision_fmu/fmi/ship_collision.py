@@ -223,7 +223,7 @@ def _starts(slots: int) -> Table:
         return real(
             "output", f"{contact_point(k + 1)}.{field}", unit, f"outputs.contacts.{k}.{field}", None, description,
             depends_on=(), minimum=None if field == "start" else 0.0, maximum=maximum,
-            array=Array(f"contact.{field}", (slots,), description),
+            array=Array(f"contact.{field}", (slots,), description), jumps=True,
         )  # fmt: skip
 
     description = "First contact point of the collision in n"
@@ -235,7 +235,7 @@ def _starts(slots: int) -> Table:
             value(k, "start", "s", "Start of the collision of this contact point"),
             *vector(
                 "output", named(f"{contact_point(k + 1)}.first", NED), "m", f"outputs.contacts.{k}.first", description,
-                depends_on=(), array=first,
+                depends_on=(), array=first, jumps=True,
             ),
             value(k, "closing_speed", "m/s", "Closing speed along the normal at the start of the collision"),
             value(k, "angle", "rad", "Angle between the headings at the start of the collision", maximum=pi),

@@ -30,20 +30,22 @@ SYSTEM_NAMESPACE = "http://opensimulationplatform.com/MSMI/OSPSystemStructure"
 SCENARIO_FILE = "scenario.json"
 
 
-def write_osp(scenario: Scenario, out: Path, *, initial_orders: bool = False) -> tuple[str, ...]:
+def write_osp(scenario: Scenario, out: Path, *, initial_orders: bool = False, fmi: int = 2) -> tuple[str, ...]:
     """Write the scenario into the folder `out`; returns sentences on what the folder does not hold.
 
     With `initial_orders` the orders of time 0 are held and everything that a helm does later is left out. Otherwise
-    later orders go into scenario.json, and an autopilot, a route or an evasion is refused. Raises ScenarioError, and
-    HostError when the folder cannot be written.
+    later orders go into scenario.json, and an autopilot, a route or an evasion is refused. With fmi = 3 the FMUs are
+    for FMI 3.0. Raises ScenarioError, and HostError when the folder cannot be written.
     """
     if out.is_file():
         raise HostError(f"cannot write to {out}: it is a file; give the name of a folder with --out")
     check_writable(out)
-    system = build_system_structure(scenario)
+    system = build_system_structure(scenario, fmi)
     if not initial_orders:
         check_orders_fit(system, "an OSP system", ())
     left_out = list(describe_left_out(system, system.orders if initial_orders else ()))
+    if fmi == 3:
+        left_out.insert(0, "libcosim 0.0.6 loads FMUs of FMI 2.0 alone; these are for hosts that read both.")
     if system.orders and not initial_orders:
         left_out.insert(0, f"Orders after time 0 are in {SCENARIO_FILE}: load it into the host as its scenario.")
     write_files(out, build_osp_files(system, tuple(left_out), with_orders=not initial_orders))

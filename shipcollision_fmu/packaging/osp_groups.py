@@ -20,9 +20,16 @@ from ..collision.interface import contact_point_count
 from ..fmi.names import (
     APPLIED,
     ATTITUDE,
+    CLEARANCE,
+    CONTACT,
+    CONTACT_POINT,
+    CONTACT_START,
     CURRENT,
+    ENERGY,
+    FENDER,
     FORCE,
     HULL,
+    IMPACT_EVENT,
     IMPACT_POINT,
     IMPULSE,
     MOMENT,
@@ -33,6 +40,7 @@ from ..fmi.names import (
     PROPELLER,
     RATE,
     RUDDER,
+    STEERING,
     VELOCITY,
     WIND,
     WIND_DIRECTION,
@@ -79,6 +87,7 @@ def list_ship_groups() -> list[Group]:
         Group("Generic", "impulse", IMPULSE),
         Group("Generic", "impulse_applied", APPLIED),
         Group("Generic", "orders", ORDERS),
+        Group("Generic", "steering", STEERING),
         Group("LinearVelocity", "current", CURRENT),
         Group("Generic", "wind", (WIND_SPEED, WIND_DIRECTION)),
         *(Group("Force", f"{origin}.force", wrench[:3]) for origin, wrench in forces.items()),
@@ -88,9 +97,18 @@ def list_ship_groups() -> list[Group]:
 
 def list_collision_groups(ships: Sequence[str]) -> list[Group]:
     """The groups of ShipCollision built for these ships."""
-    groups = [Group("LinearDisplacement", "impact", IMPACT_POINT)]
+    groups = [
+        Group("LinearDisplacement", "impact", IMPACT_POINT),
+        Group("Generic", "impact.event", IMPACT_EVENT),
+        Group("Generic", "contact", CONTACT),
+        Group("Generic", "energy", (*ENERGY, *FENDER)),
+        Group("Generic", "clearance", CLEARANCE),
+    ]
     for k in range(1, contact_point_count(len(ships)) + 1):
-        groups.append(Group("LinearDisplacement", contact_point(k), named(contact_point(k), NED)))
+        point = contact_point(k)
+        groups.append(Group("LinearDisplacement", point, named(point, NED)))
+        groups.append(Group("Generic", f"{point}.contact", named(point, CONTACT_POINT)))
+        groups.append(Group("Generic", f"{point}.start", named(point, CONTACT_START)))
     for s in ships:
         post = f"{s}.{POST}"
         groups += [
@@ -146,7 +164,7 @@ def _add_group(parent: Element, group: Group, table: Table) -> None:
     units = {variable.name: variable.unit for variable in table}
     node = SubElement(parent, group.kind, {"name": group.name})
     for i, name in enumerate(group.variables):
-        attributes = {"ref": name, "unit": str(units[name])}
+        attributes = {"ref": name} if units[name] is None else {"ref": name, "unit": str(units[name])}
         if group.kind != "Generic":
             attributes["axis"] = _AXES[i]
         SubElement(node, "Variable", attributes)

@@ -17,6 +17,7 @@ from xml.etree.ElementTree import Element, SubElement
 from .. import __version__
 from ..files import check_writable, write_file
 from ..fmi.builder.zip_archive import zip_bytes
+from ..fmi.names import ORDERS, SURROUNDINGS
 from ..fmi.units import UNITS
 from ..scenario.scenario import Scenario
 from .left_out import check_orders_fit, describe_left_out
@@ -30,36 +31,45 @@ NAMESPACES = {
     "ssc": "http://ssp-standard.org/SSP1/SystemStructureCommon",
     "ssv": "http://ssp-standard.org/SSP1/SystemStructureParameterValues",
     "osp": "http://opensimulationplatform.com/SSP/OSPAnnotations",
+    "oms": "https://raw.githubusercontent.com/OpenModelica/OMSimulator/master/schema/oms.xsd",
 }
+_KINDS = ("Real", "Integer", "Boolean")
 _TOOL = f"shipcollision_fmu {__version__}"
 
 
-def write_ssp(scenario: Scenario, out: Path, *, initial_orders: bool = False) -> tuple[str, ...]:
+def write_ssp(
+    scenario: Scenario, out: Path, *, initial_orders: bool = False, fmi: int = 2, inputs: bool = False
+) -> tuple[str, ...]:
     """Write the scenario as the file `out` (NAME.ssp); returns sentences on what the file does not hold.
 
     With `initial_orders` the orders of time 0 are held and everything that a helm does later is left out. Otherwise a
-    scenario with later orders, an autopilot, a route or an evasion is refused. Raises ScenarioError, and HostError when
-    the file cannot be written.
+    scenario with later orders, an autopilot, a route or an evasion is refused. With fmi = 3 the FMUs are for FMI 3.0.
+    `inputs`: see build_ssp. Raises ScenarioError, and HostError when the file cannot be written.
     """
     check_writable(out.parent)
-    system = build_system_structure(scenario)
+    system = build_system_structure(scenario, fmi)
     if not initial_orders:
         check_orders_fit(system, "an .ssp file", system.orders)
     left_out = describe_left_out(system, system.orders)
-    write_file(out, build_ssp(system, left_out))
+    write_file(out, build_ssp(system, left_out, inputs=inputs))
     return left_out
 
 
-def build_ssp(system: SystemStructure, left_out: tuple[str, ...] = ()) -> bytes:
-    """The .ssp file; the same system gives the same bytes."""
-    files = {"SystemStructure.ssd": _build_ssd(system, left_out)}
+def build_ssp(system: SystemStructure, left_out: tuple[str, ...] = (), *, inputs: bool = False) -> bytes:
+    """The .ssp file; the same system gives the same bytes.
+
+    With `inputs` the orders, wind and current of each ship have connectors as well, for a host that sets or connects
+    them; FMPy fails on connectors without a connection. Connectors of the system itself are refused by libcosim
+    and Ecos, and confuse FMPy.
+    """
+    files = {"SystemStructure.ssd": _build_ssd(system, left_out, inputs)}
     for instance in system.instances:
         files[f"resources/{instance.name}.fmu"] = instance.build_fmu()
         files[f"resources/{instance.name}.ssv"] = _build_ssv(instance)
     return zip_bytes(files)
 
 
-def _build_ssd(system: SystemStructure, left_out: tuple[str, ...]) -> bytes:
+def _build_ssd(system: SystemStructure, left_out: tuple[str, ...], inputs: bool) -> bytes:
     header = system.scenario.scenario
     root = Element("ssd:SystemStructureDescription", {
         "version": "1.0",
@@ -70,19 +80,21 @@ def _build_ssd(system: SystemStructure, left_out: tuple[str, ...]) -> bytes:
     node = SubElement(root, "ssd:System", {"name": header.name, "description": header.description})
     elements = SubElement(node, "ssd:Elements")
     for instance in system.instances:
-        _add_component(elements, instance, system)
+        _add_component(elements, instance, system, inputs)
     connections = SubElement(node, "ssd:Connections")
     for c in system.connections:
         SubElement(connections, "ssd:Connection", {
             "startElement": c.source, "startConnector": c.output, "endElement": c.target, "endConnector": c.input,
         })  # fmt: skip
+    _add_master(node, system.scenario)
     _add_units(root, system)
     _add_experiment(root, system.scenario)
     return format_document(root, (system.title, "", *left_out), NAMESPACES)
 
 
-def _add_component(elements: Element, instance: Instance, system: SystemStructure) -> None:
-    """Connectors are the connected variables only: FMPy fails on inputs without a connection."""
+def _add_component(elements: Element, instance: Instance, system: SystemStructure, inputs: bool) -> None:
+    """Connectors are all outputs, so that a host can show and connect them, and the connected inputs: FMPy fails on
+    others. A String has no place in FMPy's SSP, an enumeration none in libcosim's."""
     node = SubElement(elements, "ssd:Component", {
         "name": instance.name,
         "description": instance.interface.description,
@@ -92,10 +104,13 @@ def _add_component(elements: Element, instance: Instance, system: SystemStructur
     })  # fmt: skip
     connectors = SubElement(node, "ssd:Connectors")
     used = _find_connected(instance, system)
+    if inputs:
+        used |= {*ORDERS, *SURROUNDINGS}
     for variable in instance.table:
-        if variable.name in used:
+        if variable.name in used or (variable.causality == "output" and variable.kind in _KINDS):
             connector = SubElement(connectors, "ssd:Connector", {"name": variable.name, "kind": variable.causality})
-            SubElement(connector, "ssc:Real", {"unit": str(variable.unit)})
+            unit = {} if variable.unit is None else {"unit": variable.unit}
+            SubElement(connector, f"ssc:{variable.kind}", unit)
     bindings = SubElement(node, "ssd:ParameterBindings")
     SubElement(bindings, "ssd:ParameterBinding", {
         "type": "application/x-ssp-parameter-set", "source": f"resources/{instance.name}.ssv",
@@ -113,12 +128,23 @@ def _add_units(root: Element, system: SystemStructure) -> None:
         variable.unit
         for instance in system.instances
         for variable in instance.table
-        if variable.unit is not None and variable.name in _find_connected(instance, system)
+        if variable.unit is not None and variable.causality != "parameter"
     }
     units = SubElement(root, "ssd:Units")
     for name in sorted(used):
         node = SubElement(units, "ssc:Unit", {"name": name})
         SubElement(node, "ssc:BaseUnit", UNITS[name].base)
+
+
+def _add_master(node: Element, scenario: Scenario) -> None:
+    """OMSimulator takes a system for one of FMUs with a fixed step only with this annotation of its own."""
+    annotations = SubElement(node, "ssd:Annotations")
+    annotation = SubElement(annotations, "ssc:Annotation", {"type": "org.openmodelica"})
+    information = SubElement(SubElement(annotation, "oms:Annotations"), "oms:SimulationInformation")
+    SubElement(information, "oms:FixedStepMaster", {
+        "description": "oms-ma", "stepSize": format_value(scenario.step), "absoluteTolerance": "0.0001",
+        "relativeTolerance": "0.0001",
+    })  # fmt: skip
 
 
 def _add_experiment(root: Element, scenario: Scenario) -> None:

@@ -15,7 +15,7 @@ the format cannot hold. The host chooses the algorithm that steps the instances.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import isclose
 
 from ..cosim.component import Value
@@ -72,6 +72,7 @@ class Instance:
     start   start values by variable; an item of an enumeration by its name
     shown   variables that a user would change: parameters, orders, wind and current
     files   files in its resources, by path
+    fmi     version of FMI; FMI 3.0 without arrays, which SSP 1.0 and OSP cannot connect
     """
 
     name: str
@@ -80,6 +81,7 @@ class Instance:
     start: Mapping[str, Value]
     shown: tuple[str, ...]
     files: Mapping[str, bytes]
+    fmi: int = 2
 
     @property
     def model(self) -> str:
@@ -93,7 +95,7 @@ class Instance:
 
     def build_fmu(self) -> bytes:
         """The FMU file."""
-        return instance_fmu(self.model, self.ships, self.start, self.files)
+        return instance_fmu(self.interface, self.ships, self.start, self.files, self.fmi, self.fmi == 3)
 
     def list_shown_values(self) -> list[tuple[Variable, Value]]:
         """The variables of `shown` with their start values, in the order of the table."""
@@ -124,18 +126,25 @@ class SystemStructure:
         return f"Scenario {header.name}{said}"
 
 
-def build_system_structure(scenario: Scenario) -> SystemStructure:
-    """The system of a scenario. Raises ScenarioError for a ship named COLLISION, ShipError for a ship file."""
+def build_system_structure(scenario: Scenario, fmi: int = 2) -> SystemStructure:
+    """The system of a scenario, for a version of FMI.
+
+    Raises ScenarioError for a ship named COLLISION, ShipError for a ship file.
+    """
     if COLLISION in scenario.ships:
         raise ScenarioError(
             f"[ships.{COLLISION}] cannot be packaged: that is the name of the collision's own instance; rename the ship"
         )
     ships = tuple(scenario.ships)
     packed = {name: pack_ship(name, scenario.ship_file(name)) for name in ships}
-    instances = [_build_ship(scenario, name, start, packed[name]) for name, start in scenario.ships.items()]
+    built = [_build_ship(scenario, name, start, packed[name]) for name, start in scenario.ships.items()]
+    duration, step = scenario.scenario.duration, scenario.step
     return SystemStructure(
         scenario=scenario,
-        instances=(*instances, _build_collision(scenario, packed)),
+        instances=tuple(
+            replace(instance, interface=replace(instance.interface, stop_time=duration, step_size=step), fmi=fmi)
+            for instance in (*built, _build_collision(scenario, packed))
+        ),
         connections=tuple(connection for name in ships for connection in _list_connections(scenario, name)),
         orders=_list_orders(scenario),
         helm=tuple(phrase for name, start in scenario.ships.items() for phrase in _describe_helm(name, start)),

@@ -102,7 +102,7 @@ def test_what_only_jumps_is_discrete_and_what_may_grow_is_not() -> None:
     """Linear interpolation of a collision's start or place between two points in time would invent a collision."""
     table = {line.name: line for line in COLLISION.table(("own", "target"))}
     jumping = {name for name, line in table.items() if line.kind == "Real" and line.variability == "discrete"}
-    expected = {f"{contact_point(k)}.{name}" for k in range(1, 9) for name in CONTACT_REALS}
+    expected = {f"{contact_point(k)}.{name}" for k in range(1, 9) for name in (*CONTACT_REALS, *CONTACT_START)}
     assert jumping == expected | {"solver.residual", "impact.time", "impact.closing_speed", "impact.angle"} | {
         f"impact.{axis}" for axis in ("north", "east", "down")
     }

@@ -28,7 +28,10 @@ Rows = npt.NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Encounter:
-    """A scenario packaged in a folder, as package.ssp and osp/. Rows: one per communication point, columns observed."""
+    """A scenario packaged in a folder, as package.ssp, package3.ssp (FMI 3.0) and osp/.
+
+    Rows: one per communication point, columns observed.
+    """
 
     scenario: Scenario
     folder: Path
@@ -38,6 +41,7 @@ class Encounter:
         write_osp(scenario, folder / "osp")
         if not build_system_structure(scenario).orders:
             write_ssp(scenario, folder / "package.ssp")
+            write_ssp(scenario, folder / "package3.ssp", fmi=3)
         return cls(scenario, folder)
 
     @property
@@ -57,6 +61,7 @@ class Encounter:
         """What masters.py reads."""
         return {
             "osp": str(self.folder / "osp"), "ssp": str(self.folder / "package.ssp"),
+            "ssp3": str(self.folder / "package3.ssp"),
             "instances": [*self.ships, "collision"], "steps": self.scenario.steps, "step": self.scenario.step,
             "connections": [
                 [c.source, c.output, c.target, c.input] for c in build_system_structure(self.scenario).connections

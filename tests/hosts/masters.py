@@ -187,6 +187,29 @@ def ecos(case: Case, kind: str) -> Result:
     return {"rows": rows, "impacts": impacts, "seconds": seconds}
 
 
+def container(case: Case, fmi: int) -> Result:
+    """A container of fmu-manipulation-toolbox: the .ssp becomes one FMU, whose own master FMPy then steps."""
+    import subprocess
+    from tempfile import TemporaryDirectory
+
+    import numpy as np
+    from fmpy import simulate_fmu
+
+    ssp, steps, step = Path(case["ssp" if fmi == 2 else "ssp3"]), case["steps"], case["step"]
+    names = [f"{instance}.{variable}" for instance, variable in case["observed"]]
+    with TemporaryDirectory() as folder:
+        (Path(folder) / "package.ssp").write_bytes(ssp.read_bytes())
+        command = ["-container", f"package.ssp:{step}", "-fmu-directory", ".", "-fmi", str(fmi)]
+        tool = Path(sys.executable).with_name("fmucontainer")
+        subprocess.run([tool, *command], cwd=folder, check=True, capture_output=True)
+        begin = perf_counter()
+        found = simulate_fmu(
+            str(Path(folder) / "package.fmu"), stop_time=steps * step, output_interval=step, output=names
+        )
+    rows = np.array([found[name] for name in names]).T.tolist()
+    return {"rows": rows, "impacts": None, "seconds": perf_counter() - begin}
+
+
 MASTERS: dict[str, Callable[[Case], Result]] = {
     "fmpy-loop": fmpy_loop,
     "fmpy-simulate": fmpy_simulate,
@@ -195,6 +218,9 @@ MASTERS: dict[str, Callable[[Case], Result]] = {
     "libcosim-ssp": lambda case: libcosim(case, "ssp"),
     "ecos-api": lambda case: ecos(case, "api"),
     "ecos-ssp": lambda case: ecos(case, "ssp"),
+    "ecos-ssp-fmi3": lambda case: ecos({**case, "ssp": case["ssp3"]}, "ssp"),
+    "container": lambda case: container(case, 2),
+    "container-fmi3": lambda case: container(case, 3),
 }
 if sys.version_info < (3, 11):  # libcosimpy has no wheels for CPython 3.10
     MASTERS = {name: master for name, master in MASTERS.items() if not name.startswith("libcosim")}

@@ -219,6 +219,77 @@ def test_start_values_that_cannot_be(start: dict[str, object], message: str) -> 
         COLLISION.make_access(start=start)
 
 
+# What a host can see and set. ------------------------------------------------------------------------------
+
+
+def connectors(ssp: Path) -> dict[str, dict[str, str]]:
+    """Kind of each connector, by component."""
+    system = read_ssd(str(ssp)).system
+    return {one.name: {connector.name: connector.kind for connector in one.connectors} for one in system.elements}
+
+
+def test_every_output_that_a_host_can_read_has_a_connector(tmp_path: Path, empty_fmus: None) -> None:
+    """FMPy's SSP has no Strings, libcosim's no enumerations."""
+    write_ssp(load_scenario("guan2014"), tmp_path / "it.ssp")
+    found = connectors(tmp_path / "it.ssp")
+    for name, interface in (("own", MANOEUVRING), ("target", MANOEUVRING), ("collision", COLLISION)):
+        readable = {
+            line.name for line in interface.table(("own", "target"))
+            if line.causality == "output" and line.kind in ("Real", "Integer", "Boolean")
+        }  # fmt: skip
+        assert {one for one, kind in found[name].items() if kind == "output"} == readable
+    for name in ("impact.time", "contact.count", "contact[1].gap", "energy.dissipated", "clearance"):
+        assert name in found["collision"]
+    for name in ("rudder_angle", "propeller_speed", "rudder.sway", "propeller.surge", "wind.sway"):
+        assert name in found["own"]
+
+
+def test_inputs_have_connectors_on_request(tmp_path: Path, empty_fmus: None) -> None:
+    given = {"rudder_order", "propeller_order", "current.north", "current.east", "wind.speed", "wind.direction"}
+    for inputs in (False, True):
+        write_ssp(load_scenario("guan2014"), tmp_path / "it.ssp", inputs=inputs)
+        for ship in ("own", "target"):
+            assert ((connectors(tmp_path / "it.ssp")[ship].keys() & given) == given) == inputs
+
+
+def test_omsimulator_finds_its_annotation_in_the_system(tmp_path: Path, empty_fmus: None) -> None:
+    """Without it OMSimulator answers "[NewSystem] internal error"."""
+    scenario = load_scenario("guan2014")
+    write_ssp(scenario, tmp_path / "it.ssp")
+    with zipfile.ZipFile(tmp_path / "it.ssp") as archive:
+        text = archive.read("SystemStructure.ssd").decode()
+    system = text[text.index("<ssd:System ") : text.index("</ssd:System>")]
+    assert '<ssc:Annotation type="org.openmodelica">' in system
+    assert f'<oms:FixedStepMaster description="oms-ma" stepSize="{scenario.step!r}"' in system
+    assert 'xmlns:oms="https://raw.githubusercontent.com/OpenModelica/OMSimulator/master/schema/oms.xsd"' in text
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_packages_of_both_versions_have_the_same_names_and_the_scenarios_experiment(
+    scenario_file: Write, tmp_path: Path, fmi: int
+) -> None:
+    scenario = load_scenario(scenario_file())
+    left_out = write_osp(scenario, tmp_path, fmi=fmi)
+    assert any("libcosim" in line for line in left_out) == (fmi == 3)
+    for name, interface in (("own", MANOEUVRING), ("collision", COLLISION)):
+        description = read_model_description(str(tmp_path / f"{name}.fmu"))
+        assert description.fmiVersion == f"{fmi}.0"
+        names = [line.name for line in interface.table(("own", "target"))]
+        assert [v.name for v in description.modelVariables if v.name != "time"] == names
+        assert float(description.defaultExperiment.stopTime) == scenario.scenario.duration
+        assert float(description.defaultExperiment.stepSize) == scenario.step
+
+
+def test_what_a_user_of_osp_wants_to_plot_is_in_a_group() -> None:
+    groups = [*list_ship_groups(), *list_collision_groups(("own", "target"))]
+    shown = {name for group in groups for part in (group, *group.groups) for name in part.variables}
+    for name in (
+        "rudder_angle", "propeller_speed", "current.north", "wind.speed", "impact.count", "impact.time", "impact.angle",
+        "contact.active", "contact[8].gap", "contact[8].start", "energy.dissipated", "fender.stored", "clearance",
+    ):  # fmt: skip
+        assert name in shown
+
+
 # OSP-IS. ------------------------------------------------------------------------------
 
 
@@ -251,7 +322,7 @@ def test_variable_groups_follow_the_rules_of_osp_is(interface: Interface, tmp_pa
     assert len(set(refs)) == len(refs)
     for group in plain:
         assert {table[v.attrib["ref"]].causality for v in group} in ({"input"}, {"output"})
-        assert [v.attrib["unit"] for v in group] == [table[v.attrib["ref"]].unit for v in group]
+        assert [v.attrib.get("unit") for v in group] == [table[v.attrib["ref"]].unit for v in group]
         if group.tag != GROUPS + "Generic":
             assert [v.attrib["axis"] for v in group] == ["x", "y", "z"][: len(group)]
 

@@ -82,8 +82,9 @@ _VERSION = Version(
 def _variable(variables: Element, reference: int, array: ArrayVariable, access: VariableAccess) -> None:
     line = array.line
     attributes = describe_variable(array.name, reference, array.description, line)
-    starts = [format_start(access.table[scalar], scalar, access) for scalar in array.references]
     settable, string = line.causality != "output", line.kind == "String"
+    # Not of outputs: they would be computed, from ship files that may be in the FMU alone.
+    starts = [format_start(access.table[scalar], scalar, access) for scalar in array.references if settable]
     if settable and not string:
         attributes["start"] = " ".join(starts)
     node = SubElement(variables, TYPES[line.kind], attributes | list_limits(line))

@@ -115,20 +115,21 @@ def are_fmus_current(directory: str | Path, *, ships: tuple[str, ...] = SHIPS, f
 
 
 def instance_fmu(
-    name: str,
+    interface: Interface,
     ships: tuple[str, ...],
     start: Mapping[str, Any],
     files: Mapping[str, bytes] | None = None,
     fmi: int = 2,
     scalar: bool = False,
 ) -> bytes:
-    """ShipCollision or ShipManoeuvring for one instance in a system: it starts from `start` (values by name).
+    """ShipCollision or ShipManoeuvring for one instance in a system: it starts from `start` (values by name). The
+    default experiment of `interface` may be the system's own.
 
     Some hosts ignore a system's parameter values; an FMU's own start values are honoured by all. `files` go into its
     resources, where ship files are looked for first. Raises HostError, and InputError for what cannot be set.
     """
-    slave = _slave(name, _version(fmi, scalar)).read_bytes()
-    return fmu_bytes(_interface(name), slave, ships, fmi, start=start, resources=files, scalar=scalar)
+    slave = _slave(interface.name, _version(fmi, scalar)).read_bytes()
+    return fmu_bytes(interface, slave, ships, fmi, start=start, resources=files, scalar=scalar)
 
 
 def fmu_bytes(
