@@ -10,6 +10,7 @@ from collections.abc import Mapping, Sequence
 from ctypes import Array, c_char_p, c_double, c_int, c_uint
 from pathlib import Path
 from typing import Any
+from weakref import WeakValueDictionary
 
 from fmpy.fmi2 import (
     FMU2Slave,
@@ -19,6 +20,7 @@ from fmpy.fmi2 import (
     fmi2CallbackFunctions,
     fmi2CallbackLoggerTYPE,
     fmi2CoSimulation,
+    printLogMessage,
 )
 
 from ..errors import HostError
@@ -97,17 +99,31 @@ class Fmi2Component(FmuInstance):
 
     def _logger(self) -> fmi2CallbackFunctions:
         """Callbacks that keep the FMU's last messages, for the error that may follow."""
-
-        def keep(environment: Any, instance: bytes, status: int, category: bytes, message: bytes) -> None:
-            del environment, instance, category
-            self._remember(status, message)
-
         callbacks = fmi2CallbackFunctions()
-        callbacks.logger = fmi2CallbackLoggerTYPE(keep)
+        callbacks.logger = _LOGGER
         callbacks.allocateMemory = defaultCallbacks.allocateMemory
         callbacks.freeMemory = defaultCallbacks.freeMemory
+        callbacks.componentEnvironment = id(self)
+        _LISTENERS[id(self)] = self
         addLoggerProxy(byref(callbacks))
         return callbacks
+
+
+_LISTENERS: WeakValueDictionary[int, Fmi2Component] = WeakValueDictionary()
+"""The components of this process by what their FMUs give as componentEnvironment."""
+
+
+def _hear(environment: int | None, instance: bytes, status: int, category: bytes, message: bytes) -> None:
+    listener = None if environment is None else _LISTENERS.get(environment)
+    if listener is None:  # an FMU of another master in this process
+        printLogMessage(environment, instance, status, category, message)
+    else:
+        listener._remember(status, message)
+
+
+_LOGGER = fmi2CallbackLoggerTYPE(_hear)
+"""One for all components, and never collected: FMPy's proxy keeps the address of the last logger that it was given, and
+calls it for every FMU of the process, also when the component that gave it is gone."""
 
 
 class _Group:
