@@ -89,7 +89,7 @@ def respond_closed_form(problem: ContactProblem, caches: ContactCaches) -> Conta
         P = contact.axes.T @ process.P
         _apply_to_states(contact, P, states)
         pair.take(P)
-        work.spend_impact_process()
+        work.spend_impact_process(process.stretches)
         for other in touching:
             if other is not pair and other.shares_ship(pair, states):
                 other.measure_approach(states)

@@ -60,6 +60,13 @@ MAX_STRETCHES = 10_000
 """Bound on the stretches of a turning slip. It is met only where two invariant directions nearly coincide. The slip
 then goes straight on, which is nearly its path."""
 
+MOST_GUESSES = 60
+"""Bound on the guesses of the instant at which an event lies. Four are mostly enough."""
+
+ROUNDING = 1e-15
+"""What is left of the normal velocity or of the work at an event, or of its instant as a share, that is rounding: a
+hundredth of the error of the path."""
+
 STEP = 0.5
 """Most by which the slip changes in a step of estimate_losses, as a share of itself. With 1 the parts are off by some
 per cent."""
@@ -82,7 +89,8 @@ class ImpactProcess:
     """The end of an impact. P (d,) [N s] on ship b in contact axes, normal first; after (d,): relative velocity [m/s].
 
     energy_normal, energy_tangential: lost along the normal and to friction [J]. ending: apart (there was no approach),
-    slip (the slip never stopped), stick, or reslip (the slip stopped and started anew).
+    slip (the slip never stopped), stick, or reslip (the slip stopped and started anew). stretches: of a turning slip
+    that were integrated.
     """
 
     P: Array
@@ -90,6 +98,7 @@ class ImpactProcess:
     energy_normal: float
     energy_tangential: float
     ending: Ending
+    stretches: int = 0
 
 
 def solve_impact_process(W: Array, v: Array, mu: float, e: float, H: Array | None = None) -> ImpactProcess:
@@ -111,7 +120,7 @@ def solve_impact_process(W: Array, v: Array, mu: float, e: float, H: Array | Non
     p, P_1, P_2 = path.P
     P = np.array([p, c * P_1 - s * P_2, s * P_1 + c * P_2])[:d] * (speed / W_nn)
     unit = speed * speed / W_nn
-    return ImpactProcess(P, v + W @ P, path.E_n * unit, path.E_t * unit, ending)
+    return ImpactProcess(P, v + W @ P, path.E_n * unit, path.E_t * unit, ending, path.stretches)
 
 
 def estimate_losses(W: Array, v: Array, mu: float, e: float, H: Array | None = None) -> tuple[float, float]:
@@ -163,6 +172,7 @@ class _Path:
         self.stored = 0.0  # work that restitution may still give back
         self.compressing = True
         self.E_n = self.E_t = 0.0
+        self.stretches = 0
 
     def move(self, p: float, P_1: float, P_2: float, N: float, E_t: float) -> None:
         """Add the impulses and works of a stretch that lies as a whole in compression or in restitution."""
@@ -288,6 +298,7 @@ def _follow_slip(path: _Path) -> bool:
         # At most: the slip turns by a radian or changes by a factor e; the impulse is about that of the approach.
         tau = min(tau, 1.0 / flow.rate, 1.0 / exp(log_slip))
         end, columns = flow.integrate(angle, log_slip, path.v_n, tau)
+        path.stretches += 1
         if columns is None:
             tau *= 0.5
             continue
@@ -296,7 +307,7 @@ def _follow_slip(path: _Path) -> bool:
             tau *= 0.5
             continue
         if event:
-            end = _locate_event(path, angle, log_slip, tau, event)
+            end = _locate_event(path, angle, log_slip, end, tau, event)
         path.move(end.p, end.P_1, end.P_2, end.N, end.E_t)
         if event == "given back" or (event == "turn" and path.turn()):
             return True
@@ -324,34 +335,31 @@ def _find_event(path: _Path, end: Stretch) -> Event:
     return "given back" if path.stored <= end.N else ""
 
 
-def _locate_event(path: _Path, angle: float, log_slip: float, tau: float, event: Event) -> Stretch:
-    """The stretch up to an event that lies within tau."""
+def _locate_event(path: _Path, angle: float, log_slip: float, end: Stretch, tau: float, event: Event) -> Stretch:
+    """The stretch up to an event that lies within tau, of which `end` is the whole stretch.
 
-    def at(x: float) -> Stretch:
-        return path.flow.integrate(angle, log_slip, path.v_n, x)[0]
+    Newton's method, as the rates of what passes zero are known; it keeps to the bracket of the zero.
+    """
+    flow = path.flow
 
-    def overshoot(x: float) -> float:
-        end = at(x)
-        return end.N - path.stored if event == "given back" else _normal_velocity(path, end)
+    def passes(stretch: Stretch) -> float:
+        return stretch.N - path.stored if event == "given back" else _normal_velocity(path, stretch)
 
-    return at(_find_root(overshoot, tau))
-
-
-def _find_root(f: Callable[[float], float], b: float) -> float:
-    """The zero of f between 0 and b, to rounding, by regula falsi with Illinois' weights."""
-    a, f_a, f_b = 0.0, f(0.0), f(b)
-    for _ in range(100):
-        if f_b == 0.0 or f_a == f_b:
-            return b
-        c = b - f_b * (b - a) / (f_b - f_a)
-        if c in (a, b):
-            return c
-        f_c = f(c)
-        if f_c * f_b < 0.0:
-            a, f_a = b, f_b
+    f_0 = -path.stored if event == "given back" else path.v_n
+    share = f_0 / (f_0 - passes(end))
+    low, high, x = 0.0, tau, tau * (sqrt(share) if event == "given back" else share)  # restitution begins at v_n = 0
+    for _ in range(MOST_GUESSES):
+        end, _ = flow.integrate(angle, log_slip, path.v_n, x)
+        path.stretches += 1
+        f, c, s = passes(end), cos(end.angle), sin(end.angle)
+        if (f < 0.0) == (f_0 < 0.0):
+            low = x
         else:
-            f_a *= 0.5
-        b, f_b = c, f_c
-        if abs(b - a) <= 1e-16 * abs(b):
+            high = x
+        rate = exp(end.log_slip)  # dp/dtau
+        rate *= _normal_velocity(path, end) if event == "given back" else 1.0 - flow.mu * (flow.n_1 * c + flow.n_2 * s)
+        new = x - f / rate if rate else low
+        if abs(f) <= ROUNDING or abs(new - x) <= ROUNDING * x:
             break
-    return b
+        x = new if low < new < high else 0.5 * (low + high)
+    return end

@@ -64,9 +64,9 @@ class WorkLimit:
         """A step of the projected gradient method."""
         self.left -= 30.0 + 0.006 * contacts**2
 
-    def spend_impact_process(self) -> None:
-        """The impact process of one contact, with its contact's axes and operator."""
-        self.left -= 600.0
+    def spend_impact_process(self, stretches: int) -> None:
+        """The impact process of one contact, with its operator, and so many stretches of its slip."""
+        self.left -= 400.0 + 150.0 * stretches
 
 
 class StepWork:
