@@ -345,8 +345,8 @@ def _locate_event(path: _Path, angle: float, log_slip: float, end: Stretch, tau:
     def passes(stretch: Stretch) -> float:
         return stretch.N - path.stored if event == "given back" else _normal_velocity(path, stretch)
 
-    f_0 = -path.stored if event == "given back" else path.v_n
-    share = f_0 / (f_0 - passes(end))
+    f_0, f_1 = -path.stored if event == "given back" else path.v_n, passes(end)
+    share = f_0 / (f_0 - f_1) if f_0 != f_1 else 1.0
     low, high, x = 0.0, tau, tau * (sqrt(share) if event == "given back" else share)  # restitution begins at v_n = 0
     for _ in range(MOST_GUESSES):
         end, _ = flow.integrate(angle, log_slip, path.v_n, x)
