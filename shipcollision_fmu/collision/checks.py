@@ -68,7 +68,7 @@ def check_states(t: float, bodies: Sequence[Body], states: Sequence[ShipState]) 
             )  # fmt: skip
             raise StepError(
                 f"{body.name}.{quantity} is {value:g} {unit} at t = {t} s, above {limit:g} {unit}: check the "
-                "signal and its unit"
+                "signal and its unit, and after an impact the mass of the ship model (kg)"
             )
 
 

@@ -13,6 +13,7 @@ import pytest
 from shipcollision_fmu.collision.findings import FINDINGS
 from shipcollision_fmu.collision.interface import ShipState
 from shipcollision_fmu.collision.model import ShipCollision
+from shipcollision_fmu.errors import StepError
 from shipcollision_fmu.fmi.names import STATE, named
 from shipcollision_fmu.fmi.ship_collision import INTERFACE
 from tests.collision.conftest import BOX, World
@@ -189,6 +190,17 @@ def test_the_remedies_of_an_impulse_that_is_not_returned_work(make_ship: Make) -
         w.run(5.0, 0.1)
         assert w.model.outputs.collision_count >= 1
         assert not w.warnings
+    finally:
+        w.model.close()
+
+
+def test_a_ship_that_is_thrown_beyond_all_speeds_is_refused_with_its_mass_named(make_ship: Make) -> None:
+    """A thousandth of the mass at 5 m/s: 3 km/s, before a second look."""
+    w = wired(make_ship)
+    w.upright[0] = w.upright[0] * 1000.0
+    try:
+        with pytest.raises(StepError, match=r"s0.velocity is 3\d{3}.* and after an impact the mass of the ship model"):
+            w.run(5.0, 0.1)
     finally:
         w.model.close()
 
