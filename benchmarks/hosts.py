@@ -43,7 +43,8 @@ from shipcollision_fmu.cosim.wiring import connect
 from shipcollision_fmu.encounters.encounter import encounter
 from shipcollision_fmu.fmi.builder.package import build_fmus
 from shipcollision_fmu.fmi.ship_collision import INTERFACE
-from shipcollision_fmu.packaging.system_structure import COLLISION, build_system_structure
+from shipcollision_fmu.packaging.instance import COLLISION
+from shipcollision_fmu.packaging.system_structure import build_system_structure
 from shipcollision_fmu.scenario.scenario import Scenario, parse_scenario
 from tests.hosts.encounter import Encounter, run_master
 from tests.hosts.masters import MASTERS

@@ -52,8 +52,19 @@ def build(out: Path, fmi: str, scalar: bool, ships: str) -> None:
     "--inputs", is_flag=True,
     help="With --ssp: connectors for orders, wind and current; not for FMPy, which fails on them.",
 )  # fmt: skip
+@click.option(
+    "--replace", multiple=True, metavar="SHIP=FILE.fmu",
+    help="A ship model of your own, coupled by force; FILE.toml beside it names its variables.",
+)  # fmt: skip
 def package(
-    scenario: str, ssp: bool, osp: bool, out: Path | None, initial_orders: bool, fmi: str, inputs: bool
+    scenario: str,
+    ssp: bool,
+    osp: bool,
+    out: Path | None,
+    initial_orders: bool,
+    fmi: str,
+    inputs: bool,
+    replace: tuple[str, ...],
 ) -> None:
     """Make a system of FMUs of SCENARIO for other hosts.
 
@@ -61,6 +72,7 @@ def package(
     each ship and one for the collision, with the scenario's values as their start values. Settings that a
     package cannot hold, such as a route, are refused, or left out with a note.
     """
+    from ..packaging.foreign_ship import read_foreign_ship
     from ..packaging.osp import write_osp
     from ..packaging.ssp import write_ssp
     from ..scenario.scenario import load_scenario
@@ -69,18 +81,27 @@ def package(
         raise click.UsageError("choose one form: --ssp or --osp")
     if inputs and not ssp:
         raise click.UsageError("--inputs is for --ssp: an OSP system has all variables without it")
+    foreign = {ship: read_foreign_ship(Path(file)) for ship, file in map(_split_replacement, replace)}
     loaded = load_scenario(scenario)
     if ssp:
         place = out if out is not None else Path(f"{loaded.name}.ssp")
         if place.suffix != ".ssp":
             raise click.UsageError(f"--out {place}: hosts recognise the file by its suffix; call it {place.name}.ssp")
-        left_out = write_ssp(loaded, place, initial_orders=initial_orders, fmi=int(fmi), inputs=inputs)
+        left_out = write_ssp(loaded, place, initial_orders=initial_orders, fmi=int(fmi), inputs=inputs, foreign=foreign)
     else:
         place = out if out is not None else Path(f"{loaded.name}-osp")
-        left_out = write_osp(loaded, place, initial_orders=initial_orders, fmi=int(fmi))
+        left_out = write_osp(loaded, place, initial_orders=initial_orders, fmi=int(fmi), foreign=foreign)
     for line in left_out:
         click.echo(f"note: {line}", err=True)
     click.echo(place)
+
+
+def _split_replacement(text: str) -> tuple[str, str]:
+    """SHIP=FILE as a pair."""
+    ship, equals, file = text.partition("=")
+    if not (ship and equals and file):
+        raise click.UsageError(f"--replace {text}: say which ship and by which file, such as own=vessel.fmu")
+    return ship, file
 
 
 @click.command()

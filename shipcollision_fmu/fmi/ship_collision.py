@@ -17,9 +17,9 @@ from ..collision.checks import MAXIMUM_FRICTION
 from ..collision.feedback import COMMON_FEEDBACKS, SHIP_FEEDBACKS
 from ..collision.findings import FINDINGS
 from ..collision.interface import contact_point_count
-from ..collision.model import ShipCollision
 from ..collision.responses import RESPONSES
 from ..ship.coasting_law import COASTING
+from .framed_collision import FramedCollision
 from .interface import REQUIREMENTS, SHIPS, Interface
 from .names import (
     APPLIED,
@@ -70,6 +70,7 @@ def table(ships: tuple[str, ...] = SHIPS) -> Table:
         *_starts(contact_point_count(len(ships))),
         *_diagnosis(len(ships)),
         *(line for i, name in enumerate(ships) for line in _feedback(i, name)),
+        *(line for i, name in enumerate(ships) for line in _frames(i, name)),
     )
 
 
@@ -429,11 +430,25 @@ def _feedback(i: int, s: str) -> Table:
     )  # fmt: skip
 
 
+def _frames(i: int, s: str) -> Table:
+    """For a ship model that speaks n. Text, since not all hosts pass enumerations."""
+    return (
+        string(
+            "parameter", f"{s}.velocity_frame", f"frames.{i}.velocity",
+            f'Frame of {s}.velocity and {s}.rate: "b", or "n" where surge, sway, heave hold north, east, down',
+        ),
+        string(
+            "parameter", f"{s}.force_frame", f"frames.{i}.force",
+            f'Frame of {s}.force and {s}.moment: "b", or "n" where surge, sway, heave hold north, east, down',
+        ),
+    )  # fmt: skip
+
+
 INTERFACE = Interface(
     name="ShipCollision",
     description="Ships collide: states in, post-impact states, impulses, contact points and energy out.",
     table=table,
-    model=ShipCollision,
+    model=FramedCollision,
     tolerance=1e-9,  # residual to which contact problems are solved
     requirements=(*REQUIREMENTS, "pybullet>=3.2.5"),
     pythons=("3.10", "3.11"),  # pybullet 3.2.7 has wheels for no later one, and for Linux alone

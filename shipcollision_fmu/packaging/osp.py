@@ -13,15 +13,20 @@ without it on request.
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from pathlib import Path
 from xml.etree.ElementTree import Comment, Element, SubElement
 
 from ..errors import HostError
 from ..files import check_writable, write_files
+from ..fmi.ship_collision import INTERFACE as COLLISION_INTERFACE
+from ..fmi.ship_manoeuvring import INTERFACE as SHIP_INTERFACE
 from ..scenario.scenario import Scenario
+from .foreign_ship import ForeignShip
+from .instance import COLLISION, Instance
 from .left_out import check_orders_fit, describe_left_out
 from .osp_groups import NAMESPACE, build_model_description, connect_groups
-from .system_structure import COLLISION, Instance, SystemStructure, build_system_structure
+from .system_structure import SystemStructure, build_system_structure
 from .xml_file import format_document, format_value
 
 __all__ = ["build_osp_files", "write_osp"]
@@ -30,17 +35,25 @@ SYSTEM_NAMESPACE = "http://opensimulationplatform.com/MSMI/OSPSystemStructure"
 SCENARIO_FILE = "scenario.json"
 
 
-def write_osp(scenario: Scenario, out: Path, *, initial_orders: bool = False, fmi: int = 2) -> tuple[str, ...]:
+def write_osp(
+    scenario: Scenario,
+    out: Path,
+    *,
+    initial_orders: bool = False,
+    fmi: int = 2,
+    foreign: Mapping[str, ForeignShip] | None = None,
+) -> tuple[str, ...]:
     """Write the scenario into the folder `out`; returns sentences on what the folder does not hold.
 
     With `initial_orders` the orders of time 0 are held and everything that a helm does later is left out. Otherwise
     later orders go into scenario.json, and an autopilot, a route or an evasion is refused. With fmi = 3 the FMUs are
-    for FMI 3.0. Raises ScenarioError, and HostError when the folder cannot be written.
+    for FMI 3.0; `foreign`: see build_system_structure. Raises ScenarioError, and HostError when the
+    folder cannot be written.
     """
     if out.is_file():
         raise HostError(f"cannot write to {out}: it is a file; give the name of a folder with --out")
     check_writable(out)
-    system = build_system_structure(scenario, fmi)
+    system = build_system_structure(scenario, fmi, foreign)
     if not initial_orders:
         check_orders_fit(system, "an OSP system", ())
     left_out = list(describe_left_out(system, system.orders if initial_orders else ()))
@@ -59,6 +72,8 @@ def build_osp_files(
     files: dict[str, str | bytes] = {"OspSystemStructure.xml": _build_system(system, left_out)}
     for instance in system.instances:
         files[f"{instance.name}.fmu"] = instance.build_fmu()
+        if instance.model not in (SHIP_INTERFACE.name, COLLISION_INTERFACE.name):
+            continue  # a foreign ship has no groups
         files[f"{instance.model}_OspModelDescription.xml"] = format_document(
             build_model_description(instance.model, instance.ships),
             (f"Variable groups of {instance.model}.fmu after OSP-IS.",),
@@ -80,7 +95,13 @@ def _build_system(system: SystemStructure, left_out: tuple[str, ...]) -> bytes:
     for instance in system.instances:
         _add_simulator(simulators, instance)
     connections = SubElement(root, "Connections")
-    for name in scenario.ships:
+    grouped = [name for name in scenario.ships if name not in system.replaced]
+    for c in system.connections:
+        if not {c.source, c.target} & set(grouped):
+            node = SubElement(connections, "VariableConnection")
+            SubElement(node, "Variable", {"simulator": c.source, "name": c.output})
+            SubElement(node, "Variable", {"simulator": c.target, "name": c.input})
+    for name in grouped:
         for group in connect_groups(scenario.collision.feedback or "ledger"):
             node = SubElement(connections, "VariableGroupConnection")
             SubElement(node, "VariableGroup", {"simulator": name, "name": group})

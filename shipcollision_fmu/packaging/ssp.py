@@ -11,6 +11,7 @@ refused, or left out on request.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from xml.etree.ElementTree import Element, SubElement
 
@@ -20,8 +21,10 @@ from ..fmi.builder.zip_archive import zip_bytes
 from ..fmi.names import ORDERS, SURROUNDINGS
 from ..fmi.units import UNITS
 from ..scenario.scenario import Scenario
+from .foreign_ship import ForeignShip
+from .instance import Instance
 from .left_out import check_orders_fit, describe_left_out
-from .system_structure import Instance, SystemStructure, build_system_structure
+from .system_structure import SystemStructure, build_system_structure
 from .xml_file import format_document, format_value
 
 __all__ = ["build_ssp", "write_ssp"]
@@ -38,16 +41,23 @@ _TOOL = f"shipcollision_fmu {__version__}"
 
 
 def write_ssp(
-    scenario: Scenario, out: Path, *, initial_orders: bool = False, fmi: int = 2, inputs: bool = False
+    scenario: Scenario,
+    out: Path,
+    *,
+    initial_orders: bool = False,
+    fmi: int = 2,
+    inputs: bool = False,
+    foreign: Mapping[str, ForeignShip] | None = None,
 ) -> tuple[str, ...]:
     """Write the scenario as the file `out` (NAME.ssp); returns sentences on what the file does not hold.
 
     With `initial_orders` the orders of time 0 are held and everything that a helm does later is left out. Otherwise a
     scenario with later orders, an autopilot, a route or an evasion is refused. With fmi = 3 the FMUs are for FMI 3.0.
-    `inputs`: see build_ssp. Raises ScenarioError, and HostError when the file cannot be written.
+    `inputs`: see build_ssp; `foreign`: see build_system_structure. Raises ScenarioError, and HostError when the
+    file cannot be written.
     """
     check_writable(out.parent)
-    system = build_system_structure(scenario, fmi)
+    system = build_system_structure(scenario, fmi, foreign)
     if not initial_orders:
         check_orders_fit(system, "an .ssp file", system.orders)
     left_out = describe_left_out(system, system.orders)
@@ -65,7 +75,8 @@ def build_ssp(system: SystemStructure, left_out: tuple[str, ...] = (), *, inputs
     files = {"SystemStructure.ssd": _build_ssd(system, left_out, inputs)}
     for instance in system.instances:
         files[f"resources/{instance.name}.fmu"] = instance.build_fmu()
-        files[f"resources/{instance.name}.ssv"] = _build_ssv(instance)
+        if instance.shown:
+            files[f"resources/{instance.name}.ssv"] = _build_ssv(instance)
     return zip_bytes(files)
 
 
@@ -111,6 +122,8 @@ def _add_component(elements: Element, instance: Instance, system: SystemStructur
             connector = SubElement(connectors, "ssd:Connector", {"name": variable.name, "kind": variable.causality})
             unit = {} if variable.unit is None else {"unit": variable.unit}
             SubElement(connector, f"ssc:{variable.kind}", unit)
+    if not instance.shown:
+        return
     bindings = SubElement(node, "ssd:ParameterBindings")
     SubElement(bindings, "ssd:ParameterBinding", {
         "type": "application/x-ssp-parameter-set", "source": f"resources/{instance.name}.ssv",

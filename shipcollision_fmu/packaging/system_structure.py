@@ -21,38 +21,22 @@ from math import isclose
 from ..cosim.component import Value
 from ..cosim.parameters import collision_parameters, ship_parameters, surroundings
 from ..errors import ScenarioError
-from ..fmi.builder.package import instance_fmu
-from ..fmi.interface import Interface
 from ..fmi.names import ANSWERS, APPLIED, ORDERS, STATE, SURROUNDINGS, named
 from ..fmi.ship_collision import INTERFACE as COLLISION_INTERFACE
 from ..fmi.ship_manoeuvring import INTERFACE as SHIP_INTERFACE
-from ..fmi.variables import Table, Variable
 from ..scenario.order_schedule import schedule_orders
 from ..scenario.scenario import Scenario
 from ..scenario.tables.ship_start import ShipStart
+from .foreign_ship import ForeignShip
+from .instance import COLLISION, Connection, Instance
 from .packed_ship import pack_ship
+from .replaced_ship import build_replaced_ship, connect_replaced_ship, describe_replaced_ship, list_frames
 
 __all__ = [
-    "COLLISION",
-    "Connection",
-    "Instance",
     "SystemStructure",
     "TimedOrder",
     "build_system_structure",
 ]
-
-COLLISION = "collision"
-"""Name of the collision's instance, which no ship may have."""
-
-
-@dataclass(frozen=True)
-class Connection:
-    """A connection from a Real output of one instance to a Real input of another."""
-
-    source: str
-    output: str
-    target: str
-    input: str
 
 
 @dataclass(frozen=True)
@@ -66,49 +50,13 @@ class TimedOrder:
 
 
 @dataclass(frozen=True)
-class Instance:
-    """An FMU of the system.
-
-    start   start values by variable; an item of an enumeration by its name
-    shown   variables that a user would change: parameters, orders, wind and current
-    files   files in its resources, by path
-    fmi     version of FMI; FMI 3.0 without arrays, which SSP 1.0 and OSP cannot connect
-    """
-
-    name: str
-    interface: Interface
-    ships: tuple[str, ...]
-    start: Mapping[str, Value]
-    shown: tuple[str, ...]
-    files: Mapping[str, bytes]
-    fmi: int = 2
-
-    @property
-    def model(self) -> str:
-        """ShipManoeuvring or ShipCollision."""
-        return self.interface.name
-
-    @property
-    def table(self) -> Table:
-        """The table of its variables."""
-        return self.interface.table(self.ships)
-
-    def build_fmu(self) -> bytes:
-        """The FMU file."""
-        return instance_fmu(self.interface, self.ships, self.start, self.files, self.fmi, self.fmi == 3)
-
-    def list_shown_values(self) -> list[tuple[Variable, Value]]:
-        """The variables of `shown` with their start values, in the order of the table."""
-        return [(variable, self.start[variable.name]) for variable in self.table if variable.name in self.shown]
-
-
-@dataclass(frozen=True)
 class SystemStructure:
     """Instances and connections of a scenario, and its contents that they do not hold.
 
     orders     orders after time 0, in order of time
     helm       autopilots, routes and evasions, a phrase each ("[ships.own] follows a route")
     left_out   settings of our own master and its results, a sentence each
+    replaced   ships whose model is somebody else's FMU
     """
 
     scenario: Scenario
@@ -117,6 +65,7 @@ class SystemStructure:
     orders: tuple[TimedOrder, ...] = ()
     helm: tuple[str, ...] = ()
     left_out: tuple[str, ...] = field(default=())
+    replaced: tuple[str, ...] = ()
 
     @property
     def title(self) -> str:
@@ -126,29 +75,52 @@ class SystemStructure:
         return f"Scenario {header.name}{said}"
 
 
-def build_system_structure(scenario: Scenario, fmi: int = 2) -> SystemStructure:
-    """The system of a scenario, for a version of FMI.
+def build_system_structure(
+    scenario: Scenario, fmi: int = 2, foreign: Mapping[str, ForeignShip] | None = None
+) -> SystemStructure:
+    """The system of a scenario, for a version of FMI; foreign: ship models of others in place of ours, by ship.
 
-    Raises ScenarioError for a ship named COLLISION, ShipError for a ship file.
+    Raises ScenarioError for a ship named COLLISION, and for a foreign one that is not there, ShipError for a ship file.
     """
     if COLLISION in scenario.ships:
         raise ScenarioError(
             f"[ships.{COLLISION}] cannot be packaged: that is the name of the collision's own instance; rename the ship"
         )
-    ships = tuple(scenario.ships)
+    ships, foreign = tuple(scenario.ships), foreign or {}
+    for name in foreign:
+        if name not in ships:
+            raise ScenarioError(f"--replace {name}: {scenario.name} has no such ship: it has {', '.join(ships)}")
     packed = {name: pack_ship(name, scenario.ship_file(name)) for name in ships}
-    built = [_build_ship(scenario, name, start, packed[name]) for name, start in scenario.ships.items()]
+    built: list[Instance] = []
+    for name, ship in scenario.ships.items():
+        built.append(
+            build_replaced_ship(name, foreign[name], ships)
+            if name in foreign
+            else _build_ship(scenario, name, ship, packed[name])
+        )
+    collision = _build_collision(scenario, packed, foreign)
     duration, step = scenario.scenario.duration, scenario.step
+    ours = {name: ship for name, ship in scenario.ships.items() if name not in foreign}
     return SystemStructure(
         scenario=scenario,
         instances=tuple(
             replace(instance, interface=replace(instance.interface, stop_time=duration, step_size=step), fmi=fmi)
-            for instance in (*built, _build_collision(scenario, packed))
+            for instance in (*built, collision)
         ),
-        connections=tuple(connection for name in ships for connection in _list_connections(scenario, name)),
-        orders=_list_orders(scenario),
-        helm=tuple(phrase for name, start in scenario.ships.items() for phrase in _describe_helm(name, start)),
-        left_out=_describe_settings(scenario),
+        connections=tuple(
+            connection
+            for name in ships
+            for connection in (
+                connect_replaced_ship(name, foreign[name]) if name in foreign else _list_connections(scenario, name)
+            )
+        ),
+        orders=tuple(order for order in _list_orders(scenario) if order.ship not in foreign),
+        helm=tuple(phrase for name, start in ours.items() for phrase in _describe_helm(name, start)),
+        left_out=(
+            *_describe_settings(scenario),
+            *(describe_replaced_ship(name, one, collision.start) for name, one in foreign.items()),
+        ),
+        replaced=tuple(foreign),
     )
 
 
@@ -163,8 +135,12 @@ def _build_ship(scenario: Scenario, name: str, ship: ShipStart, packed: tuple[st
     return Instance(name, SHIP_INTERFACE, tuple(scenario.ships), start, tuple(start), packed[1])
 
 
-def _build_collision(scenario: Scenario, packed: Mapping[str, tuple[str, dict[str, bytes]]]) -> Instance:
+def _build_collision(
+    scenario: Scenario, packed: Mapping[str, tuple[str, dict[str, bytes]]], foreign: Mapping[str, ForeignShip]
+) -> Instance:
     parameters = {**collision_parameters(scenario), **{f"{name}.ship": place for name, (place, _) in packed.items()}}
+    for name, one in foreign.items():
+        parameters |= list_frames(name, one)
     states: dict[str, Value] = {}
     for name, ship in scenario.ships.items():
         start = ship.start

@@ -32,6 +32,7 @@ _OWN_NAMES = {
     "my/ship.toml",
     "my/scenario.toml",
     "vessel.fmu",
+    "vessel.toml",
     "barge.toml",
     "FILE.toml",
     "NAME.toml",

@@ -21,7 +21,7 @@ from shipcollision_fmu.errors import HostError, InputError, ScenarioError, ShipE
 from shipcollision_fmu.fmi.interface import Interface
 from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
-from shipcollision_fmu.packaging import system_structure as structure_module
+from shipcollision_fmu.packaging import instance as instance_module
 from shipcollision_fmu.packaging.osp import build_osp_files, write_osp
 from shipcollision_fmu.packaging.osp_groups import KINDS, list_collision_groups, list_ship_groups
 from shipcollision_fmu.packaging.packed_ship import pack_ship
@@ -46,7 +46,7 @@ def started(fmu: Path) -> dict[str, str]:
 @pytest.fixture
 def empty_fmus(monkeypatch: pytest.MonkeyPatch) -> None:
     """For tests of what is around the FMUs, which take a third of a second each."""
-    monkeypatch.setattr(structure_module, "instance_fmu", lambda *a: b"no FMU")
+    monkeypatch.setattr(instance_module, "instance_fmu", lambda *a: b"no FMU")
 
 
 # What is in it. ------------------------------------------------------------------------------
