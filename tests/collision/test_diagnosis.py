@@ -290,12 +290,60 @@ def test_a_ship_that_its_host_moves_once_gives_no_warning() -> None:
     for k in range(100):
         for i, ship in enumerate(model.inputs.ships):
             now = circling(0.1 * k, 0.0, 0.0)
-            moved = 700.0 if k > 17 else 0.0
+            moved = 700.0 if k > 6 else 0.0
             ship.position[:] = [now.position[0] + moved, now.position[1] + 5000.0 * i, 0.0] if k else [0.0] * 3
             ship.attitude[:], ship.velocity[:] = (now.attitude, now.velocity) if k else ([0.0] * 3, [0.0] * 3)
         model.step(0.1 * k, 0.1)
         assert model.warning == ""
     model.close()
+
+
+@pytest.mark.parametrize("feedback", ["ledger", "force", "state"])
+def test_a_ship_that_its_propeller_presses_to_another_gives_no_warning(make_ship: Make, feedback: str) -> None:
+    """0.05 m/s2 against a ship that does not move: each impulse is answered, and the velocity shows nothing of it."""
+    box = make_ship("box", BOX)
+    start = [
+        {"position": [0.0, 0.0, 0.0], "nu": [-0.005, 0.0, 0.0, 0.0, 0.0, 0.0]},  # it is sent once before the first step
+        {"position": [199.9999, 0.0, 0.0], "nu": [0.0] * 6},
+    ]
+
+    def press(w: World, i: int, ship: ShipState) -> None:
+        if i == 0:
+            w.nu[0][0] += 0.005
+            ship.velocity[0] += 0.005
+        else:
+            w.upright[1] = np.zeros((6, 6))
+
+    kind = type("Pressed", (Wired,), {"fault": staticmethod(press)})
+    w = kind([box, box], start, degrees_of_freedom=3, substep=0.05, feedback=feedback, friction=0.0)
+    try:
+        w.model.parameters.ships[1].feedback = "prescribed"
+        w.model.initialise()
+        w.run(6.0, 0.1)
+        assert w.model.outputs.ships[1].impulse[0] > 0.5 * 42e6 * 0.05 * 6.0
+        assert w.warnings == []
+    finally:
+        w.model.close()
+
+
+def test_a_ship_that_bounces_gives_no_warning(make_ship: Make) -> None:
+    """Between two quays, elastic, every second step: what it moved by is nowhere near its velocity."""
+    box = make_ship("box", BOX)
+    start = [
+        {"position": [x, 0.0, 0.0], "nu": [u, 0.0, 0.0, 0.0, 0.0, 0.0]}
+        for x, u in ((0.0, 3.0), (200.3, 0.0), (-200.3, 0.0))
+    ]
+    w = Wired([box] * 3, start, degrees_of_freedom=3, substep=0.05, restitution=1.0, friction=0.0)
+    try:
+        for i in (1, 2):
+            w.upright[i] = np.zeros((6, 6))
+            w.model.parameters.ships[i].feedback = "prescribed"
+        w.model.initialise()
+        w.run(5.0, 0.1)
+        assert w.nu[0][0] == pytest.approx(3.0, rel=1e-9) or w.nu[0][0] == pytest.approx(-3.0, rel=1e-9)
+        assert w.warnings == []
+    finally:
+        w.model.close()
 
 
 # -- state -----------------------------------------------------------------------------------------------------------

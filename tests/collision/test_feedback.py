@@ -64,6 +64,29 @@ def test_ledger_force_and_prescribed_work_side_by_side(make_ship: Make, algorith
         w.model.close()
 
 
+def test_a_prescribed_ship_in_motion_is_one_at_rest_in_another_frame(make_ship: Make) -> None:
+    """s0 strikes the side of a prescribed ship, and slides along it. All moved on by 4 m/s, it is the same impact."""
+    box = make_ship("box", BOX)
+    ends = []
+    for along in (0.0, 4.0):
+        heading = np.pi / 2 - 0.3
+        u, v = 5.0 + along * np.cos(heading), -along * np.sin(heading)
+        start: list[dict[str, Any]] = [
+            {"position": [-60.0, -118.0, 0.0], "attitude": (0.0, 0.0, heading), "nu": [u, v, 0.0, 0.0, 0.0, 0.0]},
+            {"position": [0.0, 0.0, 0.0], "nu": [along, 0.0, 0.0, 0.0, 0.0, 0.0]},
+        ]
+        w = World([box] * 2, start, degrees_of_freedom=3, friction=0.2, substep=0.05)
+        w.upright[1] = np.zeros((6, 6))
+        w.model.parameters.ships[1].feedback = "prescribed"
+        w.model.initialise()
+        w.run(4.0, 0.1)
+        ends.append((w.R[0] @ w.nu[0][:3] - [along, 0.0, 0.0], w.nu[0][3:]))
+        w.model.close()
+    assert abs(ends[0][1][2]) > 1e-3
+    assert ends[1][0] == pytest.approx(ends[0][0], abs=1e-9)
+    assert ends[1][1] == pytest.approx(ends[0][1], abs=1e-9)
+
+
 def test_one_ship_that_ignores_contact_is_answered_once(make_ship: Make) -> None:
     """s1 has feedback "none" and sails through; s0, by the ledger, gets the impulse of the impact and no more."""
     start: list[dict[str, Any]] = [

@@ -102,9 +102,7 @@ class ImpulseLedger:
             pending = FEEDBACKS[feedback](self, nu, M_inverse)
             if pending.any():
                 nu = nu + M_inverse @ pending
-            # A prescribed ship applies nothing: its pose is that of the time at which the other ships apply theirs.
-            delay = None if feedback == "prescribed" else False
-            return Reading(x, R, nu, applied, self._applied_n, pending, _NOTHING, delay, False)
+            return Reading(x, R, nu, applied, self._applied_n, pending, _NOTHING, False, False)
         if self.is_quiet(feedback, applied.tolist()):
             out_of_range = _is_out_of_range(nu, reach, H)
             return Reading(x, R, nu, applied, self._applied_n, _NOTHING, _NOTHING, self.one_step_delay, out_of_range)
