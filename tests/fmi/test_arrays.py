@@ -46,10 +46,10 @@ def test_vectors_and_blocks_become_arrays() -> None:
 
 
 def test_halves_of_a_wrench_are_told_apart() -> None:
-    lines = wrench("output", HULL, FORCE_UNITS, "o", "") + wrench(
-        "output", named("dent", (*LINEAR, *ANGLES)), IMPULSE_UNITS, "o", ""
+    lines = wrench("output", HULL, FORCE_UNITS, "o", "", "CO") + wrench(
+        "output", named("dent", (*LINEAR, *ANGLES)), IMPULSE_UNITS, "o", "", "CO"
     )
-    lines += wrench("input", (*FORCE, *MOMENT), FORCE_UNITS, "i", "")
+    lines += wrench("input", (*FORCE, *MOMENT), FORCE_UNITS, "i", "", "CO")
     assert [(array.name, array.line.unit) for array in gather_arrays(lines)] == [
         ("hull.force", "N"), ("hull.moment", "N.m"), ("dent.linear", "N.s"), ("dent.angular", "N.m.s"),
         ("force", "N"), ("moment", "N.m"),
