@@ -298,7 +298,9 @@ def test_a_ship_that_its_host_moves_once_gives_no_warning() -> None:
     model.close()
 
 
-@pytest.mark.parametrize("feedback", ["ledger", "force", "state"])
+@pytest.mark.parametrize(
+    "feedback", ["ledger", *(pytest.param(each, marks=pytest.mark.slow) for each in ("force", "state"))]
+)
 def test_a_ship_that_its_propeller_presses_to_another_gives_no_warning(make_ship: Make, feedback: str) -> None:
     """0.05 m/s2 against a ship that does not move: each impulse is answered, and the velocity shows nothing of it."""
     box = make_ship("box", BOX)
@@ -349,7 +351,7 @@ def test_a_ship_that_bounces_gives_no_warning(make_ship: Make) -> None:
 # -- state -----------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("wrong", ["velocity in knots", "nothing wired back"])
+@pytest.mark.parametrize("wrong", ["velocity in knots", pytest.param("nothing wired back", marks=pytest.mark.slow)])
 def test_a_restored_state_leads_to_the_same_finding_at_the_same_step(make_ship: Make, wrong: str) -> None:
     """Every step is made twice: the state saved before it is restored."""
 
@@ -388,7 +390,7 @@ def pass_the_origin(targets: Sequence[str], values: Sequence[float]) -> tuple[An
     access.set_real(own, [-400.0, *[0.0] * 5, 5.0, *[0.0] * 5])
     access.initialise()
     warnings = []
-    for k in range(60):
+    for k in range(40):
         access.set_real(own, [-400.0 + 2.5 * k, *[0.0] * 5, 5.0, *[0.0] * 5])
         access.do_step(0.5 * k, 0.5)
         warnings += [access.warning] if access.warning else []

@@ -16,7 +16,7 @@ from tests.collision.conftest import BOX, World
 
 Make = Callable[..., str]
 
-ALGORITHMS = pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
+ALGORITHMS = pytest.mark.parametrize("algorithm", ["gauss-seidel", pytest.param("jacobi", marks=pytest.mark.slow)])
 SURGE_MASS = 40e6 * 1.05
 """Of the box, with its added mass in surge [kg]."""
 
