@@ -232,7 +232,8 @@ class SlaveBase:
             self.access.restore(state)
             phase = state.get("phase", RUNNING if self.access.running else INSTANTIATED)
             self._phase, self._refused = str(phase), ""
-            if "experiment" in state:  # the state of a run in process has none
+            self.experiment = Experiment()
+            if "experiment" in state:  # the state of a run in process has none: no stop time of before is left
                 self.experiment.set_state(state["experiment"])
         except BaseException as error:
             self._refuse(error)
