@@ -19,7 +19,7 @@ from ..ship.coasting import coast
 from ..ship.coasting_law import CoastingLaw
 from ..ship.frames import Array, attitude_from_rotation, rotation, unwrap_attitude
 from .bodies import Body
-from .dynamics.body_state import BodyState
+from .dynamics.body_state import NOTHING, BodyState
 from .dynamics.impulse_ledger import ImpulseLedger, Reading
 from .dynamics.other_forces import ReceivedState, estimate_other_forces
 from .interface import ShipPost, ShipState
@@ -81,7 +81,7 @@ class ShipExchange:
         reading = self.ledgers[i].read(feedback, x, state.R, nu, applied, M_inverse, body.reach, H)
         if reading.one_step_delay and reading.pending.any():
             self.delayed_speeds[i] = float(np.linalg.norm((reading.nu - nu)[:3]))
-        nu = reading.nu + M_inverse @ reading.deficit if reading.deficit.any() else reading.nu
+        nu = reading.nu + M_inverse @ reading.deficit if reading.deficit is not NOTHING else reading.nu
         if (before := self._last_received[i]) is not None and feedback == "ledger":
             forces = estimate_other_forces(
                 before, _as_received(t, 0.0, received), body.inverse_at(before.attitude), body.bullet.r_bg, body.reach,
@@ -130,7 +130,7 @@ class ShipExchange:
             ledger, reading = self.ledgers[i], self._readings[i]
             ledger.close(reading, state.issued, state.nu_received, state.x_applied, state.R_applied)
             out.impulse[:] = ledger.issued.tolist()
-            out.force[:] = (state.issued / H).tolist() if state.issued.any() else _NO_FORCE
+            out.force[:] = (state.issued / H).tolist() if state.issued is not NOTHING else _NO_FORCE
             self._last_received[i] = _as_received(t, H, received) if i in colliding else None
             nu = self._twist_at_the_end(i, state, H)
             out.position[:] = state.x.tolist()
@@ -144,7 +144,7 @@ class ShipExchange:
         """Twist (6,) at the end of the step, in b by then. For a ship that adopts it after an impulse the law is asked
         again: it then has the energy that the impulse left it."""
         law = self._bodies[i].coasting
-        if law is None or self._feedbacks[i] != "state" or state.end_gain is None or not state.issued.any():
+        if law is None or self._feedbacks[i] != "state" or state.end_gain is None or state.issued is NOTHING:
             return [*state.twist_at_predicted_pose().tolist()]
         received, nu = self._inputs[i], state.nu.tolist()
         _, _, velocity, rate = law.coast(received.position, received.attitude, nu[:3], nu[3:], H)

@@ -34,10 +34,14 @@ from ...ship.coasting import coast_pose
 from ...ship.frames import Array, rotation, skew
 from .other_forces import OtherForces, rotation_vector_of
 
-__all__ = ["BodyState", "advance_bodies"]
+__all__ = ["NOTHING", "BodyState", "advance_bodies"]
 
 Motion = tuple[Array, Array | None]
 """Velocity of CG [m/s] and angular velocity [rad/s] (3,), both in n; None for a body that does not turn."""
+
+NOTHING: Array = np.zeros(6)
+"""No impulse. It is told by its identity: to look for a number that is not zero costs more."""
+NOTHING.flags.writeable = False
 
 _NO_TURN = [0.0, 0.0, 0.0]
 
@@ -84,7 +88,7 @@ class BodyState:
     ) -> BodyState:  # fmt: skip
         """State at a pose (n [m], rad) with the twist nu (b about CO). Without r_bg, CG is CO."""
         R, centre = rotation(attitude), np.zeros(3) if r_bg is None else r_bg
-        return cls(position, R, position, R, nu, nu, M_inverse, centre, np.zeros(6), held=held)
+        return cls(position, R, position, R, nu, nu, M_inverse, centre, NOTHING, held=held)
 
     @classmethod
     def wall(cls, position: Array, heading: float) -> BodyState:

@@ -40,10 +40,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...ship.frames import Array, skew
+from .body_state import NOTHING
 
 __all__ = ["FEEDBACKS", "ImpulseLedger", "Reading"]
-
-_NOTHING = np.zeros(6)
 
 ROUNDING = 1e-12
 """Deficit, as a share of all that was ever issued, that is rounding. With zero, no ledger would ever be settled."""
@@ -102,10 +101,10 @@ class ImpulseLedger:
             pending = FEEDBACKS[feedback](self, nu, M_inverse)
             if pending.any():
                 nu = nu + M_inverse @ pending
-            return Reading(x, R, nu, applied, self._applied_n, pending, _NOTHING, False, False)
+            return Reading(x, R, nu, applied, self._applied_n, pending, NOTHING, False, False)
         if self.is_quiet(feedback, applied.tolist()):
             out_of_range = _is_out_of_range(nu, reach, H)
-            return Reading(x, R, nu, applied, self._applied_n, _NOTHING, _NOTHING, self.one_step_delay, out_of_range)
+            return Reading(x, R, nu, applied, self._applied_n, NOTHING, NOTHING, self.one_step_delay, out_of_range)
         newly_applied, pending = applied - self._applied, self.issued - applied
         is_pending = bool(pending.any())
         if is_pending:
@@ -121,28 +120,28 @@ class ImpulseLedger:
             deficit = deficit - _wrench_in_n(x, R, pending)
         small = ROUNDING * self._size
         if out_of_range or (np.abs(deficit[:3]).max() <= small[0] and np.abs(deficit[3:]).max() <= small[1]):
-            return Reading(x, R, nu, applied, applied_n, pending, _NOTHING, one_step_delay, out_of_range)
+            return Reading(x, R, nu, applied, applied_n, pending, NOTHING, one_step_delay, out_of_range)
         return Reading(x, R, nu, applied, applied_n, pending, _wrench_in_b(x, R, deficit), one_step_delay, out_of_range)
 
     def close(self, reading: Reading, J: Array, nu: Array, x: Array, R: Array) -> None:
         """Enter the impulse J (6,) that contact gave in the step. x, R: pose of application; nu: twist at the start."""
         if reading.out_of_range:
             self._issued_n = reading.applied_n + _wrench_in_n(reading.x, reading.R, reading.pending)
-        in_contact, out = bool(J.any()), _NOTHING
+        in_contact, out = J is not NOTHING and bool(J.any()), NOTHING
         if in_contact:
             w = _wrench_in_n(x, R, J)
             self._issued_n = self._issued_n + w
             linear = hypot(*w[:3].tolist())
             self._size = self._size + [linear, hypot(*J[3:].tolist()) + hypot(*x.tolist()) * linear]
-        if in_contact or reading.deficit is not _NOTHING:
+        if in_contact or reading.deficit is not NOTHING:
             deficit = reading.deficit
-            if deficit is not _NOTHING and x is not reading.x:
+            if deficit is not NOTHING and x is not reading.x:
                 deficit = _wrench_in_b(x, R, _wrench_in_n(reading.x, reading.R, deficit))
             out = J + deficit
             self.issued = self.issued + out
             self._echo = self.issued.tolist()
         self.last_issued, self._nu = out, nu
-        self.is_settled = out is _NOTHING and (reading.pending is _NOTHING or not reading.pending.any())
+        self.is_settled = out is NOTHING and (reading.pending is NOTHING or not reading.pending.any())
         self._x, self._R, self._applied = reading.x, reading.R, reading.applied
         self._applied_n, self.one_step_delay = reading.applied_n, reading.one_step_delay
 
