@@ -64,16 +64,17 @@ def mobility(c: Contact, states: Sequence[BodyState]) -> Array:
 
 def held_delassus(contacts: Sequence[Contact], states: Sequence[BodyState]) -> Array | None:
     """H (3k, 3k) [1/kg] in contact axes; None where no motion is held."""
+    holding = sorted({body for c in contacts for body in (c.a, c.b) if states[body].held is not None})
+    if not holding:
+        return None
     H: Array | None = None
     at, down = np.array([c.at for c in contacts]), np.array([c.axes[:, 2] for c in contacts])
     ends = np.array([(c.a, c.b) for c in contacts])
-    for body in np.unique(ends).tolist():
-        if (held := states[body].held) is None:
-            continue
+    for body in holding:
         sign = (ends == body) @ (-1.0, 1.0)
         g = _vertical_velocities(at, states[body])
         rows = ((sign[:, None] * down)[:, :, None] * g[:, None, :]).reshape(-1, 3)
-        added = multiply_matrices(rows @ held, rows.T)
+        added = multiply_matrices(rows @ states[body].held, rows.T)
         H = added if H is None else H + added
     return H
 
