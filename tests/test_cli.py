@@ -152,6 +152,16 @@ def test_a_published_collision_is_the_default() -> None:
     assert argument.default == "guan2014"
 
 
+def test_build_names_the_ships_and_takes_arrays_apart(folder: Path) -> None:
+    built = called("build", "--out", "fmus", "--fmi", "3", "--scalar", "--ships", "tug")
+    assert built.exit_code == 0, built.output
+    assert built.stdout.split() == ["fmus/ShipCollision.fmi3-scalar.fmu", "fmus/ShipManoeuvring.fmi3-scalar.fmu"]
+    with zipfile.ZipFile(folder / "fmus" / "ShipCollision.fmi3-scalar.fmu") as archive:
+        description = archive.read("modelDescription.xml")
+    assert b'name="tug.position.north"' in description
+    assert b'name="own.' not in description
+
+
 def test_ships_and_scenarios_are_listed() -> None:
     ships, scenarios = called("ships"), called("scenarios")
     assert (ships.exit_code, scenarios.exit_code) == (0, 0)
@@ -241,6 +251,10 @@ def test_a_mistake_is_one_line_and_writes_nothing(
         (["run", "absent.toml"], 2, "scenario file absent.toml does not exist: give the path of a TOML file or one of"),
         (["run", "one", "two"], 2, "Got unexpected extra argument"),
         (["validate"], 2, "Missing argument 'FMU'"),
+        (["build", "--scalar"], 2, "--scalar is for FMI 3.0: FMI 2.0 has no arrays; add --fmi 3 or leave it out"),
+        (["build", "--ships", "own,contact"], 2, "ships: 'contact' is no name for a ship"),
+        (["build", "--ships", "own,own"], 2, "ships: 'own' is there twice"),
+        (["package", "guan2014", "--osp", "--inputs"], 2, "--inputs is for --ssp: an OSP system has all variables"),
         (["validate", "absent.fmu"], 2, "absent.fmu does not exist: build the FMUs with `shipcollision build`"),
         (["validate", "barge.toml"], 2, "barge.toml is not a zip archive: give the path of a .fmu file"),
         (

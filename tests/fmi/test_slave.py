@@ -357,6 +357,15 @@ def test_a_restored_state_takes_the_time_back(host: Make) -> None:
     assert a.messages == []
 
 
+def test_a_state_of_a_run_in_process_has_no_stop_time(host: Make, access: Any) -> None:
+    access.initialise()
+    a = host()
+    a.begin(0.0, 0.5)
+    assert a.restore(state_to_bytes(access.save())) == OK
+    assert a.step(7) == OK
+    assert a.messages == []
+
+
 def test_an_experiment_cannot_be_set_up_on_the_way(host: Make) -> None:
     a = host()
     a.begin()
