@@ -233,7 +233,7 @@ class Fuzzer:
         if "reset" in way:
             self._want(OK, self.fmu.call("Reset")(self.component), "reset")
         if way == "reset and start":
-            self._want(OK, self.fmu.enter(self.component, 0.0, 1.0), "enter")
+            self._want(OK, self.fmu.enter(self.component, 0.0, 1e6), "enter")
             self._want(OK, self.fmu.call("ExitInitializationMode")(self.component), "exit")
             self._want(OK, self.fmu.step(self.component, 0.0, 0.05), "step")
             return
@@ -340,7 +340,7 @@ class Fuzzer:
         elif name == "again":
             self.fmu.call("Terminate")(self.component)
             self.fmu.call("Reset")(self.component)
-            self.fmu.enter(self.component, 0.0, 1.0)
+            self.fmu.enter(self.component, 0.0, 1e6)
             self.fmu.call("ExitInitializationMode")(self.component)
         else:
             self.fmu.call(name)(self.component)
