@@ -62,7 +62,7 @@ WIRING = {
 SCENARIO = f"""
 [scenario]
 name = "foreign"
-duration = 5.0
+duration = 2.0
 step = {STEP}
 
 [ships.own]
@@ -117,7 +117,7 @@ def test_momentum_in_n_goes_over_to_the_vessel(packed: dict[str, Path], host: st
     attitude that the collision expects at the end of the step, which is 5e-9 away."""
     cases = [
         {"ssp": str(folder / "package.ssp"), "osp": str(folder / "osp"), "instances": ["own", "target", "collision"],
-         "steps": round(5.0 / STEP), "step": STEP, "observed": OBSERVED, "record": True, "connections": []}
+         "steps": round(2.0 / STEP), "step": STEP, "observed": OBSERVED, "record": True, "connections": []}
         for folder in packed.values()
     ]  # fmt: skip
     ends = []
