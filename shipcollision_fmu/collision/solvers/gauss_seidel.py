@@ -171,9 +171,8 @@ def _sweep(
 ) -> tuple[Array, int]:
     """Impulses (k, 3) and the sweeps taken. scale: largest approach speed [m/s]."""
     before, many = v.tolist(), len(blocks) >= MANY_CONTACTS
-    rows = [] if many else W.tolist()
-    triples, impulses = [W[n : n + 3] for n in range(0, len(v), 3)] if many else [], np.empty(len(v))
-    contacts = range(len(blocks))
+    others = _without_own_blocks(W)
+    few, impulses = [] if many else [_leave_out(n, others) for n in range(0, len(v), 3)], np.empty(len(v))
     P: list[float] = start.ravel().tolist()
     angles: list[float | None] = [None] * len(blocks)
     sweeps, tolerance = 0, SWEEP_TOLERANCE * scale
@@ -184,34 +183,27 @@ def _sweep(
         work.spend_sweep(len(blocks))
         if many:
             impulses[:] = P
-        for i in contacts:
+        for i, W_i in enumerate(blocks):
             n = 3 * i
-            W_i = blocks[i]
             p, p_1, p_2 = P[n : n + 3]
             # Velocity at this contact without its own impulse.
-            f, f_1, f_2 = before[n], before[n + 1], before[n + 2]
+            f, f_1, f_2 = before[n : n + 3]
             if many:
-                g, g_1, g_2 = triples[i].dot(impulses).tolist()
+                g, g_1, g_2 = others[n : n + 3].dot(impulses).tolist()
                 f, f_1, f_2 = f + g, f_1 + g_1, f_2 + g_2
             else:
-                row, row_1, row_2 = rows[n], rows[n + 1], rows[n + 2]
-                for x, w, w_1, w_2 in zip(P, row, row_1, row_2, strict=True):
+                for x, w, w_1, w_2 in zip(P[:n] + P[n + 3 :], *few[i], strict=True):
                     f += w * x
                     f_1 += w_1 * x
                     f_2 += w_2 * x
-            f -= W_i.W_nn * p + W_i.w_1 * p_1 + W_i.w_2 * p_2
-            f_1 -= W_i.w_1 * p + W_i.a_1 * p_1
-            f_2 -= W_i.w_2 * p + W_i.a_2 * p_2
             new, angles[i] = solve_one_contact(W_i, (f, f_1, f_2), mu, angles[i])
             P[n : n + 3] = new
             if many:
                 impulses[n : n + 3] = new
+            W_nn, w_n1, w_n2, a_1, a_2, _, _ = W_i
             d, d_1, d_2 = new[0] - p, new[1] - p_1, new[2] - p_2
             change = max(
-                change,
-                abs(W_i.W_nn * d + W_i.w_1 * d_1 + W_i.w_2 * d_2),
-                abs(W_i.w_1 * d + W_i.a_1 * d_1),
-                abs(W_i.w_2 * d + W_i.a_2 * d_2),
+                change, abs(W_nn * d + w_n1 * d_1 + w_n2 * d_2), abs(w_n1 * d + a_1 * d_1), abs(w_n2 * d + a_2 * d_2)
             )
         if change <= tolerance:
             return np.array(P).reshape(-1, 3), sweeps
@@ -220,6 +212,19 @@ def _sweep(
                 work.reserve_newton_steps(LEAST_NEWTON_STEPS, len(blocks))
             return _solve_together(W, v, mu, np.array(P).reshape(-1, 3), tolerance, work), sweeps
         P = aitken.extrapolate(P, last)
+
+
+def _without_own_blocks(W: Array) -> Array:
+    """W (3k, 3k) with zeros in the blocks on its diagonal: what the other contacts do to each."""
+    others: Array = W.copy()
+    for n in range(0, len(W), 3):
+        others[n : n + 3, n : n + 3] = 0.0
+    return others
+
+
+def _leave_out(n: int, others: Array) -> tuple[list[float], ...]:
+    """The rows n to n + 2, without their own columns."""
+    return tuple(row[:n] + row[n + 3 :] for row in others[n : n + 3].tolist())
 
 
 def _solve_together(W: Array, v: Array, mu: float, P: Array, tolerance: float, work: WorkLimit) -> Array:
