@@ -82,6 +82,7 @@ def each() -> Any:
 Runs = dict[tuple[str, str], Watched]
 
 
+@pytest.mark.slow
 @each()
 def test_nothing_is_found_wrong_with_the_wiring(runs: Runs, name: str, algorithm: str) -> None:
     assert runs[name, algorithm].watch.diagnosis == []

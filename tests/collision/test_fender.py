@@ -79,6 +79,7 @@ def test_the_speed_comes_back_to_second_order_in_the_substep() -> None:
         assert -1e-12 <= 1.0 + v / V <= (OMEGA * h) ** 2 / 4
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ratio", [0.1, 0.5])
 def test_a_damped_fender_restores_what_the_textbook_says(make_ship: Make, world: MakeWorld, ratio: float) -> None:
     """m x'' + c x' + k x = 0 until the force, not the compression, is back at zero: a fender does not pull."""
@@ -133,6 +134,7 @@ def test_books_of_ships_and_fender_agree(make_ship: Make, world: MakeWorld) -> N
     assert w.model.outputs.fender.dissipated > 1e6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
 @pytest.mark.parametrize("step", [0.05, 0.5])
 @pytest.mark.parametrize("stiffness", [1e6, pytest.param(1e9, marks=pytest.mark.slow), 1e13])

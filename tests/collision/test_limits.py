@@ -59,6 +59,7 @@ def boxed(W: np.ndarray, v: np.ndarray, mu: float) -> np.ndarray:
     return P
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("friction", [0.1, 0.3])
 @pytest.mark.parametrize(("north", "heading"), [(0.0, pi / 3), (-20.0, 2 * pi / 3)])
 def test_where_slip_is_oblique_bullets_pyramid_explains_the_difference(

@@ -125,6 +125,7 @@ def test_ten_minutes_at_the_quay(berthed: MakeBerthed, algorithm: str, H: float)
     is_held(b, b.run(600.0, H), H)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
 @pytest.mark.parametrize("H", [pytest.param(0.1, marks=pytest.mark.slow), 0.5])
 @pytest.mark.parametrize("moves_by", [*(pytest.param(share, marks=pytest.mark.slow) for share in (0.0, 0.5)), 1.0])
@@ -164,6 +165,7 @@ def test_along_the_quay_friction_slows_her_down(berthed: MakeBerthed) -> None:
     assert b.model.outputs.collision_count == 1
 
 
+@pytest.mark.slow
 def test_gusts_do_not_pump_her_through(berthed: MakeBerthed) -> None:
     """A force that swings between nothing and twice as much: stopped at the start of steps only, she would be 13 cm in
     after a minute; what is left is the lag of one step, while no answer may add energy."""

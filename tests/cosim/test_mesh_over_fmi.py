@@ -20,6 +20,7 @@ print(run.summary["collisions"])
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fmi", [2, pytest.param(3, marks=pytest.mark.slow)])
 def test_a_mesh_is_cut_before_the_first_fmu(scenario_file: Write, tmp_path: Path, fmi: int) -> None:
     file = scenario_file(('"./barge.toml"\nposition = [0.0, 0.0]', '"mesh_example"\nposition = [0.0, 0.0]'))

@@ -84,6 +84,7 @@ def sweep(own: str, target: str, requests: Iterator[Request]) -> tuple[int, int]
     return made, refused
 
 
+@pytest.mark.slow
 def test_a_coarse_grid_collides_as_requested() -> None:
     """Of one side: the other is its mirror, see test_port_is_the_mirror_of_starboard."""
     made, refused = sweep("kvlcc2", "kvlcc2", grid(range(0, 181, 45), (-0.5, 0.2, 0.5), ((6.0, 3.0),), ("port",)))

@@ -45,6 +45,7 @@ def test_there_are_limits() -> None:
     assert {"friction", "restitution", "substep", "degrees_of_freedom", "own.fender.stiffness"} <= names
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
 @pytest.mark.parametrize("scenario", ["guan2014", "guan2014_added_mass"])
 def test_outputs_stay_within_theirs(scenario: str, algorithm: str) -> None:

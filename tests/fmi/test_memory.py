@@ -72,6 +72,7 @@ def grown(folder: Path, rounds: int, kind: str) -> float:
     return float(max(used[1:]) - used[0])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("which", [("ShipManoeuvring", 2), ("ShipManoeuvring", 3)])
 def test_a_few_rounds_do_not_grow(real_unpacked: dict[tuple[str, int], Path], which: tuple[str, int]) -> None:
     """As many as tell a leak of 50 kB a round from what the wrappers keep, up to 15 kB."""

@@ -86,6 +86,7 @@ def edit(path: Path, old: str, new: str) -> None:
     path.write_text(text.replace(old, new), encoding="utf-8")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("first", "second"), [(2, 2), (3, 3), pytest.param(2, 3, marks=SLOW), pytest.param(3, 2, marks=SLOW)]
 )
@@ -138,6 +139,7 @@ def test_both_versions_of_fmi_and_both_fmus_share_a_process(real_unpacked: dict[
     assert said.count(",") == 7
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_the_first_folder_may_be_deleted(real_fmus: dict[tuple[str, int], Path], tmp_path: Path, fmi: int) -> None:
     """A host unpacks an FMU for every run. Modules that are imported late, and ship files, come from a folder that is

@@ -115,6 +115,7 @@ def test_the_entry_to_the_licences_names_every_other(built: dict[str, Path], bui
         assert ("pybullet" in needs) == ("ShipCollision" in path.name)
 
 
+@pytest.mark.slow
 def test_the_scalar_flavour_has_the_names_of_fmi2(built: dict[str, Path], tmp_path: Path) -> None:
     """For hosts that do not pass arrays: no Dimension anywhere, the value references of FMI 2.0 plus 1, time 0."""
     made = build_fmus(tmp_path, fmi=3, scalar=True)

@@ -30,6 +30,7 @@ def said_by(code: str, *arguments: object, **environment: str) -> tuple[int, str
     return done.returncode, done.stdout + done.stderr
 
 
+@pytest.mark.slow
 def test_fmpy_raises_and_its_log_has_the_line(encounters: dict[str, Encounter]) -> None:
     code = """
 import sys

@@ -84,6 +84,7 @@ def test_newtons_restitution_can_create_energy_and_stronges_cannot() -> None:
     assert path.energy_tangential > 0.0
 
 
+@pytest.mark.slow
 def test_newtons_restitution_creates_energy_in_some_random_geometries() -> None:
     """How often, over 4000 random W in the plane with mu 0 to 1, as shares: none at e = 0, some at e = 0.5."""
     for e, least, most in ((0.0, 0, 0), (0.5, 4, 200)):

@@ -52,6 +52,7 @@ def empty_fmus(monkeypatch: pytest.MonkeyPatch) -> None:
 # What is in it. ------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", list_scenario_names())
 def test_every_shipped_scenario_can_be_packaged(tmp_path: Path, name: str) -> None:
     scenario = load_scenario(name)

@@ -135,6 +135,7 @@ def check_stability(kind: str, L: float, folder: Path) -> None:
     assert 1.0 < natural < 60.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("size", "A", "B", "C"),
     [

@@ -53,6 +53,7 @@ def test_limits_are_those_of_the_resolution_at_35_degrees() -> None:
     assert Figure("x", 2.0, "L", 1.0).within is False
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("port", [False, True])
 def test_zigzag_overshoots_are_plausible(port: bool) -> None:
     """A full tanker: the first 10/10 overshoot 3 to 12 deg, the second larger to starboard first, 20/20 below 20."""

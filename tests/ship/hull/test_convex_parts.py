@@ -90,6 +90,7 @@ def test_it_is_said_once_and_kept(cut: Cutter, monkeypatch: pytest.MonkeyPatch, 
     assert len(caplog.records) == 2  # of the second solid
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("content", [b"", b"junk", b"PK\x03\x04junk"])
 def test_a_kept_file_that_is_broken_is_made_again(cut: Cutter, tmp_path: Path, content: bytes) -> None:
     first = cut()

@@ -109,6 +109,7 @@ def mesh_ship(mesh: Path, **changes: Any) -> dict[str, Any]:
     return tables
 
 
+@pytest.mark.slow
 def test_a_mesh_that_changes_gives_another_ship_and_hull(counts: Counter[str], tmp_path: Path) -> None:
     mesh = settled(tmp_path / "hull.obj", EXAMPLE.read_text(encoding="utf-8"))
     ship = load_ship(mesh_ship(mesh))

@@ -75,6 +75,7 @@ def reports(validator: Path, *files: Path) -> list[Any]:
     return found
 
 
+@pytest.mark.slow
 def test_khronos_validator_finds_nothing(
     validator: Path, guan2014: Path, kvlcc2_crossing: Path, meeting: MakeRun, tmp_path: Path
 ) -> None:
