@@ -499,6 +499,7 @@ def test_a_mistake_with_trial_encounter_and_import_is_one_line_and_writes_nothin
     assert sorted(folder.rglob("*")) == before
 
 
+@pytest.mark.slow
 def test_a_package_is_a_file_or_a_folder(folder: Path) -> None:
     done = called("package", "encounter.toml", "--ssp")
     assert (done.exit_code, done.stdout) == (0, "encounter.ssp\n")

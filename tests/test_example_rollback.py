@@ -45,7 +45,7 @@ def box(tmp_path: Path) -> str:
     return str(tmp_path / "box.toml")
 
 
-@pytest.mark.parametrize("longest", [0.3, 7.0])
+@pytest.mark.parametrize("longest", [0.3, pytest.param(7.0, marks=pytest.mark.slow)])
 def test_the_impact_is_found_within_the_finest_step(
     example: ModuleType, unpacked: dict[str, Path], box: str, longest: float
 ) -> None:

@@ -6,6 +6,8 @@ import os
 import subprocess
 import sys
 
+import pytest
+
 SCRIPT = """
 from hashlib import sha256
 
@@ -48,6 +50,7 @@ def bits_of_an_impact(threads: int) -> list[str]:
     return run.stdout.split()
 
 
+@pytest.mark.slow
 def test_an_impact_has_the_same_bits_with_one_and_with_two_threads() -> None:
     one = bits_of_an_impact(1)
     assert one[0] == "66"

@@ -102,6 +102,7 @@ def test_a_raked_stem_that_stops_sliding_on_a_side(make_ship: Make, world: MakeW
     assert energy.dissipated == pytest.approx(-sum(w.work), rel=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("algorithm", "response"), [("gauss-seidel", "pgs"), ("jacobi", "pgs"), ("jacobi", "closed_form")]
 )

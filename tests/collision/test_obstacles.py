@@ -191,6 +191,7 @@ def test_a_fixed_body_is_the_limit_of_a_heavy_ship(make_ship: Make, world: MakeW
     np.testing.assert_allclose(fixed.nu[0], heavy.nu[0], atol=1e-5)
 
 
+@pytest.mark.slow
 def test_a_ship_that_scrapes_past_a_pier_loses_energy_only(make_ship: Make, world: MakeWorld) -> None:
     w = world([make_ship("a")], [{"position": [0.0, 0.0, 0.0], "nu": [4.0, 0, 0, 0, 0, 0]}], obstacles=PIER)
     lows = []

@@ -110,6 +110,7 @@ def is_held(b: Berthed, places: np.ndarray, H: float) -> None:
     assert out.energy.dissipated > 0.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
 @pytest.mark.parametrize("response", ["pgs", pytest.param("closed_form", marks=pytest.mark.slow)])
 def test_a_minute_at_the_quay(berthed: MakeBerthed, algorithm: str, response: str) -> None:
@@ -154,6 +155,7 @@ def test_nor_does_she_creep_if_her_model_takes_inner_steps(
     assert abs(places[-1] - places[len(places) // 2]) < 1e-5
 
 
+@pytest.mark.slow
 def test_along_the_quay_friction_slows_her_down(berthed: MakeBerthed) -> None:
     """mu N per time: the deceleration is Coulomb's, she does not creep in, and it stays one collision."""
     b = berthed("gauss-seidel", speed=1.0)
@@ -183,6 +185,7 @@ def test_let_go_she_stays_where_she_is(berthed: MakeBerthed) -> None:
     assert max(b.contact_work[-190:]) <= 0.0
 
 
+@pytest.mark.slow
 def test_a_fender_takes_the_side_force(berthed: MakeBerthed) -> None:
     """At rest F = k delta: the compression is that of the force, and nothing is dissipated any more."""
     quay = QUAY.replace("25.5", "26.5") + "\nfender = {stiffness = 8e6, damping = 3e7, thickness = 1.0}"

@@ -113,6 +113,7 @@ def test_collisions_cost_the_same_after_others(make: Make, tmp_path: Path) -> No
     assert counts == counts[:1] * 5
 
 
+@pytest.mark.slow
 def test_a_ship_sails_on_at_the_same_cost(make: Make) -> None:
     counts = calls(sailing(make("ShipManoeuvring")), 5, 5)
     assert counts[0] > 100 * PERIOD

@@ -45,6 +45,7 @@ def test_every_kind_collides_as_requested(kind: str, hydrodynamics: bool | None)
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("free", [4, 6])
 def test_a_ship_that_heels_in_its_turn_collides_as_requested(free: int) -> None:
     """Own's deck edge leans half a metre outwards at the impact."""

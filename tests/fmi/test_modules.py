@@ -103,6 +103,7 @@ def test_fmus_of_two_versions_refuse_to_share_a_process(
     assert f"from {ours}/resources/shipcollision_fmu; build the FMU again from that package, or keep" in said
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_an_fmu_beside_an_installed_package_of_another_version_is_refused(
     real_unpacked: dict[tuple[str, int], Path], other: Path, fmi: int
@@ -132,6 +133,7 @@ def test_a_package_that_the_host_does_not_have_is_named(real_unpacked: dict[tupl
     assert "import of pydantic halted" in said
 
 
+@pytest.mark.slow
 def test_both_versions_of_fmi_and_both_fmus_share_a_process(real_unpacked: dict[tuple[str, int], Path]) -> None:
     folders = [real_unpacked[name, fmi] for name in ("ShipManoeuvring", "ShipCollision") for fmi in (2, 3)]
     said = host("print([run(folder) for folder in folders + folders[::-1]])", *folders)

@@ -204,6 +204,7 @@ assert not {"ShipCollision", "ShipManoeuvring", "pythonfmu.builder.nothing"} & s
 """
 
 
+@pytest.mark.slow
 def test_same_inputs_same_bytes(built: dict[str, Path], built_for_fmi3: dict[str, Path], tmp_path: Path) -> None:
     """Whatever the hash seed, the umask, the time zone, the folder and the process."""
     in_a_process(BUILD, ROOT, tmp_path / "a", "077", PYTHONHASHSEED="1", TZ="Asia/Tokyo")
@@ -357,6 +358,7 @@ def unpacked(fmu: Path, folder: Path) -> Path:
     return folder
 
 
+@pytest.mark.slow
 def test_a_host_without_the_package_runs_what_the_fmu_carries(built: dict[str, Path], tmp_path: Path) -> None:
     """Both FMUs in one host. The host unpacks again after it has deleted the folder from which the modules came."""
     folders = [

@@ -183,6 +183,7 @@ with ExitStack() as stack:
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fmi", [2, pytest.param(3, marks=pytest.mark.slow)])
 def test_a_new_process_goes_on_from_bytes(
     encounter: Callable[[int], Encounter], real_fmus: dict[tuple[str, int], Path], fmi: int

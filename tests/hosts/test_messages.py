@@ -46,6 +46,7 @@ except Exception as error:
     assert f"ShipManoeuvring cannot be initialised: {REFUSED}" in said
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name in ("libcosim",) if f"{name}-osp" in MASTERS])
 def test_libcosim_logs_the_line_and_ends_the_process(
     encounters: dict[str, Encounter], tmp_path: Path, name: str

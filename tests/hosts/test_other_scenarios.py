@@ -104,6 +104,7 @@ def test_a_ship_file_with_a_mesh_and_forces_for_feedback(tmp_path: Path, hull: s
     assert ours[-1, -12:].any()
 
 
+@pytest.mark.slow
 def test_an_edited_parameter_set_reaches_a_host_that_reads_it(encounters: dict[str, Encounter], tmp_path: Path) -> None:
     """Ecos applies the set whose name it is given, else the FMU's start values hold."""
     with zipfile.ZipFile(encounters["guan2014"].folder / "package.ssp") as package:

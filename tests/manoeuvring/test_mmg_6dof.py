@@ -288,6 +288,7 @@ def test_heel_in_a_turn_is_first_inwards_then_outwards(start: Start, mode: dict[
     assert heels[-1] < -0.05
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("mode", [FOUR, SIX], ids=["4", "6"])
 def test_steady_heel_is_what_the_forces_say(start: Start, mode: dict[str, Any]) -> None:
     """By hand: K_44 sin(phi) = -z_H Y_H - z_RY Y_R + m z_G u r, from the forces that the model reports."""

@@ -87,6 +87,7 @@ def test_start_values_are_those_of_the_scenario(scenario_file: Write, tmp_path: 
     assert [collision[f"{name}.ship"] for name in ("own", "target")] == ["ships/own.toml", "kcs"]
 
 
+@pytest.mark.slow
 def test_a_system_can_be_packaged_twice_with_the_same_bytes(scenario_file: Write) -> None:
     scenario = load_scenario(scenario_file())
     assert build_ssp(build_system_structure(scenario)) == build_ssp(build_system_structure(scenario))

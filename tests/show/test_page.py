@@ -140,6 +140,7 @@ def test_the_sides_are_seen_in_their_ships_colours(page: Page, scene: Scene) -> 
     assert red[0] > 1.8 * red[2]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("before", "after"),
     [((500, 440), (1400, 900)), pytest.param((1400, 600), (500, 900), marks=pytest.mark.slow)],
@@ -209,6 +210,7 @@ def test_scrubbing_back_brings_the_same_picture(page: Page, folder: Path, scene:
     assert page.fingerprint() == first
 
 
+@pytest.mark.slow
 def test_table_keys_and_curves_lead_to_their_times(page: Page, scene: Scene) -> None:
     page.slide(0.0)
     page.driver.find_element(By.CSS_SELECTOR, "table button").click()
@@ -251,6 +253,7 @@ def test_the_full_picture_is_drawn_without_a_complaint(browser: Chrome, guan2014
     assert full.complaints() == []
 
 
+@pytest.mark.slow
 def test_names_are_shown_as_text_only(browser: Chrome, guan2014: Path, tmp_path: Path) -> None:
     names = {
         "own": "<script>window.ran = 1</script>",
@@ -270,6 +273,7 @@ def test_names_are_shown_as_text_only(browser: Chrome, guan2014: Path, tmp_path:
     assert strange.complaints() == []
 
 
+@pytest.mark.slow
 def test_no_contact_is_said_in_words(browser: Chrome, meeting: MakeRun) -> None:
     apart = Page(browser, write_page(meeting(("speed = 4.0", "speed = 0.5"))))
     assert "No contact. The hulls came within" in apart.run("return document.querySelector('.events').textContent")

@@ -86,6 +86,7 @@ def test_several_contacts_obey_the_law(seed: int, contacts: int, mu: float, dof:
     check_solution(W, v, mu, solution.P, 1e-8)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scatter", [0.0, 0.5])
 def test_every_patch_is_solved(scatter: float) -> None:
     """Contacts some metres apart on ships of hundreds, nearly dependent; normals alike, and up to a wedge apart."""

@@ -132,6 +132,7 @@ def runge_kutta(W: Array, v: Array, mu: float, e: float, steps: int) -> tuple[Ar
     return x[3:6], least[0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("e", [0.0, 0.5, 1.0])
 def test_turning_slip_equals_the_literal_integration(e: float) -> None:
     """Random W with strong coupling, slips that do not stop: Runge-Kutta's answer, as far as that is accurate."""

@@ -43,6 +43,7 @@ MISSED = {
 """Rows beyond the limits, and why; the table of docs/validation.md has them, too."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "ship", [pytest.param(s, id=s.name, marks=[pytest.mark.slow] * (s.name in SLOW)) for s in COMPARED]
 )

@@ -94,6 +94,7 @@ def test_the_validator_would_find_something(validator: Path, guan2014: Path, tmp
     assert reports(validator, tmp_path / "broken.glb")[0]["errors"] > 0
 
 
+@pytest.mark.slow
 def test_the_same_scene_gives_the_same_bytes(folder: Path, written: bytes) -> None:
     assert build_glb(load_scene(folder)) == written
 
