@@ -47,6 +47,7 @@ class Instance:
             instanceName=name,
         )
         self.fmu.instantiate(loggingOn=True)
+        self.fmu.setDebugLogging(True, ["logStatusError", "logStatusWarning"])  # no events of steps that are taken back
 
     def get(self, names: list[str]) -> list[float]:
         values: list[float] = self.fmu.getReal([self.reference[name] for name in names])

@@ -28,6 +28,9 @@ VISIT = 45
 """Steps from where the ships are apart to the deepest contact, and back again."""
 PERIOD = 150
 """Steps from one visit to the next; the ships are apart for longer than a collision lasts."""
+LOOK = 15
+"""Calls of a look of the diagnosis at a ship, of which a piece may have one more: they come every 64 to 512 steps. What
+grows with every visit adds more in two hours."""
 
 Make = Callable[[str], Component]
 
@@ -75,8 +78,9 @@ def visiting(collision: Component, barge: Path, period: int = PERIOD) -> Callabl
     place = collision.reals(["own.position.north", "own.position.east", "own.velocity.surge", "own.velocity.sway"])
     impacts = collision.integers(["impact.count"])
     place.values[:] = [0.0, -80.0, 0.0, 0.0]
+    other = collision.reals(["target.position.north"])  # at the origin: a ship of which nothing was set is absent
     parameters = {"own.ship": str(barge), "target.ship": str(barge), "feedback": "none", "minimum_separation_time": 1.0}
-    collision.initialise(parameters, 7200.0, [place])
+    collision.initialise(parameters, 1e5, [place, other])
 
     def piece(k: int) -> None:
         for j in range(period):
@@ -96,7 +100,7 @@ def sailing(ship: Component) -> Callable[[int], None]:
     orders = ship.reals(["rudder_order", "propeller_order"])
     orders.values[:] = [0.1, 1.5]
     ship.initialise({"ship": "kvlcc2", "degrees_of_freedom": 6, "hydrodynamics": True, "initial.velocity.surge": 7.0},
-                    7200.0, [orders])  # fmt: skip
+                    1e5, [orders])  # fmt: skip
 
     def piece(k: int) -> None:
         for j in range(PERIOD):
@@ -110,7 +114,7 @@ def test_collisions_cost_the_same_after_others(make: Make, tmp_path: Path) -> No
     (tmp_path / "barge.toml").write_text(BARGE, encoding="utf-8")
     counts = calls(visiting(make("ShipCollision"), tmp_path / "barge.toml"), 5, 5)
     assert counts[0] > 100 * PERIOD  # the FMU's own calls are among them
-    assert counts == counts[:1] * 5
+    assert max(counts) <= min(counts) + LOOK
 
 
 @pytest.mark.slow
@@ -126,7 +130,7 @@ def test_two_hours_of_collisions_at_constant_cost(make: Make, tmp_path: Path) ->
     period = 4 * PERIOD
     piece = visiting(make("ShipCollision"), tmp_path / "barge.toml", period)
     counts = calls(piece, round(7200 / (period * H)), 3)
-    assert counts == counts[:1] * 6
+    assert max(counts) <= min(counts) + LOOK
 
 
 @pytest.mark.slow
