@@ -5,7 +5,7 @@
 
 R_nb is the rotation of the ship's attitude. The variables keep their names: surge, sway and heave then hold north, east
 and down. The turn is made here, and not in an FMU beside the ship, because such a block delays velocity and force by a
-step each: contact is then answered three times before its effect is received, and a plastic impact adds energy.
+step each: contact is then answered again before its effect is received, and a plastic impact is wrong.
 """
 
 from __future__ import annotations
