@@ -17,7 +17,7 @@ import numpy as np
 
 from ..ship.coasting import coast
 from ..ship.coasting_law import CoastingLaw
-from ..ship.frames import Array, attitude_from_rotation, rotation, unwrap_attitude
+from ..ship.frames import Array, attitude_from_rotation, unwrap_attitude
 from .bodies import Body
 from .dynamics.body_state import NOTHING, BodyState
 from .dynamics.impulse_ledger import ImpulseLedger, Reading
@@ -76,7 +76,7 @@ class ShipExchange:
         received, body, feedback = self._inputs[i], self._bodies[i], self._feedbacks[i]
         nu, x = np.array(received.velocity + received.rate), np.array(received.position)
         M_inverse = body.inverse_at(received.attitude)
-        state = BodyState.at(x, np.array(received.attitude), nu, M_inverse, body.bullet.r_bg, body.held)
+        state = BodyState.at(x, received.attitude, nu, M_inverse, body.bullet.r_bg, body.held)
         applied = np.array(received.impulse_applied)
         reading = self.ledgers[i].read(feedback, x, state.R, nu, applied, M_inverse, body.reach, H)
         if reading.one_step_delay and reading.pending.any():
@@ -170,8 +170,7 @@ def _follow(law: CoastingLaw, state: BodyState, received: ShipState, start: Arra
     """Let the state follow the law of its ship through the step, from the twist start (6,)."""
     nu = start.tolist()
     if not law.is_straight(received.position, received.attitude, nu[:3], nu[3:]):
-        position, attitude, velocity, rate = law.coast(received.position, received.attitude, nu[:3], nu[3:], H)
-        state.follow(np.array(position), rotation(attitude), np.array([*velocity, *rate]), start, H)
+        state.follow(law.coast(received.position, received.attitude, nu[:3], nu[3:], H), nu, H)
 
 
 def _as_received(t: float, H: float, ship: ShipState) -> ReceivedState:

@@ -29,8 +29,9 @@ from ..errors import InputError, ShipError, StepError
 from .coasting import coast
 from .damping import Damping
 from .degrees_of_freedom import Six, free_inverse
+from .frames import Rows, Three, rotation_rows
 from .kirchhoff_plane import Four, KirchhoffPlane
-from .kirchhoff_space import KirchhoffSpace, Three
+from .kirchhoff_space import KirchhoffSpace
 from .restoring import Restoring
 from .seakeeping import compute_seakeeping
 from .ship import Ship
@@ -51,7 +52,6 @@ MAXIMUM_SUBSTEPS = 10_000
 """Most substeps of a step: 0.5 s of computing. A step that needs more was meant in another unit."""
 
 Seq = Sequence[float]
-Rows = tuple[Three, Three, Three]
 Motion = tuple[Seq, Seq, Seq, Seq]
 """Position of CO [m] and attitude [rad] in n, velocity [m/s] and rate [rad/s] in b."""
 
@@ -182,7 +182,7 @@ class _Space:
         speed = abs(u) / self._yaw_radius + (abs(v) + abs(w)) / self._roll_radius
         n = _count(h, abs(p) + abs(q) + abs(r) + speed, self._sea)
         dt, step, sea, nu = h / n, self._space.step, self._sea, (u, v, w, p, q, r)
-        rows = _rows(phi, theta, psi)
+        rows = rotation_rows(phi, theta, psi)
         if sea is not None:
             nu = self._kick(sea, nu, z, rows[2], 0.5 * dt)
         mean, turned = nu, 0.0
@@ -254,16 +254,6 @@ def _from_level(nu_l: Six, phi: float, theta: float) -> tuple[Seq, Seq]:
     velocity = (c_theta * u - s_theta * w, c_phi * v + s_phi * below, c_phi * below - s_phi * v)
     under = c_theta * r
     return velocity, (p - s_theta * r, c_phi * q + s_phi * under, c_phi * under - s_phi * q)
-
-
-def _rows(phi: float, theta: float, psi: float) -> Rows:
-    """Rows of R_nb."""
-    cphi, sphi, cth, sth, cpsi, spsi = cos(phi), sin(phi), cos(theta), sin(theta), cos(psi), sin(psi)
-    return (
-        (cpsi * cth, cpsi * sth * sphi - spsi * cphi, spsi * sphi + cpsi * cphi * sth),
-        (spsi * cth, cpsi * cphi + sphi * sth * spsi, sth * spsi * cphi - cpsi * sphi),
-        (-sth, cth * sphi, cth * cphi),
-    )
 
 
 def _turn(rows: Rows, e_x: Three, e_y: Three, e_z: Three) -> Rows:

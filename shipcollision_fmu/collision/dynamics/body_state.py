@@ -32,9 +32,12 @@ import numpy as np
 
 from ...ship.coasting import coast_pose
 from ...ship.frames import Array, rotation, skew
-from .other_forces import OtherForces, rotation_vector_of
+from .chord import find_chord
+from .other_forces import OtherForces
 
 __all__ = ["NOTHING", "BodyState", "advance_bodies"]
+
+Seq = Sequence[float]
 
 Motion = tuple[Array, Array | None]
 """Velocity of CG [m/s] and angular velocity [rad/s] (3,), both in n; None for a body that does not turn."""
@@ -83,7 +86,7 @@ class BodyState:
 
     @classmethod
     def at(
-        cls, position: Array, attitude: Array, nu: Array, M_inverse: Array, r_bg: Array | None = None,
+        cls, position: Array, attitude: Seq | Array, nu: Array, M_inverse: Array, r_bg: Array | None = None,
         held: Array | None = None,
     ) -> BodyState:  # fmt: skip
         """State at a pose (n [m], rad) with the twist nu (b about CO). Without r_bg, CG is CO."""
@@ -112,20 +115,20 @@ class BodyState:
         self.velocity_bias, self.scheme_error = forces.velocity_bias, forces.scheme_error
         self.set_twist(self.nu)
 
-    def follow(self, x: Array, R: Array, nu_end: Array, start: Array, H: float) -> None:
-        """Take in where the law leads in a step of H [s]: pose x, R and twist nu_end (6,) in b there.
+    def follow(self, end: tuple[Seq, Seq, Seq, Seq], start: Seq, H: float) -> None:
+        """Take in where the law leads in a step of H [s]: position [m], attitude [rad], velocity and rate in b there.
 
         start: the twist (6,) at the pose of application from which it leads there. Take in other forces before.
         """
-        turn, r_bg = self.R_applied.T @ R, self.r_bg
-        omega = rotation_vector_of(turn) / H
-        v_g = (self.R_applied.T @ (x - self.x_applied) - r_bg + turn @ r_bg) / H
-        bias = np.concatenate([v_g - skew(omega) @ r_bg, omega]) - start
+        position, attitude, velocity, rate = end
+        pose = self.x_applied.tolist(), self.R_applied.tolist()
+        chord, carried = find_chord(pose, position, attitude, self.r_bg.tolist(), start, H)
+        bias = np.array(chord) - start
         if self.velocity_bias is None:
             self.path_bias = bias
         else:
             self.velocity_bias = self.velocity_bias + bias
-        self.end_gain = nu_end - self._carry_twist(R, start)
+        self.end_gain = np.array((*velocity, *rate)) - carried
         self.set_twist(self.nu)
 
     def book(self, impulses: Sequence[Array]) -> None:

@@ -34,15 +34,16 @@ with H = 0.1 s. After a minute the ship is 6 mm in the quay (tests/collision/tes
 
 from __future__ import annotations
 
-from math import asin, hypot, isclose, pi
+from math import hypot, isclose
 from typing import NamedTuple
 
 import numpy as np
 
 from ...ship.coasting_law import CoastingLaw
 from ...ship.frames import Array, rotation, rotation_vector
+from .chord import rotation_vector_of
 
-__all__ = ["OtherForces", "ReceivedState", "estimate_other_forces", "rotation_vector_of"]
+__all__ = ["OtherForces", "ReceivedState", "estimate_other_forces"]
 
 MAX_ACCELERATION = 2.0
 """Acceleration [m/s2] above which the motion between two steps is no ship's: the host has moved the ship. With a lower
@@ -103,7 +104,7 @@ def estimate_other_forces(
     mean, omega_mean, v_end, omega_end = (
         _coast_straight(start, r_bg, H) if coasting is None else _coast(coasting, before, start, R, H)
     )
-    bias = np.concatenate([way / H - mean, rotation_vector_of(turn) / H - omega_mean])
+    bias = np.concatenate([way / H - mean, np.array(rotation_vector_of(turn.tolist())) / H - omega_mean])
     gain = np.concatenate([turn @ nu[:3] - v_end, turn @ nu[3:] - omega_end])
     bias_speed, gain_speed = _largest_speed(bias, reach), _largest_speed(gain, reach)
     if not ROUNDING < max(bias_speed, gain_speed) <= MAX_ACCELERATION * H:
@@ -127,19 +128,9 @@ def _coast(
     position, attitude, velocity, rate = law.coast(before.position, before.attitude, nu[:3], nu[3:], H)
     turn = R.T @ rotation(attitude)
     way = R.T @ (np.array(position) - np.array(before.position))
-    return way / H, rotation_vector_of(turn) / H, turn @ velocity, turn @ rate
+    return way / H, np.array(rotation_vector_of(turn.tolist())) / H, turn @ velocity, turn @ rate
 
 
 def _largest_speed(nu: Array, reach: float) -> float:
     """No point of the hull moves faster [m/s]."""
     return hypot(*nu[:3].tolist()) + reach * hypot(*nu[3:].tolist())
-
-
-def rotation_vector_of(R: Array) -> Array:
-    """Rotation vector [rad] of a rotation by less than half a turn."""
-    x, y, z = R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]
-    s = 0.5 * hypot(x, y, z)
-    if R[0, 0] + R[1, 1] + R[2, 2] < 1.0:  # more than a quarter turn; about half a turn the axis is lost
-        return 0.5 * (pi - asin(min(1.0, s))) / max(s, 1e-9) * np.array([x, y, z])
-    factor = 0.5 if s < 1e-9 else 0.5 * asin(min(1.0, s)) / s
-    return factor * np.array([x, y, z])

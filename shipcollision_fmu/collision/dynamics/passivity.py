@@ -15,7 +15,7 @@ from math import hypot
 
 from ...ship.frames import Array
 from .body_state import BodyState
-from .contact import Impulse, energy_velocities
+from .contact import NO_IMPULSE, Impulse, energy_velocities
 
 __all__ = ["enforce_passivity", "group_impulses"]
 
@@ -38,9 +38,9 @@ def _scale(group: Sequence[Impulse], states: Sequence[BodyState]) -> tuple[float
     """The factor s of a group, and where it is not 1 the largest change of the velocity of CO by the group [m/s]."""
     work, J = 0.0, dict[int, Array]()
     for impulse, v in zip(group, energy_velocities([i.contact for i in group], states), strict=True):
-        c, P = impulse.contact, impulse.P
-        if not P.any():
+        if impulse.P.tolist() == NO_IMPULSE:
             continue
+        c, P = impulse.contact, impulse.P
         work += float(P @ v)
         for body, J_body in ((c.a, -(P @ c.G_a)), (c.b, P @ c.G_b)):
             J[body] = J[body] + J_body if body in J else J_body

@@ -22,7 +22,7 @@ import numpy as np
 
 from ...ship.frames import Array
 from ..dynamics.body_state import BodyState
-from ..dynamics.contact import Booked, Contact
+from ..dynamics.contact import NO_IMPULSE, Booked, Contact
 from ..dynamics.contact_frame import contact_axes
 from ..dynamics.delassus import held_delassus, mobility
 from ..dynamics.passivity import group_impulses
@@ -41,7 +41,7 @@ def split_losses(
     booked: Sequence[Booked], states: Sequence[BodyState], friction: float, restitution: float
 ) -> list[Loss]:
     """Energy lost at each impulse [J], (along the normal, by friction)."""
-    if friction == 0.0 or not any(b.impulse.P.any() for b in booked):
+    if friction == 0.0 or all(b.impulse.P.tolist() == NO_IMPULSE for b in booked):
         return [(b.lost, 0.0) for b in booked]
     first = booked[0].impulse.contact
     if all((b.impulse.contact.a, b.impulse.contact.b) == (first.a, first.b) for b in booked):
@@ -61,7 +61,7 @@ def _split_straight(booked: Sequence[Booked]) -> list[Loss] | None:
     """The losses of a pair whose slips keep their direction at all contacts; None if one does not."""
     losses, along, across = list[Loss](), 0.0, 0.0
     for b in booked:
-        if not b.impulse.P.any():
+        if b.impulse.P.tolist() == NO_IMPULSE:
             losses.append((b.lost, 0.0))
             continue
         (n_x, n_y, n_z), (P_x, P_y, P_z) = b.impulse.contact.normal.tolist(), b.impulse.P.tolist()
@@ -86,7 +86,9 @@ def _split_by_process(
     """The losses of a group of pairs, in the ratio of their impact processes."""
     normal = tangential = 0.0
     for pair in pairs:
-        E_n, E_t = _estimate_pair([b for b in pair if b.impulse.P.any()], states, friction, restitution)
+        E_n, E_t = _estimate_pair(
+            [b for b in pair if b.impulse.P.tolist() != NO_IMPULSE], states, friction, restitution
+        )
         normal, tangential = normal + E_n, tangential + E_t
     share = tangential / (normal + tangential) if tangential > 0.0 else 0.0
     return [((1.0 - share) * b.lost, share * b.lost) for b in members]

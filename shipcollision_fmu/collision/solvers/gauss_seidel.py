@@ -30,6 +30,7 @@ References: Guan et al. (2014); Catto (2005), "Iterative dynamics with temporal 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import atan2, cos, sin
 
 import numpy as np
 
@@ -71,6 +72,10 @@ are not solved without."""
 IMMOBILE = 1e-9
 """Share of the largest diagonal entry of W below which no ship moves along a tangent. Smaller: friction is divided by
 rounding. Larger: friction is taken from ships that can just move."""
+
+
+Others = tuple[int, float, float, float, float, float, float, float, float, float]
+"""First column of a block of W, and the nine numbers of the block by rows."""
 
 
 @dataclass(frozen=True)
@@ -123,13 +128,11 @@ def solve_gauss_seidel(
 
 def principal_axes(W: Array) -> Array:
     """Rotation T (3k, 3k) of the tangents of every contact to the principal axes of its own W_tt."""
-    n = len(W)
-    diagonal, T = W.diagonal(), np.eye(n)
-    angle = 0.5 * np.arctan2(2.0 * W.diagonal(1)[1::3], diagonal[1::3] - diagonal[2::3])
-    c, s = np.cos(angle), np.sin(angle)
-    entries, contact = T.reshape(-1), 3 * (n + 1)
-    entries[n + 1 :: contact], entries[n + 2 :: contact] = c, s
-    entries[2 * n + 1 :: contact], entries[2 * n + 2 :: contact] = -s, c
+    T, on, beside = np.eye(len(W)), W.diagonal().tolist(), W.diagonal(1).tolist()
+    for n in range(1, len(W), 3):
+        angle = 0.5 * atan2(2.0 * beside[n], on[n] - on[n + 1])
+        c, s = cos(angle), sin(angle)
+        T[n, n], T[n, n + 1], T[n + 1, n], T[n + 1, n + 1] = c, s, -s, c
     return T
 
 
@@ -171,8 +174,8 @@ def _sweep(
 ) -> tuple[Array, int]:
     """Impulses (k, 3) and the sweeps taken. scale: largest approach speed [m/s]."""
     before, many = v.tolist(), len(blocks) >= MANY_CONTACTS
-    others = _without_own_blocks(W)
-    few, impulses = [] if many else [_leave_out(n, others) for n in range(0, len(v), 3)], np.empty(len(v))
+    others, few = (_without_own_blocks(W), []) if many else (W, _list_others(W))
+    impulses = np.empty(len(v))
     P: list[float] = start.ravel().tolist()
     angles: list[float | None] = [None] * len(blocks)
     sweeps, tolerance = 0, SWEEP_TOLERANCE * scale
@@ -192,10 +195,11 @@ def _sweep(
                 g, g_1, g_2 = others[n : n + 3].dot(impulses).tolist()
                 f, f_1, f_2 = f + g, f_1 + g_1, f_2 + g_2
             else:
-                for x, w, w_1, w_2 in zip(P[:n] + P[n + 3 :], *few[i], strict=True):
-                    f += w * x
-                    f_1 += w_1 * x
-                    f_2 += w_2 * x
+                for m, a, b, c, d, e, g, h, j, k in few[i]:
+                    x, y, z = P[m : m + 3]
+                    f += a * x + b * y + c * z
+                    f_1 += d * x + e * y + g * z
+                    f_2 += h * x + j * y + k * z
             new, angles[i] = solve_one_contact(W_i, (f, f_1, f_2), mu, angles[i])
             P[n : n + 3] = new
             if many:
@@ -222,9 +226,17 @@ def _without_own_blocks(W: Array) -> Array:
     return others
 
 
-def _leave_out(n: int, others: Array) -> tuple[list[float], ...]:
-    """The rows n to n + 2, without their own columns."""
-    return tuple(row[:n] + row[n + 3 :] for row in others[n : n + 3].tolist())
+def _list_others(W: Array) -> list[list[Others]]:
+    """The same of few contacts: per contact the blocks of the others, each with its first column before its rows."""
+    rows, starts = W.tolist(), range(0, len(W), 3)
+    return [
+        [(m, *_three(rows[n], m), *_three(rows[n + 1], m), *_three(rows[n + 2], m)) for m in starts if m != n]
+        for n in starts
+    ]
+
+
+def _three(row: list[float], first: int) -> tuple[float, float, float]:
+    return row[first], row[first + 1], row[first + 2]
 
 
 def _solve_together(W: Array, v: Array, mu: float, P: Array, tolerance: float, work: WorkLimit) -> Array:

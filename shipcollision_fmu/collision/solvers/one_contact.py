@@ -26,6 +26,10 @@ __all__ = ["solve_one_contact"]
 ROUNDING = 1e-14
 """Approach, as a share of the approach before, that counts as stopped. Smaller: the bracket never closes."""
 
+LAST_STEP = 1e-9
+"""Step of Newton's method [rad] from which the impulse follows to first order: what is left is its square. Larger: the
+sweeps do not end. Smaller: one more iteration each, and the same impulse."""
+
 Row = tuple[float, float, float]
 NONE: Row = (0.0, 0.0, 0.0)
 
@@ -82,8 +86,11 @@ def _solve_slide(W: ContactBlock, v: Row, mu: float, angle: float) -> tuple[Row,
         if slope == 0.0:
             return None
         step = -across / slope
-        if abs(step) <= 1e-14 or abs(step) <= 1e-14 * abs(angle) or across == 0.0:
-            return ((P_n, P_1, P_2), angle) if along <= 0.0 else None
+        if abs(step) <= LAST_STEP:
+            if along > 0.0:
+                return None
+            P = P_n + grown * step, P_1 + mu * (grown * c - P_n * s) * step, P_2 + mu * (grown * s + P_n * c) * step
+            return P, angle + step
         angle += step if abs(step) <= 0.5 else copysign(0.5, step)
     # Rounding may keep the step from getting smaller: then the slip across friction, which it would change, decides.
     return ((P_n, P_1, P_2), angle) if along < 0.0 and abs(across) <= 1e-12 * hypot(v_n, v_1, v_2) else None

@@ -14,7 +14,7 @@ from math import dist
 import numpy as np
 
 from ...ship.frames import Array
-from ..dynamics.contact import Contact, Impulse
+from ..dynamics.contact import NO_IMPULSE, Contact, Impulse
 
 __all__ = ["WarmStarts", "guess_impulses", "keep_impulses"]
 
@@ -48,6 +48,6 @@ def keep_impulses(impulses: Sequence[Impulse], warm: WarmStarts) -> None:
     latest: WarmStarts = {}
     for impulse in impulses:
         c = impulse.contact
-        if impulse.P.any():
+        if impulse.P.tolist() != NO_IMPULSE:
             latest.setdefault((c.a, c.b), []).append((c.r_a.tolist(), impulse.P.tolist()))
     warm.update(latest)
