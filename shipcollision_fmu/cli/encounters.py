@@ -1,4 +1,4 @@
-"""`encounter` and `import`: make scenarios backwards from an impact, or from a traffic situation."""
+"""`encounter` and `import`: make scenarios backwards from an impact, or from other people's traffic."""
 
 from __future__ import annotations
 
@@ -84,19 +84,25 @@ def encounter(kind: str, out: Path | None, case: int | None, degrees_of_freedom:
 @click.argument("file", type=PATH)
 @click.option("--ship", metavar="SHIP", help="Plays every ship.  [default: ships made from the file's dimensions]")
 @click.option("--own", metavar="SHIP", help="Plays own ship.")
-@click.option("--duration", type=NUMBER, metavar="S", help="[default: the time of own ship's route]")
+@click.option(
+    "--duration", type=NUMBER, metavar="S", help="[default: the time of own ship's route, or of the trajectories]"
+)
 @click.option("--step", type=NUMBER, default=0.05, show_default=True, metavar="S", help="Communication step.")
-@click.option("--hydrodynamics", is_flag=True, help="Sail the ships along their waypoints; else they coast.")
+@click.option(
+    "--hydrodynamics",
+    is_flag=True,
+    help="Sail the ships along their waypoints, by estimate without --ship; else they coast.",
+)
 @click.option("--out", type=TOML_PATH, required=True, metavar="FILE.toml", help="Scenario to write.")
 @click.option("--overwrite", is_flag=True, help="Replace other ship files of the same names beside it, too.")
 def import_(
     file: Path, ship: str | None, own: str | None, duration: float | None, step: float, hydrodynamics: bool, out: Path,
     overwrite: bool,
 ) -> None:  # fmt: skip
-    """Make a scenario of a traffic situation in JSON.
+    """Make a scenario of a traffic situation in JSON, or of a CommonOcean scenario in XML.
 
-    FILE comes from DNV's trafficgen or maritime-schema, version 0.1 or 0.2. A ship without --ship gets a ship file of
-    its dimensions beside the scenario.
+    JSON comes from DNV's trafficgen (all versions) or maritime-schema. A ship without --ship gets a ship file of its
+    dimensions beside the scenario. The own ship of CommonOcean has none: name it with --own.
     """
     from ..encounters.traffic.situation import traffic_scenario
     from ..files import check_writable, refuse_other_texts, write_files

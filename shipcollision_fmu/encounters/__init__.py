@@ -1,4 +1,4 @@
-"""Scenarios generated from what is asked of an impact, from Imazu's cases and from traffic situations.
+"""Scenarios generated from what is asked of an impact, from Imazu's cases and from other people's traffic.
 
     encounter.py           encounter(): a Request becomes the text of a scenario file whose ships do collide
       request.py             the kinds of encounter, their options and limits
@@ -10,7 +10,7 @@
       earlier_overlap.py     refuses tracks whose hulls overlap before the impact
       encounter_file.py      writes the scenario file
     imazu.py               imazu(): the 22 cases of Imazu's problem
-    traffic/               traffic_scenario(): a traffic situation in JSON becomes a scenario file
+    traffic/               traffic_scenario(): a file of trafficgen or CommonOcean becomes a scenario file
     ship_table.py          the table [ships.NAME] that all three write
     units.py               knots
 

@@ -221,6 +221,8 @@ def _check_source(source: str | Path) -> str | Path:
 
 def _locate(name_or_path: str | Path) -> Path:
     text, names = str(name_or_path), ", ".join(list_scenario_names())
+    if text.lower().endswith((".json", ".xml")):
+        raise ScenarioError(f"{text} is no scenario file: make one with `shipcollision import {text} --out FILE.toml`")
     if isinstance(name_or_path, Path) or _is_path(text):
         path = Path(text)
         if not path.is_file():
