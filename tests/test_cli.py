@@ -435,6 +435,19 @@ def test_a_traffic_situation_becomes_a_scenario_with_its_ships(folder: Path) -> 
     assert "own - target" in result.stdout  # head-on, 1.1 km apart, 18 kn: 110 s
 
 
+@pytest.mark.parametrize("name", ["s.json", "S.XML"])
+def test_a_run_of_a_traffic_file_is_sent_to_import(folder: Path, name: str) -> None:
+    Path(name).write_text(SITUATION, encoding="utf-8")
+    refused = called("run", name)
+    assert refused.exit_code != 0
+    assert refused.stderr.strip().endswith(
+        f"{name} is no scenario file: make one with `shipcollision import {name} --out FILE.toml`"
+    )
+    if name == "s.json":
+        assert called("import", name, "--out", "FILE.toml", "--duration", "2").exit_code == 0
+        assert called("run", "FILE.toml", "--in-process", "--no-page").exit_code == 0
+
+
 def test_import_replaces_no_other_ship_file_unless_told_so(folder: Path) -> None:
     Path("s.json").write_text(SITUATION, encoding="utf-8")
     Path("s-own.toml").write_text(BARGE, encoding="utf-8")

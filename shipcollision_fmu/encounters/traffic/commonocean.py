@@ -14,11 +14,12 @@ Without a planning problem the first dynamic obstacle is own ship.
 from __future__ import annotations
 
 from itertools import pairwise
-from math import atan2, cos, hypot, pi, sin
+from math import atan2, cos, degrees, hypot, pi, sin
 from typing import Any
 
 from ...errors import ScenarioError
-from .commonocean_schema import Area, CommonOcean, Obstacle, PlanningProblem, Point, State, parse_commonocean
+from .commonocean_schema import CommonOcean, Obstacle, PlanningProblem, Point, State, parse_commonocean
+from .commonocean_shapes import find_box, find_middle, place_box, place_corners
 from .thinning import thin_track
 from .traffic import LONGEST_DEFAULT, WIDEST, ShipSize, Traffic, TrafficStart
 from .unread import name_unread
@@ -65,7 +66,7 @@ def read_commonocean(content: bytes, file: str) -> Traffic:
         description=f"CommonOcean {scenario.benchmarkID}".strip(),
         duration=_find_end(scenario) or USUAL_DURATION,
         starts=starts,
-        sizes={role: _read_size(name, ship, file) for role, (name, ship) in zip(roles, ships, strict=True)},
+        sizes={role: _read_size(ship) for role, (_, ship) in zip(roles, ships, strict=True)},
         obstacles={
             name: table for o in scenario.staticObstacle for name, table in reader.read_obstacle(o).items()
         },
@@ -118,38 +119,18 @@ def _has_interval(state: State) -> bool:
 
 def _read_point(state: State, name: str, file: str) -> Point:
     """The position of a state: a point, or the middle of an area."""
-    middle = None if state.position is None else _find_middle(state.position)
+    middle = None if state.position is None else find_middle(state.position)
     if middle is None:
         raise ScenarioError(f"{file}: {name} has no position in its initialState: give a point")
     return middle
 
 
-def _find_middle(area: Area) -> Point | None:
-    """The point of a position, or the middle of its first area; None for a reference to waters."""
-    if area.point is not None:
-        return area.point
-    centres = [r.center for r in area.rectangle] + [c.center for c in area.circle]
-    if centres:
-        return centres[0]
-    for polygon in area.polygon:
-        xs, ys = [p.x for p in polygon.point], [p.y for p in polygon.point]
-        return Point(x=0.5 * (min(xs) + max(xs)), y=0.5 * (min(ys) + max(ys)))
-    return None
-
-
-def _read_size(name: str, ship: Obstacle | PlanningProblem, file: str) -> ShipSize:
+def _read_size(ship: Obstacle | PlanningProblem) -> ShipSize:
     """Size of a ship: of its rectangle, or of the box about its polygon. A circle has no length."""
     if isinstance(ship, PlanningProblem):
         return ShipSize()
-    label = f"{ship.type} {ship.id}"
-    if len(ship.shape.rectangle) == 1:
-        (rectangle,) = ship.shape.rectangle
-        return ShipSize(label, ship.type, rectangle.length, rectangle.width)
-    if len(ship.shape.polygon) == 1:
-        (polygon,) = ship.shape.polygon
-        xs, ys = [p.x for p in polygon.point], [p.y for p in polygon.point]
-        return ShipSize(label, ship.type, max(xs) - min(xs) or None, max(ys) - min(ys) or None)
-    return ShipSize(label, ship.type)
+    _, length, width = find_box(ship.shape) or (None, None, None)
+    return ShipSize(f"{ship.type} {ship.id}", ship.type, length or None, width or None)
 
 
 class _Reader:
@@ -166,9 +147,12 @@ class _Reader:
 
     def read_start(self, name: str, ship: Obstacle | PlanningProblem) -> TrafficStart:
         state = ship.initialState
-        north, east = self.place(_read_point(state, name, self.file))
+        at = _read_point(state, name, self.file)
+        north, east = self.place(at)
         track = self._read_track(ship)
         heading, v_north, v_east = self._read_velocity(name, state, (0.0, north, east), track)
+        if isinstance(ship, Obstacle):
+            north, east = self.place(place_box(ship.shape, at, 0.5 * pi - heading))
         speed = hypot(v_north, v_east)
         course = atan2(v_east, v_north) if speed > 0.0 else heading
         route, speeds = self._plan_route((0.0, north, east), track, speed)
@@ -178,10 +162,10 @@ class _Reader:
     def _read_track(self, ship: Obstacle | PlanningProblem) -> list[tuple[float | None, float, float]]:
         """Time [s], north and east [m] of the states to come; without time for a planning problem."""
         if isinstance(ship, PlanningProblem):
-            places = [_find_middle(s.position) for s in (*ship.waypoint, *ship.goalState[:1]) if s.position is not None]
+            places = [find_middle(s.position) for s in (*ship.waypoint, *ship.goalState[:1]) if s.position is not None]
             return [(None, *self.place(point)) for point in places if point is not None]
         states = [] if ship.trajectory is None else ship.trajectory.state
-        found = ((s.time, None if s.position is None else _find_middle(s.position)) for s in states)
+        found = ((s.time, None if s.position is None else find_middle(s.position)) for s in states)
         return [
             ((time.middle or 0.0) * self.time_step, *self.place(point))
             for time, point in found
@@ -243,19 +227,17 @@ class _Reader:
         rest = {"bottom": obstacle.foot}
         shape, tables = obstacle.shape, list[dict[str, Any]]()
         for rectangle in shape.rectangle:
-            position = self.place(_move(rectangle.center, at, psi))
-            heading = 90.0 - (psi + rectangle.orientation) * 180.0 / pi
+            position = self.place(_add(rectangle.center, at))
+            heading = round(90.0 - degrees(psi + rectangle.orientation), 6) % 360.0
             tables.append({"shape": "box", "length": rectangle.length, "breadth": rectangle.width,
-                           "position": list(position), "heading_deg": round(heading, 6) % 360.0})  # fmt: skip
+                           "position": list(position), "heading_deg": heading})  # fmt: skip
         for circle in shape.circle:
-            position = self.place(_move(circle.center, at, psi))
+            position = self.place(_add(circle.center, at))
             tables.append({"shape": "cylinder", "diameter": 2.0 * circle.radius, "position": list(position)})
         for polygon in shape.polygon:
-            corners = [self.place(_move(point, at, psi)) for point in polygon.point]
             middle = self.place(at)
+            corners = [self.place(point) for point in place_corners(polygon.point, at, psi)]
             points = [[round(n - middle[0], 6) + 0.0, round(e - middle[1], 6) + 0.0] for n, e in corners]
-            if points[-1] == points[0]:  # closed, as the format's own writer does it
-                points.pop()
             tables.append({"shape": "polygon", "points": points, "position": list(middle)})
         if not tables:
             raise ScenarioError(f"{self.file}: {name} has no shape: give a rectangle, a circle or a polygon")
@@ -267,9 +249,8 @@ class _Reader:
         }
 
 
-def _move(point: Point, at: Point, psi: float) -> Point:
-    """A point of a shape in the file's x, y: turned by psi [rad], then moved."""
-    return Point(x=at.x + point.x * cos(psi) - point.y * sin(psi), y=at.y + point.x * sin(psi) + point.y * cos(psi))
+def _add(a: Point, b: Point) -> Point:
+    return Point(x=a.x + b.x, y=a.y + b.y)
 
 
 def _make_identifier(text: str) -> str:

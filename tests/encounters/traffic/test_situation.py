@@ -127,12 +127,17 @@ def test_a_ship_that_drifts_keeps_its_heading(tmp_path: Path) -> None:
 def test_what_is_left_out_is_told(tmp_path: Path) -> None:
     coasting = traffic_scenario(NEW, out=tmp_path / "x.toml").notes
     assert [note.split(":")[0] for note in coasting] == [
+        "Not used",
         "The ships coast in water at rest", "The ships coast and keep their courses",
         "The ships coast and keep their speeds",
         "The file's wind is not carried over", "The file's current is not carried over",
     ]  # fmt: skip
     sailing = traffic_scenario(NEW, out=tmp_path / "x.toml", ship="kvlcc2", step=0.5, hydrodynamics=True).notes
-    assert [note.split(":")[0] for note in sailing] == ["Speeds of later legs", "turnRadius is not carried over"]
+    assert [note.split(":")[0] for note in sailing] == [
+        "Not used",
+        "Speeds of later legs",
+        "turnRadius is not carried over",
+    ]
 
 
 def test_ships_by_name_sail_their_waypoints(tmp_path: Path) -> None:
@@ -186,7 +191,7 @@ Spoil = Callable[[dict[str, Any]], Any]
         (lambda d: d["ownShip"]["initial"].pop("position"), None),  # the first waypoint will do
         (lambda d: d["targetShips"][1]["initial"].pop("position"), r"target_2 has no position: give initial.position"),
         (lambda d: d["targetShips"][1]["initial"].pop("cog"), r"target_2 has no course: give initial.cog, or two wayp"),
-        (lambda d: d["targetShips"][1]["static"].pop("width"), r"target_2 has no length and width in static: name"),
+        (lambda d: d["targetShips"][1]["static"].pop("width"), r"target_2 has no width: name a ship with --ship"),
         (lambda d: d["targetShips"][1]["static"].update(initDelay=15.0), r"target_2 initDelay = 15 s is not offered"),
         (lambda d: d["targetShips"][0]["initial"]["position"].update(lon=20.5), r"target_1 is \d+ km from own ship"),
         (lambda d: d["targetShips"][0]["initial"].update(position=d["ownShip"]["initial"]["position"]),
@@ -232,9 +237,51 @@ def test_a_file_that_is_not_there_is_refused() -> None:
         traffic_scenario("nowhere.json")
 
 
-def test_dimensions_alone_do_not_sail(tmp_path: Path) -> None:
-    with pytest.raises(ScenarioError, match=r"own has dimensions only and can but coast: name a ship with --ship"):
-        traffic_scenario(OLD, out=tmp_path / "x.toml", hydrodynamics=True)
+def faster(target: float, top: float | None, folder: Path) -> Path:
+    """The first file, in which a ship of 50 m goes `target` [kn]; `top` is its largest speed [kn]."""
+    data = json.loads(OLD.read_text(encoding="utf-8"))
+    data["targetShips"][0]["initial"] |= {"sog": target, "heading": 185.0}
+    if top is not None:
+        data["targetShips"][0]["static"]["sogMax"] = top
+    path = folder / "f.json"
+    path.write_text(json.dumps(data), encoding="utf-8")
+    return path
+
+
+def test_dimensions_alone_sail_by_estimate(tmp_path: Path) -> None:
+    """Ships at 10 kn: their revolutions keep their speed."""
+    out = tmp_path / "f.toml"
+    made = traffic_scenario(faster(10.0, None, tmp_path), out=out, duration=100.0, step=1.0, hydrodynamics=True)
+    scenario = stored(made, out)
+    assert all(ship.hydrodynamics for ship in scenario.ships.values())
+    run = simulate(scenario, in_process=True)
+    assert run.states["own.velocity.surge"][-1] == pytest.approx(10.0 * KNOT, rel=0.01)
+    assert run.states["target_1.velocity.surge"][-1] == pytest.approx(10.0 * KNOT, rel=0.01)
+
+
+def test_an_engine_that_does_not_suffice_is_told_and_the_remedies_help(tmp_path: Path) -> None:
+    """12.5 kn; a cargo ship of 50 m is estimated to make 11.2 kn at most, and 13 kn where the file says so."""
+    out = tmp_path / "f.toml"
+    with pytest.raises(ScenarioError) as refused:
+        traffic_scenario(faster(12.5, None, tmp_path), out=out, hydrodynamics=True)
+    assert str(refused.value) == (
+        "f.json: target_1 goes 6.43 m/s, its engine, estimated from length, type and largest speed, gives 5.77 m/s: "
+        "state static.sogMax in knots, name a ship with --ship, or leave out --hydrodynamics"
+    )
+    path = faster(12.5, 13.0, tmp_path)
+    made = traffic_scenario(path, out=out, hydrodynamics=True)
+    ship = stored(made, out).load_ships()["target_1"]
+    assert ship.engine is not None
+    assert ship.propeller is not None
+    assert ship.propeller.service_speed is not None
+    assert ship.propeller.service_rev_per_s is not None
+    reach = ship.propeller.service_speed * ship.engine.max_rev_per_s / ship.propeller.service_rev_per_s
+    assert reach == pytest.approx(13.0 * KNOT, rel=1e-3)
+    assert traffic_scenario(path, out=out, ship="kcs", hydrodynamics=True).ship_files == {}
+    assert traffic_scenario(faster(12.5, None, tmp_path), out=out).ship_files
+
+
+def test_named_ships_that_only_coast_do_not_sail(tmp_path: Path) -> None:
     with pytest.raises(
         ScenarioError, match=r"ship 'guan2014_own' can only coast, it has no \[manoeuvring\]: leave out"
     ):
