@@ -20,9 +20,10 @@ from .contact_problem import ContactCaches, ContactProblem, ContactSolution
 from .dynamics.body_state import BodyState
 from .dynamics.contact import Contact, Impulse, make_contact
 from .dynamics.delassus import approach_velocities, delassus, held_delassus
+from .solvers.gauss_seidel import solve_gauss_seidel
 from .solvers.held_motions import yield_to_friction
 from .solvers.impact_process import solve_impact_process
-from .solvers.poisson_restitution import solve_poisson_impact
+from .solvers.poisson_restitution import LEAST_REBOUNDING_APPROACH, solve_poisson_impact
 from .solvers.touching_pair import TouchingPair
 from .solvers.warm_start import guess_impulses, keep_impulses
 
@@ -68,7 +69,7 @@ def respond_closed_form(problem: ContactProblem, caches: ContactCaches) -> Conta
     The pair that approaches fastest is answered first, with the twists that the impacts before it left: the order in
     which ships are named does not matter. A pair is answered again when the impact of another one has left it closing.
     Contacts that a substep leaves closing, by the friction of the resultant, after MAX_ANSWERS or when the work of the
-    step is spent, are solved in the next.
+    step is spent, are solved in the next. Then every pair is answered once, by a plastic impact.
     """
     states = list(problem.states)
     touching = [
@@ -77,24 +78,29 @@ def respond_closed_form(problem: ContactProblem, caches: ContactCaches) -> Conta
         if (contacts := problem.detector.contacts(a, b, states, caches.last_normals))
     ]
     least = AT_REST_SHARE * max((pair.measure_approach(states) for pair in touching), default=0.0)
-    work = caches.work.lend()
+    work, residual = caches.work.lend(), 0.0
     for answers in range(MAX_ANSWERS * len(touching)):
         pair = max(touching, key=TouchingPair.urgency)
         if pair.approach <= least or (work.is_spent and answers >= len(touching)):
             break
+        e = problem.restitution if pair.approach >= LEAST_REBOUNDING_APPROACH else 0.0
         contact = pair.reduce(states, work)
         W, velocity = delassus([contact], states), approach_velocities([contact], states)
-        H = held_delassus([contact], states)
-        process = solve_impact_process(W, velocity, problem.friction, problem.restitution, H)
-        P = contact.axes.T @ process.P
+        if work.is_spent:  # the restitution is missed
+            P, residual = solve_gauss_seidel(W, velocity, problem.friction).P[0], max(residual, e)
+        else:
+            H = held_delassus([contact], states)
+            process = solve_impact_process(W, velocity, problem.friction, e, H)
+            P = process.P
+            work.spend_impact_process(process.stretches)
+        P = contact.axes.T @ P
         _apply_to_states(contact, P, states)
         pair.take(P)
-        work.spend_impact_process(process.stretches)
         for other in touching:
             if other is not pair and other.shares_ship(pair, states):
                 other.measure_approach(states)
     caches.work.settle(work)
-    return ContactSolution([impulse for pair in touching for impulse in pair.impulses()])
+    return ContactSolution([impulse for pair in touching for impulse in pair.impulses()], residual)
 
 
 def respond_bullet(problem: ContactProblem, caches: ContactCaches) -> ContactSolution:

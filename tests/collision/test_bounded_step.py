@@ -15,7 +15,13 @@ import pytest
 from shipcollision_fmu.collision import responses
 from shipcollision_fmu.collision.geometry.bullet import ITERATIONS, bullet_module
 from shipcollision_fmu.collision.geometry.detection import Detector
-from shipcollision_fmu.collision.solvers import aclm_fixed_point, alart_curnier, gauss_seidel, work_limit
+from shipcollision_fmu.collision.solvers import (
+    aclm_fixed_point,
+    alart_curnier,
+    gauss_seidel,
+    impact_process,
+    work_limit,
+)
 from shipcollision_fmu.ship.frames import rotation
 from shipcollision_fmu.ship.loading.library import load_ship
 from tests.collision.conftest import World
@@ -123,26 +129,32 @@ def test_ships_wedged_in_a_lock(world: MakeWorld, box: str, last_resort: list[in
         assert all(-1e-2 < x[1] - 18.8 * i < 1e-2 for i, x in enumerate(w.x)), "in a wall, or in each other"
 
 
-def test_closed_form_answers_a_bounded_number_of_impacts(
-    world: MakeWorld, box: str, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize("restitution", [0.0, 0.9])
+def test_closed_form_follows_a_bounded_length_of_slip(
+    world: MakeWorld, box: str, monkeypatch: pytest.MonkeyPatch, restitution: float
 ) -> None:
-    """When the work of a step is spent, every pair is still answered once in each substep."""
-    answers = [0]
+    """When the work of a step is spent, every pair is still answered once in each substep, by a plastic impact. What
+    that lacks in restitution is counted."""
+    stretches = [0]
     plain = responses.solve_impact_process
 
     def counted(*args: Any) -> Any:
-        answers[0] += 1
-        return plain(*args)
+        process = plain(*args)
+        stretches[0] += process.stretches
+        return process
 
     monkeypatch.setattr(responses, "solve_impact_process", counted)
-    monkeypatch.setattr(work_limit, "FOUR_SHIPS", 0.0)
+    monkeypatch.setattr(work_limit, "FOUR_SHIPS", 1.0)
     quay = QUAY.replace("38.2", str(3.5 * 18.8 + 10.0))
     start = [{"position": (3.0 * i, 18.8 * i, 0.0), "nu": np.array([0.0, 1.0 - 0.3 * i, 0, 0, 0, 0])} for i in range(4)]
-    w = world([box] * 4, start, obstacles=quay, friction=0.3, restitution=0.9, response="closed_form")
+    w = world([box] * 4, start, obstacles=quay, friction=0.3, restitution=restitution, response="closed_form")
     had = sum(w.energy(i) for i in range(4))
     w.step(0.1)
-    assert 4 <= answers[0] <= 4 * 10
+    assert stretches[0] <= 2 * impact_process.MAX_STRETCHES, "one impact, and the events on its path"
     assert w.work[-1] <= 1e-6 * had, "energy from contact"
+    assert max(nu[1] for nu in w.nu) < 0.3, "the row runs on into the quay at its first speed of up to 1 m/s"
+    assert bool(w.model.outputs.solver.unconverged) is (restitution > 0.0)
+    assert w.model.outputs.solver.residual in (0.0, restitution)
 
 
 def motion_in_n(R: np.ndarray, nu: np.ndarray, r_bg: np.ndarray) -> np.ndarray:

@@ -56,7 +56,7 @@ IMMOBILE = 1e-12
 Where heave is held and the normal slopes by less than 1e-6, up to mu 1e-6 of the approach is left by that. A larger
 share leaves more, by its square root; with a smaller share friction is divided by rounding."""
 
-MAX_STRETCHES = 10_000
+MAX_STRETCHES = 500
 """Bound on the stretches of a turning slip. It is met only where two invariant directions nearly coincide. The slip
 then goes straight on, which is nearly its path."""
 

@@ -66,7 +66,7 @@ class WorkLimit:
 
     def spend_impact_process(self, stretches: int) -> None:
         """The impact process of one contact, with its operator, and so many stretches of its slip."""
-        self.left -= 400.0 + 150.0 * stretches
+        self.left -= 300.0 + 50.0 * stretches
 
 
 class StepWork:
