@@ -6,6 +6,7 @@ What property tests draw depends on the test itself and on nothing else.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +15,7 @@ from hypothesis import HealthCheck, settings
 from hypothesis.internal.conjecture import providers
 
 from shipcollision_fmu.cosim import fmu_files
+from tests import needs
 from tests.ship_files import BARGE_ADDED_MASS, ship_toml
 
 # Hypothesis draws some values from the constants in the sources of this project's modules that are imported so far: an
@@ -64,6 +66,40 @@ if TYPE_CHECKING:
     from selenium.webdriver import Chrome
 
 Write = Callable[..., Path]
+LEFT_OUT = pytest.StashKey[list[tuple[str, list[str]]]]()
+"""Tests left out of this run, each with its needs that are not met."""
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption(
+        "--nothing-left-out", action="store_true",
+        help="fail when a test is left out because something is not installed, or skipped",
+    )  # fmt: skip
+
+
+@pytest.hookimpl(wrapper=True, tryfirst=True)
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> Iterator[None]:
+    """Before pytest selects by -m, fixtures give their tests the mark `needs`; afterwards tests are left out."""
+    for item in items:
+        for name in needs.BY_FIXTURE.keys() & set(getattr(item, "fixturenames", ())):
+            item.add_marker(pytest.mark.needs(needs.BY_FIXTURE[name]))
+    yield
+    is_met = cache(lambda name: needs.NEEDS[name].is_met())
+    unmet = {item: needs.find_unmet(item, is_met) for item in items}
+    config.stash[LEFT_OUT] = [(item.nodeid, names) for item, names in unmet.items() if names]
+    config.hook.pytest_deselected(items=[item for item, names in unmet.items() if names])
+    items[:] = [item for item, names in unmet.items() if not names]
+
+
+def pytest_sessionfinish(session: pytest.Session) -> None:
+    skipped = session.config.pluginmanager.getplugin("terminalreporter").stats.get("skipped")
+    if session.config.option.nothing_left_out and (session.config.stash.get(LEFT_OUT, None) or skipped):
+        session.exitstatus = pytest.ExitCode.TESTS_FAILED
+
+
+def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> None:
+    for line in needs.describe_left_out(config.stash.get(LEFT_OUT, [])):
+        terminalreporter.write_line(line)
 
 
 @pytest.fixture(scope="session", autouse=True)

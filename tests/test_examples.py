@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-import shutil
 import subprocess
 import sys
 import sysconfig
@@ -19,6 +18,8 @@ from shipcollision_fmu.cosim.simulate import simulate
 from shipcollision_fmu.fmi.names import STATE, named
 from shipcollision_fmu.packaging.osp import write_osp
 from shipcollision_fmu.scenario.scenario import load_scenario
+from tests.compiler import compile_c
+from tests.needs import shared_libpython
 
 EXAMPLES = Path(shipcollision_fmu.__file__).resolve().parent.parent / "examples"
 NUMBER = r"(-?\d+(?:\.\d+)?(?:e[-+]?\d+)?)"
@@ -82,20 +83,19 @@ def unpacked(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder / "unpacked"
 
 
-def native(tmp_path: Path) -> tuple[Path, dict[str, str]]:
-    """examples/host.c compiled, and the environment in which a native host finds Python and the packages."""
-    compiler = shutil.which("cc") or shutil.which("gcc")
-    assert compiler, "examples/host.c needs a C compiler: install gcc"
-    said(compiler, "-O2", "-Wall", "-Wextra", "-Werror", "-o", tmp_path / "host", EXAMPLES / "host.c", "-ldl")
-    library = Path(sysconfig.get_config_var("LIBDIR"), sysconfig.get_config_var("INSTSONAME"))
-    assert library.is_file(), f"{library} is missing: a native host needs a CPython that has a shared library"
-    packages = sysconfig.get_path("purelib")
-    return tmp_path / "host", {"LD_PRELOAD": str(library), "PYTHONPATH": packages}
+@pytest.fixture(scope="module")
+def host(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """examples/host.c compiled."""
+    program = tmp_path_factory.mktemp("host") / "host"
+    compile_c("-O2", "-o", program, EXAMPLES / "host.c", "-ldl")
+    return program
 
 
-def test_a_host_in_c_gives_our_bits(tmp_path: Path, unpacked: Path) -> None:
+@pytest.mark.needs("libpython")
+def test_a_host_in_c_gives_our_bits(host: Path, unpacked: Path) -> None:
+    """In the environment in which a native host finds Python and the packages."""
     scenario = load_scenario("guan2014").changed(algorithm="jacobi")
-    host, environment = native(tmp_path)
+    environment = {"LD_PRELOAD": str(shared_libpython()), "PYTHONPATH": sysconfig.get_path("purelib")}
     text = said(host, unpacked, scenario.step, scenario.steps, *scenario.ships, **environment)
     ours = simulate(scenario, in_process=True)
     for line in text.splitlines():
@@ -106,8 +106,7 @@ def test_a_host_in_c_gives_our_bits(tmp_path: Path, unpacked: Path) -> None:
     assert len(text.splitlines()) == 2
 
 
-def test_a_host_in_c_that_lacks_python_says_so(tmp_path: Path, unpacked: Path) -> None:
-    host, _ = native(tmp_path)
+def test_a_host_in_c_that_lacks_python_says_so(host: Path, unpacked: Path) -> None:
     done = subprocess.run([host, unpacked, "0.05", "1", "own", "target"], capture_output=True, text=True, check=False)
     assert done.returncode == 1
     assert "undefined symbol: _Py_NoneStruct" in done.stderr

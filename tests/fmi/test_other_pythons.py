@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -12,6 +11,7 @@ import pytest
 
 from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE
+from tests.needs import find_python
 
 HOST = """
 import sys
@@ -69,16 +69,6 @@ NAMES = (
 )  # fmt: skip
 
 
-def interpreter(version: str) -> str | None:
-    """A CPython of that version that runs, from PATH or from pyenv's folder."""
-    home = Path(os.environ.get("PYENV_ROOT", Path.home() / ".pyenv"))
-    found = [shutil.which(f"python{version}"), *home.glob(f"versions/{version}*/bin/python{version}")]
-    for one in filter(None, map(str, filter(None, found))):
-        if subprocess.run([one, "-c", ""], capture_output=True, check=False).returncode == 0:
-            return one
-    return None
-
-
 def sailed(python: str, unpacked: Path, packages: str = "") -> str:
     """What the host prints with that interpreter; packages: a folder with them."""
     access = INTERFACE.make_access()
@@ -101,7 +91,11 @@ def test_it_sails_without_pybullet(real_unpacked: dict[tuple[str, int], Path]) -
 
 
 @pytest.mark.parametrize(
-    "version", [pytest.param("3.13", marks=pytest.mark.slow), pytest.param("3.12", marks=pytest.mark.soak)]
+    "version",
+    [
+        pytest.param("3.13", marks=[pytest.mark.slow, pytest.mark.needs("python3.13")]),
+        pytest.param("3.12", marks=[pytest.mark.soak, pytest.mark.needs("python3.12")]),
+    ],
 )
 def test_it_gives_the_same_on_later_pythons(
     version: str, real_unpacked: dict[tuple[str, int], Path], tmp_path: Path
@@ -109,9 +103,8 @@ def test_it_gives_the_same_on_later_pythons(
     """With the packages of its requirements and no other. Two versions of NumPy may differ in the last bit."""
     first, last = (tuple(map(int, one.split("."))) for one in INTERFACE.pythons)
     assert first <= tuple(map(int, version.split("."))) <= last
-    python = interpreter(version)
-    if python is None:
-        pytest.skip(f"no CPython {version} on this machine")
+    python = find_python(version)
+    assert python is not None
     needs = real_unpacked["ShipManoeuvring", 2] / "resources" / "requirements.txt"
     packages = ["--target", tmp_path, "--python-version", version, "--only-binary", ":all:", "-r", needs]
     subprocess.run([sys.executable, "-m", "pip", "install", "--quiet", *packages], check=True, capture_output=True)

@@ -14,6 +14,8 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Callable
+from ctypes import CDLL
+from importlib.metadata import files
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -154,12 +156,15 @@ def libcosim(case: Case, kind: str) -> Result:
     return {"rows": rows, "impacts": impacts, "seconds": seconds}
 
 
+def libtbb() -> str:
+    """The library that Ecos needs, from the package tbb. pip puts it where no loader looks: load it before ecospy."""
+    return next(str(file.locate()) for file in files("tbb") or () if file.name == "libtbb.so.12")
+
+
 def ecos(case: Case, kind: str) -> Result:
     """NTNU's Ecos, with its fixed-step algorithm."""
-    try:
-        from ecospy import EcosSimulation, EcosSimulationStructure
-    except OSError as error:
-        raise SystemExit(f"ecospy cannot be loaded: {error}; on Debian run `apt-get install libtbb12`") from None
+    CDLL(libtbb())
+    from ecospy import EcosSimulation, EcosSimulationStructure
 
     if kind == "ssp":
         simulation = EcosSimulation(case["step"], ssp_path=case["ssp"])

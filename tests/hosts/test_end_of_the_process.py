@@ -7,13 +7,14 @@ from __future__ import annotations
 
 import json
 import os
-import shutil
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
+
+from tests.compiler import compile_c
 
 from .encounter import MASTERS as SCRIPT
 from .encounter import Encounter
@@ -26,11 +27,8 @@ RUN = "import sys, runpy; sys.argv = sys.argv[1:]; runpy.run_path(sys.argv[0], r
 
 @pytest.fixture(scope="module")
 def guard(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    compiler = shutil.which("cc") or shutil.which("gcc")
-    assert compiler, "guard.c needs a C compiler: install gcc"
     library = tmp_path_factory.mktemp("guard") / "guard.so"
-    source = Path(__file__).with_name("guard.c")
-    subprocess.run([compiler, "-O1", "-shared", "-fPIC", "-Wall", "-Werror", "-o", library, source], check=True)
+    compile_c("-O1", "-shared", "-fPIC", "-o", library, Path(__file__).with_name("guard.c"))
     return library
 
 

@@ -16,7 +16,7 @@ from pathlib import Path
 import pytest
 
 from .encounter import Encounter
-from .masters import MASTERS
+from .masters import MASTERS, libtbb
 
 REFUSED = "unknown ship 'guan2014_oown': did you mean guan2014_own?"
 
@@ -67,7 +67,8 @@ CosimExecution.from_osp_config_file(sys.argv[1]).step()
 
 
 ECOS = """
-import sys
+import ctypes, sys
+ctypes.CDLL(sys.argv[3])
 from ecospy import EcosSimulation
 simulation = EcosSimulation(0.05, ssp_path=sys.argv[1])
 if sys.argv[2] == "parameter":
@@ -96,8 +97,8 @@ def test_ecos_hides_the_line_unless_it_is_wanted_on_stderr(
     """Ecos calls an instance by the path of its FMU."""
     package = encounters["guan2014"].folder / "package.ssp"
     with ThreadPoolExecutor(2) as pool:
-        hidden = pool.submit(said_by, ECOS, package, fault)
-        status, said = said_by(ECOS, package, fault, SHIPCOLLISION_LOG="stderr")
+        hidden = pool.submit(said_by, ECOS, package, fault, libtbb())
+        status, said = said_by(ECOS, package, fault, libtbb(), SHIPCOLLISION_LOG="stderr")
     assert status == 0
     assert line in said
     start = encounters["guan2014"].scenario.ships["own"].start.position[0]

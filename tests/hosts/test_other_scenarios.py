@@ -16,7 +16,7 @@ from shipcollision_fmu.scenario.scenario import Scenario, load_scenario, parse_s
 from shipcollision_fmu.ship.loading.library import find_models
 
 from .encounter import Encounter, Rows, run_master
-from .masters import MASTERS
+from .masters import MASTERS, libtbb
 from .test_encounters import JITTER
 
 ORDERS = """
@@ -116,7 +116,8 @@ def test_an_edited_parameter_set_reaches_a_host_that_reads_it(encounters: dict[s
         for name, data in files.items():
             package.writestr(name, data)
     code = """
-import sys
+import ctypes, sys
+ctypes.CDLL(sys.argv[2])
 from ecospy import EcosSimulation
 for name in (None, "scenario"):
     simulation = EcosSimulation(0.05, ssp_path=sys.argv[1])
@@ -126,6 +127,7 @@ for name in (None, "scenario"):
     simulation.free()
 """
     done = subprocess.run(
-        [sys.executable, "-c", code, tmp_path / "edited.ssp"], capture_output=True, text=True, check=True, timeout=600
-    )
+        [sys.executable, "-c", code, tmp_path / "edited.ssp", libtbb()],
+        capture_output=True, text=True, check=True, timeout=600,
+    )  # fmt: skip
     assert done.stdout.split() == [str(friction), "0.5"]

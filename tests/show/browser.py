@@ -111,15 +111,13 @@ class Page:
 
 @contextmanager
 def chromium(profile: Path) -> Iterator[Chrome]:
-    """A browser with an empty profile in a folder."""
-    programs = {name: shutil.which(name) for name in ("chromium", "chromedriver")}
-    assert all(programs.values()), f"{programs}: run `apt-get install chromium chromium-driver`"
+    """A browser with an empty profile in a folder; tests/needs.py has found the two programs."""
     options = Options()
-    options.binary_location = str(programs["chromium"])
+    options.binary_location = str(shutil.which("chromium"))
     for flag in (*FLAGS, f"--user-data-dir={profile}"):
         options.add_argument(flag)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-    driver = Chrome(options=options, service=Service(programs["chromedriver"]))
+    driver = Chrome(options=options, service=Service(shutil.which("chromedriver")))
     try:
         driver.set_script_timeout(PATIENCE)
         yield driver

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import shutil
 import struct
 import subprocess
 import time
@@ -43,11 +42,9 @@ class Screen:
 @contextmanager
 def screen(folder: Path) -> Iterator[Screen]:
     """Xvfb on a display of its own choice, ended afterwards; its files are in `folder`."""
-    program = shutil.which("Xvfb")
-    assert program is not None, "needs Xvfb: apt install xvfb"
     reading, writing = os.pipe()
     width, height = SIZE
-    command = [program, "-displayfd", str(writing), "-screen", "0", f"{width}x{height}x24", "-fbdir", str(folder)]
+    command = ["Xvfb", "-displayfd", str(writing), "-screen", "0", f"{width}x{height}x24", "-fbdir", str(folder)]
     server = subprocess.Popen(
         [*command, "-nolisten", "tcp"], pass_fds=[writing], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
     )

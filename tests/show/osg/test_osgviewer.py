@@ -9,7 +9,6 @@ a picture may be taken while it is drawn. What should be seen comes from our own
 from __future__ import annotations
 
 import shlex
-import shutil
 import subprocess
 import time
 from collections.abc import Callable, Iterator
@@ -30,7 +29,7 @@ from shipcollision_fmu.show.scene.scene import Scene, Ship, load_scene
 
 from .screen import SIZE, Screen, screen
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.needs("osgviewer")]
 
 ANGLE = float(np.degrees(2.0 * np.arctan(0.26)))
 """Vertical angle that osgviewer sees: OSG takes a screen 0.26 m high, 0.5 m away."""
@@ -47,7 +46,6 @@ def viewer(scene: Scene, folder: Path) -> Iterator[tuple[Screen, list[str]]]:
     width, height = SIZE
     line = format_viewer_command(folder).replace("--window 80 80 1280 720", f"--window 0 0 {width} {height}")
     setting, *command = shlex.split(line)
-    assert shutil.which(command[0]), "needs osgviewer: apt install openscenegraph"
     said: list[str] = []
     (folder / "screen").mkdir()
     with screen(folder / "screen") as shown:
