@@ -6,6 +6,7 @@ Exit status: 0 done, 1 the run or the check failed, 2 bad usage or input, 130 in
     run_table.py      what `run` prints                    trial_table.py   what `trial` prints
     table.py          the form of all tables               console.py       stdout, and progress on stderr
     mistakes.py       one line for every mistake           options.py       options of several commands
+    help.py           help on a narrow terminal
 
 Imports from every room, but inside the commands: help is fast, and a missing package becomes one clear line.
 """

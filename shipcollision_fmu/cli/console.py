@@ -5,13 +5,14 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from textwrap import wrap
 from time import monotonic
 
 import click
-from rich.console import Console
+from rich.console import Console, RenderableType
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
-__all__ = ["console", "progress"]
+__all__ = ["console", "print_table", "progress", "say"]
 
 PLAIN_WIDTH = 110
 """Characters in a line when stdout is not a terminal: wide enough for every table here."""
@@ -22,6 +23,22 @@ PLAIN_PAUSE = 2.0
 def console() -> Console:
     """The console for tables on stdout."""
     return Console() if sys.stdout.isatty() else Console(width=PLAIN_WIDTH)
+
+
+def print_table(table: RenderableType) -> None:
+    """A table on stdout; a line that is longer than the terminal is not cut off."""
+    console().print(table, crop=False)
+
+
+def say(text: str, err: bool = False) -> None:
+    """A line on stdout or stderr; on a terminal it is broken between words, so that names and numbers stay whole."""
+    stream = sys.stderr if err else sys.stdout
+    if stream.isatty():
+        room, indent = Console(stderr=err).width, text[: len(text) - len(text.lstrip())]
+        text = "\n".join(
+            wrap(text, room, subsequent_indent=f"{indent}  ", break_long_words=False, break_on_hyphens=False)
+        )
+    click.echo(text, err=err)
 
 
 @contextmanager

@@ -7,20 +7,23 @@ from typing import Any
 
 import click
 
-from .options import NUMBER, PATH, TOML_PATH, WHOLE_NUMBER
+from .console import say
+from .options import NUMBER, PATH, SHIP, TOML_PATH, WHOLE_NUMBER, Choice
 
 __all__ = ["encounter", "import_"]
 
 
 @click.command()
 @click.argument("kind", metavar="TYPE")
-@click.option("--own", default="kvlcc2", show_default=True, metavar="SHIP", help="The ship that strikes.")
-@click.option("--target", default="kvlcc2", show_default=True, metavar="SHIP", help="The ship that is struck.")
+@click.option("--own", default="kvlcc2", show_default=True, type=SHIP, metavar="SHIP", help="The ship that strikes.")
+@click.option(
+    "--target", default="kvlcc2", show_default=True, type=SHIP, metavar="SHIP", help="The ship that is struck."
+)
 @click.option("--angle-deg", type=NUMBER, metavar="DEG", help="Between the headings: 0 overtaking, 180 head-on.")
 @click.option("--at", type=NUMBER, metavar="S", help="Place on the target: -0.5 stern, 0 amidships, 0.5 stem.")
 @click.option(
     "--side",
-    type=click.Choice(["starboard", "port"]),
+    type=Choice(["starboard", "port"]),
     default="starboard",
     show_default=True,
     help="Side of the target that is struck.",
@@ -40,30 +43,34 @@ __all__ = ["encounter", "import_"]
 )
 @click.option("--case", type=WHOLE_NUMBER, metavar="N", help="Of imazu: 1 to 22.")
 @click.option("--hydrodynamics/--coasting", default=None, help="Sail the ships, or let them coast.  [default: by TYPE]")
-@click.option("--degrees-of-freedom", type=click.Choice(["3", "4", "6"]), help="Of all ships.  [default: 3]")
+@click.option("--degrees-of-freedom", type=Choice(["3", "4", "6"]), help="Of all ships.  [default: 3]")
 @click.option("--step", type=NUMBER, default=0.05, show_default=True, metavar="S", help="Communication step.")
 @click.option("--name", help="Of the scenario.")
 @click.option("--out", type=TOML_PATH, metavar="FILE.toml", help="Store it; else it is printed.")
 def encounter(kind: str, out: Path | None, case: int | None, degrees_of_freedom: str | None, **options: Any) -> None:
-    """Make a scenario in which two ships collide as requested.
+    """Make a scenario in which ships collide.
 
-    TYPE is one of:
+    TYPE says what the ship `own` does:
 
     \b
-    head-on           own meets the target stem to stem
-    crossing          own crosses the target's course and strikes its side
-    overtaking        own overtakes the target and strikes its stern
-    glancing          own strikes the target's side at a small angle
-    t-bone            own strikes the side of the target, which lies stopped
-    drifting-target   own strikes the target, which drifts across
-    late-evasive      own puts its rudder over too late
-    loss-of-steering  own's rudder jams before the impact
-    imazu             one of the 22 cases of Imazu's problem, by --case
+    head-on           meets the target stem to stem
+    crossing          crosses and strikes the target's side
+    overtaking        overtakes and strikes the stern
+    glancing          strikes the side at a small angle
+    t-bone            strikes the side of a stopped target
+    drifting-target   strikes a target that drifts across
+    late-evasive      puts its rudder over too late
+    loss-of-steering  jams its rudder before the impact
+    imazu             one of Imazu's 22 cases, by --case
     """
     from ..encounters.encounter import encounter as make_encounter
     from ..encounters.imazu import imazu_from_options
+    from ..encounters.request import KINDS
     from ..files import check_writable, write_file
+    from ..ship.loading.messages import suggest_or_list
 
+    if kind not in (known := [*KINDS, "imazu"]):
+        raise click.UsageError(f"unknown encounter {kind!r}:{suggest_or_list(kind, known)}")
     directory = Path(".") if out is None else out.parent
     options["degrees_of_freedom"] = None if degrees_of_freedom is None else int(degrees_of_freedom)
     if kind == "imazu":
@@ -77,13 +84,15 @@ def encounter(kind: str, out: Path | None, case: int | None, degrees_of_freedom:
         return
     check_writable(directory)
     write_file(out, text)
-    click.echo(f"stored in {out}: run it with `shipcollision run {out}`")
+    say(f"stored in {out}: run it with `shipcollision run {out}`")
 
 
 @click.command("import")
 @click.argument("file", type=PATH)
-@click.option("--ship", metavar="SHIP", help="Plays every ship.  [default: ships made from the file's dimensions]")
-@click.option("--own", metavar="SHIP", help="Plays own ship.")
+@click.option(
+    "--ship", type=SHIP, metavar="SHIP", help="Plays every ship.  [default: ships made from the file's dimensions]"
+)
+@click.option("--own", type=SHIP, metavar="SHIP", help="Plays own ship.")
 @click.option(
     "--duration", type=NUMBER, metavar="S", help="[default: the time of own ship's route, or of the trajectories]"
 )
@@ -99,10 +108,11 @@ def import_(
     file: Path, ship: str | None, own: str | None, duration: float | None, step: float, hydrodynamics: bool, out: Path,
     overwrite: bool,
 ) -> None:  # fmt: skip
-    """Make a scenario of a traffic situation in JSON, or of a CommonOcean scenario in XML.
+    """Make a scenario of a traffic situation.
 
-    JSON comes from DNV's trafficgen (all versions) or maritime-schema. A ship without --ship gets a ship file of its
-    dimensions beside the scenario. The own ship of CommonOcean has none: name it with --own.
+    FILE is JSON, or a CommonOcean scenario in XML. JSON comes from DNV's trafficgen (all versions) or maritime-schema.
+    A ship without --ship gets a ship file of its dimensions beside the scenario. The own ship of CommonOcean has none:
+    name it with --own.
     """
     from ..encounters.traffic.situation import traffic_scenario
     from ..files import check_writable, refuse_other_texts, write_files
@@ -115,6 +125,6 @@ def import_(
         refuse_other_texts(out.parent, traffic.ship_files)
     write_files(out.parent, {**traffic.ship_files, out.name: traffic.text})
     for name in (*traffic.ship_files, out.name):
-        click.echo(out.parent / name)
+        say(str(out.parent / name))
     for note in traffic.notes:
-        click.echo(f"note: {note}", err=True)
+        say(f"note: {note}", err=True)

@@ -6,8 +6,9 @@ from pathlib import Path
 
 import click
 
+from .console import say
 from .mistakes import fail
-from .options import FMI, PATH
+from .options import FMI, PATH, SCENARIO
 
 __all__ = ["build", "package", "validate"]
 
@@ -21,11 +22,12 @@ __all__ = ["build", "package", "validate"]
     help="Ships of ShipCollision; one is enough where it meets obstacles.",
 )  # fmt: skip
 def build(out: Path, fmi: str, scalar: bool, ships: str) -> None:
-    """Build ShipCollision.fmu and ShipManoeuvring.fmu.
+    """Build the FMUs.
 
-    With --fmi 3 they are called ShipCollision.fmi3.fmu and ShipManoeuvring.fmi3.fmu, so that both versions may lie in
-    one folder. FMI 3.0 needs `pip install 'shipcollision-fmu[fmi3]'`. For hosts that do not pass arrays, such as
-    OMSimulator and Ecos, --scalar makes ShipCollision.fmi3-scalar.fmu and ShipManoeuvring.fmi3-scalar.fmu.
+    They are ShipCollision.fmu and ShipManoeuvring.fmu. With --fmi 3 they are called ShipCollision.fmi3.fmu and
+    ShipManoeuvring.fmi3.fmu, so that both versions may lie in one folder. FMI 3.0 needs the extra `fmi3`. For hosts
+    that do not pass arrays, such as OMSimulator and Ecos, --scalar makes ShipCollision.fmi3-scalar.fmu and
+    ShipManoeuvring.fmi3-scalar.fmu.
     """
     from ..cosim.fmu_files import PYBULLET, has_pybullet
     from ..fmi.builder.package import build_fmus
@@ -34,13 +36,13 @@ def build(out: Path, fmi: str, scalar: bool, ships: str) -> None:
         raise click.UsageError("--scalar is for FMI 3.0: FMI 2.0 has no arrays; add --fmi 3 or leave it out")
     names = tuple(name.strip() for name in ships.split(","))
     for path in build_fmus(out, ships=names, fmi=int(fmi), scalar=scalar).values():
-        click.echo(path)
+        say(str(path))
     if not has_pybullet():
-        click.echo(f"note: ShipCollision runs with pybullet, which this Python has not; {PYBULLET}", err=True)
+        say(f"note: ShipCollision runs with pybullet, which this Python has not; {PYBULLET}", err=True)
 
 
 @click.command()
-@click.argument("scenario")
+@click.argument("scenario", type=SCENARIO)
 @click.option("--ssp", is_flag=True, help="One .ssp file: System Structure and Parameterization 1.0.")
 @click.option("--osp", is_flag=True, help="A folder for the Open Simulation Platform.")
 @click.option("--out", type=PATH, metavar="FILE|FOLDER", help="[default: NAME.ssp or NAME-osp]")
@@ -66,7 +68,7 @@ def package(
     inputs: bool,
     replace: tuple[str, ...],
 ) -> None:
-    """Make a system of FMUs of SCENARIO for other hosts.
+    """Make a system of FMUs for other hosts.
 
     SCENARIO is a name that `shipcollision scenarios` lists, or the path of a TOML file. The package holds an FMU for
     each ship and one for the collision, with the scenario's values as their start values. Settings that a
@@ -92,8 +94,8 @@ def package(
         place = out if out is not None else Path(f"{loaded.name}-osp")
         left_out = write_osp(loaded, place, initial_orders=initial_orders, fmi=int(fmi), foreign=foreign)
     for line in left_out:
-        click.echo(f"note: {line}", err=True)
-    click.echo(place)
+        say(f"note: {line}", err=True)
+    say(str(place))
 
 
 def _split_replacement(text: str) -> tuple[str, str]:
@@ -109,17 +111,18 @@ def _split_replacement(text: str) -> tuple[str, str]:
 @click.option("--no-calls", is_flag=True, help="Look at the file only; do not run the FMU's code.")
 @click.option("--ignore", multiple=True, metavar="CHECK", help="Leave out a check; may be given again.")
 def validate(fmu: Path, no_calls: bool, ignore: tuple[str, ...]) -> None:
-    """Check that FMU complies with FMI; exit status 1 when it does not.
+    """Check that an FMU complies with FMI.
 
-    FMU is any FMI 2.0 or 3.0 FMU. FMPy's validator is followed by further checks of the file, and by calls that an
-    FMU must refuse; the calls run its code in another process. Notes are good practice and do not count.
+    FMU is any FMI 2.0 or 3.0 FMU. Exit status 1 when it does not comply. FMPy's validator is followed by further
+    checks of the file, and by calls that an FMU must refuse; the calls run its code in another process. Notes are
+    good practice and do not count.
     """
     from ..compliance.report import validate as find_breaches
 
     found = find_breaches(fmu, calls=not no_calls, ignore=ignore)
     for finding in found:
-        click.echo(f"{fmu}: {'' if finding.binding else 'note: '}{finding}")
+        say(f"{fmu}: {'' if finding.binding else 'note: '}{finding}")
     count = sum(finding.binding for finding in found)
     if count:
         fail(f"{fmu} has {count} problem{'s' if count > 1 else ''}", 1)
-    click.echo(f"{fmu}: no problem found")
+    say(f"{fmu}: no problem found")

@@ -6,21 +6,23 @@ import click
 from rich.markup import escape
 from rich.table import Table
 
-from .console import console
+from .console import print_table, say
+from .options import SHIP
 
 __all__ = ["scenarios", "ships"]
 
 
 @click.command()
-@click.argument("name", required=False)
+@click.argument("name", required=False, type=SHIP)
 def ships(name: str | None) -> None:
-    """List the shipped ships, or show the figures of the ship NAME.
+    """List the ships, or show one.
 
-    NAME is a shipped ship or the path of a TOML file. Its figures are GM, roll period, service speed, power and
-    stopping distance, for which a crash stop is sailed. The estimates that stand for missing values follow.
+    NAME is a shipped ship or the path of a TOML file; without it the shipped ships are listed. Its figures are GM,
+    roll period, service speed, power and stopping distance, for which a crash stop is sailed. The estimates that
+    stand for missing values follow.
     """
     if name is None:
-        console().print(_list_ships())
+        print_table(_list_ships())
         return
     from ..manoeuvring.trials.ship_summary import summarise_ship
     from ..ship.loading.library import load_ship
@@ -28,20 +30,22 @@ def ships(name: str | None) -> None:
 
     ship = load_ship(name)
     summary = summarise_ship(name, ship)
-    console().print(make_ship_table(summary))
+    print_table(make_ship_table(summary))
     for note in (*summary.notes, *ship.suspicious):
-        click.echo(f"note: {note}")
+        say(f"note: {note}")
     if ship.estimated:
-        click.echo("Estimated:")
+        say("Estimated:")
     for line in ship.estimated:
-        click.echo(f"  {line}")
+        say(f"  {line}")
 
 
 def _list_ships() -> Table:
     from ..ship.loading.library import list_ship_names, load_ship
     from .table import make_table
 
-    table = make_table("name", "kind", ">L_pp [m]", ">B [m]", ">T [m]", ">mass [t]", "under way")
+    table = make_table(
+        "name", "kind", ">L_pp [m]", ">B [m]", ">T [m]", ">mass [t]", "under way", optional=("kind", "T", "B")
+    )
     for name in list_ship_names():
         ship = load_ship(name)
         under_way = "coasts" if ship.manoeuvring is None else "manoeuvres"
@@ -60,6 +64,6 @@ def scenarios() -> None:
     for name in list_scenario_names():
         loaded = load_scenario(name)
         header = loaded.scenario
-        who = ", ".join(f"{role}: {ship.ship}" for role, ship in loaded.ships.items())
+        who = "\n".join(f"{role}: {ship.ship}" for role, ship in loaded.ships.items())
         table.add_row(name, who, f"{header.duration:g}", f"{header.step:.6g}", escape(header.description))
-    console().print(table)
+    print_table(table)

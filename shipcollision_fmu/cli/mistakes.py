@@ -12,6 +12,8 @@ from typing import Any, NoReturn
 import click
 
 from ..errors import ShipCollisionError
+from .console import say
+from .help import HelpContext
 
 __all__ = ["Commands", "fail"]
 
@@ -20,7 +22,7 @@ _OURS = __name__.partition(".")[0]
 
 def fail(message: str, status: int) -> NoReturn:
     """End the process with a line on stderr and an exit status."""
-    click.echo(f"error: {' '.join(message.split())}", err=True)
+    say(f"error: {' '.join(message.split())}", err=True)
     sys.exit(status)
 
 
@@ -30,8 +32,22 @@ def _end(number: int, frame: FrameType | None) -> NoReturn:
     fail("ended by a signal; nothing is written", 128 + number)
 
 
+def _describe(error: click.UsageError) -> str:
+    """click's message of a wrong option, in the words of all others, or as it is without its full stop."""
+    if isinstance(error, click.NoSuchOption):
+        from ..ship.loading.messages import suggest
+
+        near = suggest(error.option_name, error.possibilities or ())
+        return f"there is no option {error.option_name}{near and ':'}{near}"
+    return error.format_message().removesuffix(".")
+
+
 class Commands(click.Group):
     """A group of commands that ends with one line on every mistake, and suggests names for unknown commands."""
+
+    context_class = HelpContext
+    _called = "shipcollision"
+    """The command that was called, for errors to which click gives no context."""
 
     def main(self, *args: Any, **extra: Any) -> Any:
         """click's main, with all errors printed in one form. Exit status 130 after Ctrl-C, 143 after SIGTERM."""
@@ -40,8 +56,8 @@ class Commands(click.Group):
         try:
             status: Any = super().main(*args, **{**extra, "standalone_mode": False})
         except click.UsageError as error:
-            path = error.ctx.command_path if error.ctx is not None else "shipcollision"
-            fail(f"{error.format_message()} (see `{path} --help`)", error.exit_code)
+            path = error.ctx.command_path if error.ctx is not None else self._called
+            fail(f"{_describe(error)} (see `{path} --help`)", error.exit_code)
         except ShipCollisionError as error:
             fail(str(error), error.exit_status)
         except ModuleNotFoundError as error:
@@ -55,13 +71,19 @@ class Commands(click.Group):
             sys.exit(1)
         sys.exit(status if isinstance(status, int) else 0)
 
+    def add_command(self, cmd: click.Command, name: str | None = None) -> None:
+        """click's, for commands whose help is like ours."""
+        cmd.context_class = HelpContext
+        super().add_command(cmd, name)
+
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
         """click's look-up, with a suggestion for a misspelt name."""
         names = self.list_commands(ctx)
         if args[0] not in names and not args[0].startswith("-"):
-            from ..ship.loading.messages import suggest
+            from ..ship.loading.messages import suggest_or_list
 
-            ctx.fail(f"unknown command {args[0]!r}:{suggest(args[0], names)} known: {', '.join(names)}")
+            ctx.fail(f"unknown command {args[0]!r}:{suggest_or_list(args[0], names)}")
+        self._called = f"{ctx.command_path} {args[0]}"
         return super().resolve_command(ctx, args)

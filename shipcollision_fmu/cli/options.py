@@ -6,8 +6,9 @@ from pathlib import Path
 from typing import Any
 
 import click
+from click.shell_completion import CompletionItem
 
-__all__ = ["FMI", "NUMBER", "PATH", "TOML_PATH", "WHOLE_NUMBER"]
+__all__ = ["FMI", "NUMBER", "PATH", "SCENARIO", "SHIP", "TOML_PATH", "WHOLE_NUMBER", "Choice"]
 
 
 class _Path(click.Path):
@@ -49,7 +50,38 @@ class _WholeNumber(click.types.IntParamType):
             self.fail(f"{value!r} is not a whole number: give one such as 3", param, ctx)
 
 
+class Choice(click.Choice[str]):
+    """One of some words, with a suggestion in the refusal. `metavar` stands for it in the usage of an argument."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        if value not in self.choices:
+            from ..ship.loading.messages import suggest
+
+            near = suggest(str(value), self.choices)
+            self.fail(
+                f"{value!r}:{near}" if near else f"{value!r} must be one of {', '.join(self.choices)}", param, ctx
+            )
+        return value
+
+
+class _Named(click.types.StringParamType):
+    """The name of something that is shipped, or the path of a TOML file; completed by the shell."""
+
+    def __init__(self, of: str) -> None:
+        self._of = of
+
+    def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+        """The names that begin so, after which the shell looks for files."""
+        if self._of == "ship":
+            from ..ship.loading.library import list_ship_names as list_names
+        else:
+            from ..scenario.scenario import list_scenario_names as list_names
+        found = [CompletionItem(name) for name in list_names() if name.startswith(incomplete)]
+        return [CompletionItem(incomplete, type="file"), *found]  # bash forgets what comes before `file`
+
+
 PATH = _Path(path_type=Path)
 TOML_PATH = _TomlPath(path_type=Path)
 NUMBER, WHOLE_NUMBER = _Number(), _WholeNumber()
-FMI = click.Choice(["2", "3"])
+FMI = Choice(["2", "3"])
+SHIP, SCENARIO = _Named("ship"), _Named("scenario")

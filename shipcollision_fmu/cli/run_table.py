@@ -70,8 +70,9 @@ def make_comparison_table(summary: dict[str, Any]) -> Table:
     """Table of published and computed numbers; a star marks a printed number that had to be corrected."""
     reference = summary["reference"]
     rows = make_table(
-        "ship", "", "unit", ">printed", ">paper", ">computed", ">difference", ">tolerance", "within",
+        "ship", "", "unit", ">printed", ">paper", ">computed", ">difference", ">allowed", "within",
         title=f"{summary['scenario']}: {reference['source']}, at {reference['time']:g} s",
+        optional=("printed", "allowed", "difference"),
     )  # fmt: skip
     last = None
     for row in summary["paper"]:
@@ -90,7 +91,7 @@ def make_comparison_table(summary: dict[str, Any]) -> Table:
 def _make_collision_table(collisions: list[dict[str, Any]]) -> Table:
     rows = make_table(
         "ships", ">start [s]", ">end [s]", ">closing [m/s]", ">angle [deg]", ">impulse [MN s]", ">energy [MJ]",
-        ">delta v [m/s]", title="collisions",
+        ">delta v [m/s]", title="collisions", optional=("end", "delta v"),
     )  # fmt: skip
     for c in collisions:
         delta_v = ", ".join(f"{hypot(*c['delta_v'][name]):.3f}" for name in (c["ship_a"], c["ship_b"]))
@@ -103,18 +104,27 @@ def _make_collision_table(collisions: list[dict[str, Any]]) -> Table:
 
 
 def _make_ship_table(run: Run) -> Table:
-    """Table of speed and heading before and after, and of pending impulses."""
-    rows = make_table("ship", ">speed [m/s]", ">heading [deg]", ">impulse pending [MN s]", title="ships")
+    """Table of speed, surge (negative astern) and heading before and after, and of pending impulses."""
+    rows = make_table(
+        "ship", ">speed [m/s]", ">surge [m/s]", ">heading [deg]", ">impulse pending [MN s]", title="ships",
+        optional=("speed",),
+    )  # fmt: skip
     first, last = run.states[0], run.states[-1]
     for name, ledger in run.summary["ledger"].items():
         columns = named(name, VELOCITY)
         speeds = [hypot(*(float(row[column]) for column in columns)) for row in (first, last)]
-        headings = [degrees(float(row[f"{name}.attitude.yaw"])) for row in (first, last)]
+        surges = [float(row[columns[0]]) for row in (first, last)]
+        headings = [_format_heading(float(row[f"{name}.attitude.yaw"])) for row in (first, last)]
         rows.add_row(
-            name, f"{speeds[0]:.3f} > {speeds[1]:.3f}", f"{headings[0]:.2f} > {headings[1]:.2f}",
+            name, *(f"{a:.3f} > {b:.3f}" for a, b in (speeds, surges)), " > ".join(headings),
             f"{hypot(*ledger['pending'][:3]) / 1e6:.2g}",
         )  # fmt: skip
     return rows
+
+
+def _format_heading(yaw: float) -> str:
+    """A yaw angle [rad], which counts whole turns, as a heading from 0.00 to 359.99 deg."""
+    return f"{round(degrees(yaw), 2) % 360.0:.2f}"
 
 
 def _format_or_dash(value: float | None) -> str:

@@ -7,17 +7,17 @@ from pathlib import Path
 import click
 
 from ..errors import ShipCollisionError
-from .console import console, progress
+from .console import print_table, progress, say
 from .mistakes import fail
-from .options import FMI, NUMBER, PATH
+from .options import FMI, NUMBER, PATH, SCENARIO, Choice
 
 __all__ = ["run", "show"]
 
 
 @click.command()
-@click.argument("scenario", default="guan2014")
+@click.argument("scenario", default="guan2014", type=SCENARIO)
 @click.option("--out", type=PATH, help="Folder of the results.  [default: runs/NAME]")
-@click.option("--algorithm", type=click.Choice(["gauss-seidel", "jacobi"]), help="Instead of the scenario's.")
+@click.option("--algorithm", type=Choice(["gauss-seidel", "jacobi"]), help="Instead of the scenario's.")
 @click.option("--step", type=NUMBER, metavar="S", help="Communication step in seconds, instead of the scenario's.")
 @click.option("--in-process", is_flag=True, help="Drive the models without FMI; gives the same bits.")
 @click.option("--fmi", type=FMI, default="2", show_default=True, help="Version of the FMUs; gives the same bits.")
@@ -33,7 +33,7 @@ def run(
     overwrite: bool,
     page: bool,
 ) -> None:
-    """Co-simulate SCENARIO and store the results.
+    """Co-simulate a scenario, store the results.
 
     SCENARIO is a name that `shipcollision scenarios` lists, or the path of a TOML file. Without one it is guan2014, the
     published collision. The FMUs are built first when they are missing or older than the sources.
@@ -59,12 +59,11 @@ def run(
             overwrite=overwrite, progress=report,
         )  # fmt: skip
     _remove_pictures(folder)
-    stdout = console()
     for table in make_run_tables(finished):
-        stdout.print(table)
+        print_table(table)
     for line in summarise_run(finished):
-        click.echo(line)
-    click.echo(f"stored in {folder}")
+        say(line)
+    say(f"stored in {folder}")
     if page:
         _write_page(folder)
 
@@ -81,10 +80,10 @@ def run(
 def show(
     folder: Path, in_browser: bool, osg: bool, glb: bool, plots: bool, gif: bool, mp4: bool, still: float | None
 ) -> None:
-    """Show the finished run in the folder DIR.
+    """Show a finished run.
 
-    Without an option the page, replay.html, is written again, and the pictures in the folder are listed. With options
-    the pictures that they name are written into the folder.
+    DIR is its folder. Without an option the page, replay.html, is written again, and the pictures in the folder are
+    listed. With options the pictures that they name are written into the folder.
     """
     import webbrowser
 
@@ -97,14 +96,14 @@ def show(
         with progress(kind) as report:
             lines = outputs.write(kind, scene, folder, still, report)
         for line in lines:
-            click.echo(line)
+            say(line)
     if in_browser:
         page = folder / outputs.PAGE if not kinds else outputs.write_page(scene, folder)
         if not webbrowser.open(page.resolve().as_uri()):
             fail(f"found no browser to open {page}: open it yourself", 1)
     elif not kinds:
         for line in outputs.describe(scene, folder):
-            click.echo(line)
+            say(line)
 
 
 def _remove_pictures(folder: Path) -> None:
@@ -119,6 +118,6 @@ def _write_page(folder: Path) -> None:
     from ..show.page import write_page
 
     try:
-        click.echo(f"open {write_page(folder)} in a browser to see it")
+        say(f"open {write_page(folder)} in a browser to see it")
     except ShipCollisionError as error:
-        click.echo(f"no page: {error}", err=True)
+        say(f"no page: {error}", err=True)

@@ -6,15 +6,15 @@ from pathlib import Path
 
 import click
 
-from .console import console
-from .options import NUMBER, PATH
+from .console import print_table, say
+from .options import NUMBER, PATH, SHIP, Choice
 
 __all__ = ["trial"]
 
 
 @click.command()
-@click.argument("ship")
-@click.argument("manoeuvre", type=click.Choice(["turning-circle", "zigzag", "crash-stop"]))
+@click.argument("ship", type=SHIP)
+@click.argument("manoeuvre", metavar="MANOEUVRE", type=Choice(["turning-circle", "zigzag", "crash-stop"]))
 @click.option("--rudder-deg", type=NUMBER, metavar="DEG", help="Rudder angle.  [default: 35, in a zigzag 10]")
 @click.option("--heading-deg", type=NUMBER, metavar="DEG", help="Of a zigzag.  [default: 10]")
 @click.option("--starboard/--port", default=True, help="Side of the first rudder.  [default: --starboard]")
@@ -22,9 +22,7 @@ __all__ = ["trial"]
 @click.option(
     "--rev-per-s", type=NUMBER, metavar="REV/S", help="Propeller on the approach.  [default: those that keep the speed]"
 )
-@click.option(
-    "--degrees-of-freedom", type=click.Choice(["3", "4", "6"]), default="3", show_default=True, help="Of the ship."
-)
+@click.option("--degrees-of-freedom", type=Choice(["3", "4", "6"]), default="3", show_default=True, help="Of the ship.")
 @click.option("--out", type=PATH, metavar="FILE.csv", help="Store the track.")
 def trial(
     ship: str,
@@ -37,10 +35,11 @@ def trial(
     degrees_of_freedom: str,
     out: Path | None,
 ) -> None:
-    """Sail a standard trial with SHIP and print its figures beside IMO's limits.
+    """Sail a standard trial of a ship.
 
-    SHIP is a name that `shipcollision ships` lists, or the path of a TOML file. Limits: IMO resolution MSC.137(76), for
-    ships of 100 m and more. Distances are of midship, in lengths L.
+    Its figures are printed beside IMO's limits. SHIP is a name that `shipcollision ships` lists, or the path of a
+    TOML file. MANOEUVRE is turning-circle, zigzag or crash-stop. Limits: IMO resolution MSC.137(76), for ships of 100
+    m and more. Distances are of midship, in lengths L.
     """
     from ..files import check_writable, write_file
     from ..manoeuvring.trials.steady_course import find_steady_course
@@ -63,8 +62,8 @@ def trial(
         trial_run = sail_crash_stop(start)
     if out is not None:
         write_file(out, format_track_csv(trial_run))
-    console().print(make_trial_table(start, trial_run))
+    print_table(make_trial_table(start, trial_run))
     if trial_run.doubt:
-        click.echo(trial_run.doubt)
+        say(trial_run.doubt)
     if out is not None:
-        click.echo(f"stored in {out}")
+        say(f"stored in {out}")

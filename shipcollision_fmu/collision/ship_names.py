@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from ..errors import InputError
 
-__all__ = ["NAME_RULE", "RESERVED", "check_ship_names", "is_identifier", "is_ship_name"]
+__all__ = ["RESERVED", "check_ship_names", "describe_name_fault", "is_identifier", "is_ship_name"]
 
 RESERVED = frozenset({
     "clearance", "clearance_range", "contact", "diagnosis", "energy", "feedback", "fender", "friction", "impact",
@@ -15,11 +15,12 @@ RESERVED = frozenset({
 })  # fmt: skip
 """Names that no ship may have: the collision FMU's own variables begin so, and states.csv has a column `time`."""
 
-NAME_RULE = (
-    "is no name for a ship, its FMI variables begin with it: take letters, digits and '_', and none of "
-    f"{', '.join(sorted(RESERVED))}"
-)
-"""What a message says of a name that is refused."""
+
+def describe_name_fault(name: object) -> str:
+    """What a message says of a name that is_ship_name refuses."""
+    if name in RESERVED:
+        return "is no name for a ship, since variables of ShipCollision have it: take another"
+    return "is no name for a ship, whose FMI variables begin with it: take letters, digits and '_', no digit first"
 
 
 def is_identifier(name: object) -> bool:
@@ -41,7 +42,7 @@ def check_ship_names(names: Sequence[str]) -> tuple[str, ...]:
         raise InputError(f"ships = {names!r} must be a tuple of one or more names, such as ('own', 'target')")
     for i, name in enumerate(names):
         if not is_ship_name(name):
-            raise InputError(f"ships: {name!r} {NAME_RULE}")
+            raise InputError(f"ships: {name!r} {describe_name_fault(name)}")
         if name in names[:i]:
             raise InputError(f"ships: {name!r} is there twice: give each ship a name of its own")
     return tuple(names)

@@ -13,7 +13,7 @@ from math import ceil, isfinite
 from typing import Any
 
 from ..errors import ScenarioError
-from ..ship.loading.messages import suggest
+from ..ship.loading.messages import suggest_or_list
 from .plan_contact import Side
 
 __all__ = ["FASTEST", "KINDS", "Kind", "Request", "check_request", "count_steps", "make_request", "value_or_default"]
@@ -146,7 +146,7 @@ def make_request(kind: str, options: Mapping[str, Any]) -> Request:
     known = [field.name for field in fields(Request)][1:]
     for name in options:
         if name not in known:
-            raise ScenarioError(f"encounter {kind} has no {name}:{suggest(name, known)} there are {', '.join(known)}")
+            raise ScenarioError(f"encounter {kind} has no {name}:{suggest_or_list(name, known)}")
     return Request(kind, **{name: value for name, value in options.items() if value is not None})
 
 
@@ -156,9 +156,7 @@ def check_request(request: Request) -> Kind:
     Raises ScenarioError, in one line, for an unknown kind, a value out of range, or options that exclude each other.
     """
     if request.kind not in KINDS:
-        raise ScenarioError(
-            f"unknown encounter {request.kind!r}:{suggest(request.kind, list(KINDS))} known: {', '.join(KINDS)}"
-        )
+        raise ScenarioError(f"unknown encounter {request.kind!r}:{suggest_or_list(request.kind, list(KINDS))}")
     kind = KINDS[request.kind]
     _check_ranges(request)
     if request.side not in ("port", "starboard"):

@@ -76,6 +76,10 @@ class ForeignShip:
 
 def read_foreign_ship(file: Path) -> ForeignShip:
     """The FMU at `file`, wired as the TOML file beside it says. Raises ScenarioError with what does not fit."""
+    if not file.is_file():
+        raise ScenarioError(
+            f"--replace: {file} {'is a folder' if file.is_dir() else 'does not exist'}: give a .fmu file"
+        )
     try:
         data = file.read_bytes()
         with zipfile.ZipFile(file) as archive:

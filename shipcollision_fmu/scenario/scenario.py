@@ -13,11 +13,11 @@ from typing import Any
 from pydantic import Field, PrivateAttr, ValidationError, model_validator
 
 from ..collision.obstacles import ObstacleTable
-from ..collision.ship_names import NAME_RULE, is_identifier, is_ship_name
+from ..collision.ship_names import describe_name_fault, is_identifier, is_ship_name
 from ..errors import ScenarioError, ShipError
 from ..ship.coasting_law import make_coasting
 from ..ship.loading.library import find_models, load_ship
-from ..ship.loading.messages import describe_error, suggest
+from ..ship.loading.messages import describe_error, suggest_or_list
 from ..ship.loading.toml import parse_toml, read_toml
 from ..ship.ship import Ship
 from ..ship.tables.table import Table
@@ -97,8 +97,7 @@ class Scenario(Table):
             return self
         data = self.model_dump(exclude_unset=True)
         data["scenario"].update(options)
-        changes = " and ".join(f"{key} {value}" for key, value in options.items())
-        return _validate(data, f"{self._source} with {changes}", self._directory)
+        return _validate(data, f"{self._source} with another {' and '.join(options)}", self._directory)
 
     def _load_ship(self, name: str) -> Ship:
         start = self.ships[name]
@@ -138,7 +137,7 @@ class Scenario(Table):
     def _check_ship_names(self) -> Scenario:
         for name in self.ships:
             if not is_ship_name(name):
-                raise ValueError(f"[ships.{name}] {NAME_RULE}")
+                raise ValueError(f"[ships.{name}] {describe_name_fault(name)}")
         return self
 
     @model_validator(mode="after")
@@ -197,7 +196,10 @@ def load_scenario(name_or_path: str | Path) -> Scenario:
     is missing, is not TOML or cannot be run, for ships that cannot be loaded, and for bodies that overlap at the start.
     """
     path = _locate(_check_source(name_or_path))
-    scenario = _validate(read_toml(path, ScenarioError), path.name, path.parent)
+    data = read_toml(path, ScenarioError)
+    if "particulars" in data and "ships" not in data:
+        raise ScenarioError(f"{path.name} is a ship, not a scenario: give a scenario, whose [ships.NAME] ship names it")
+    scenario = _validate(data, path.name, path.parent)
     scenario.check()
     return scenario
 
@@ -231,8 +233,8 @@ def _locate(name_or_path: str | Path) -> Path:
         return path
     path = find_models() / "scenarios" / f"{text}.toml"
     if not path.is_file():
-        near = suggest(text, list_scenario_names())
-        raise ScenarioError(f"unknown scenario {text!r}:{near} known: {names}; or give the path of a TOML file")
+        known = suggest_or_list(text, list_scenario_names(), "give the path of a TOML file")
+        raise ScenarioError(f"unknown scenario {text!r}:{known}")
     return path
 
 

@@ -183,11 +183,17 @@ def _draw_motion(figure: Figure, scene: Scene) -> None:
     grid = figure.subplots(3, 2, sharex=True)
     for axes, (quantity, label, scale) in zip(grid.flat, panels, strict=True):
         _draw_curves(axes, scene, scene.signals.of(quantity), label, scale)
+    grid[2, 1].yaxis.set_major_formatter(_format_heading)
     for axes in grid[-1]:
         axes.set_xlabel("time [s]")
     figure.align_ylabels()
     _draw_legend(figure, scene)
     figure.set_size_inches(WIDTH, 6.0)
+
+
+def _format_heading(value: float, position: object = None) -> str:
+    """A mark on an axis of headings [deg], whose curve counts whole turns: 0 to 360."""
+    return f"{round(value, 6) % 360.0:g}"
 
 
 def _draw_energy(figure: Figure, scene: Scene) -> None:

@@ -22,7 +22,7 @@ from ...errors import ShipError
 from ..file_stamp import Stamp, digest_content, take_stamp
 from ..ship import Ship
 from .assembly import assemble_ship
-from .messages import suggest
+from .messages import suggest_or_list
 from .ship_file import validate_ship_file
 from .toml import read_toml
 
@@ -122,10 +122,8 @@ def _locate(name_or_path: str | Path, beside: Path | None = None) -> Path:
         path = folder / f"{text}.toml"
         if path.is_file():
             return path
-    names = list_ship_names()
-    raise ShipError(
-        f"unknown ship {text!r}:{suggest(text, names)} known: {', '.join(names)}; or give the path of a TOML file"
-    )
+    known = suggest_or_list(text, list_ship_names(), "give the path of a TOML file")
+    raise ShipError(f"unknown ship {text!r}:{known}")
 
 
 def _convert_to_toml(value: Any) -> Any:
@@ -138,7 +136,10 @@ def _convert_to_toml(value: Any) -> Any:
 def _read_tables(path: Path) -> dict[str, Any]:
     """Content of a ship file, the caller's own."""
     stamp = take_stamp(path)
-    return read_toml(path, ShipError) if stamp is None else deepcopy(_read_unchanged(stamp))
+    tables = read_toml(path, ShipError) if stamp is None else deepcopy(_read_unchanged(stamp))
+    if "ships" in tables and "particulars" not in tables:
+        raise ShipError(f"{path.name} is a scenario, not a ship: name one of the ship files in it")
+    return tables
 
 
 @lru_cache(maxsize=SHIPS_KEPT)

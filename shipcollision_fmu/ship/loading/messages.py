@@ -13,7 +13,7 @@ from typing import Annotated, Any, Union, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 
-__all__ = ["describe_error", "describe_problems", "join_problems", "suggest"]
+__all__ = ["describe_error", "describe_problems", "join_problems", "suggest", "suggest_or_list"]
 
 MOST_SHOWN = 12
 """Problems that one line tells; a file of another kind has hundreds."""
@@ -53,8 +53,16 @@ def join_problems(problems: Sequence[str]) -> str:
 
 def suggest(word: str, known: Sequence[str]) -> str:
     """' did you mean X?' or nothing."""
-    near = get_close_matches(word.lower(), [k.lower() for k in known], n=1, cutoff=0.6)
-    return f" did you mean {next(k for k in known if k.lower() == near[0])}?" if near else ""
+    word, words = word.lower(), {k.lower(): k for k in known}
+    near = get_close_matches(word, words, n=1, cutoff=0.6) or [k for k in words if len(word) > 2 and k.startswith(word)]
+    return f" did you mean {words[near[0]]}?" if near else ""
+
+
+def suggest_or_list(word: str, known: Sequence[str], otherwise: str = "") -> str:
+    """' did you mean X?', or ' known: ' and all words where none is near; and what else may be done."""
+    if near := suggest(word, known):
+        return f"{near}{otherwise and ' Else '}{otherwise}"
+    return f" known: {', '.join(known)}{otherwise and '; or '}{otherwise}"
 
 
 def _describe(problem: Any, model: type[BaseModel]) -> str:
@@ -62,7 +70,7 @@ def _describe(problem: Any, model: type[BaseModel]) -> str:
     if kind == "extra_forbidden":
         table = next(_list_models(_find_annotation(model, loc[:-1])), model)
         known = list(table.model_fields)
-        return f"{_name_place(loc)} is not a known key:{suggest(str(loc[-1]), known)} known: {', '.join(known)}"
+        return f"{_name_place(loc)} is not a known key:{suggest_or_list(str(loc[-1]), known)}"
     what = _find_description(model, loc)
     if kind == "missing":
         return f"{_name_place(loc)} is missing: give {what or 'its value'}"

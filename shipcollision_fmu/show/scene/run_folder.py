@@ -180,20 +180,21 @@ def read_run_folder(path: str | Path) -> RunFolder:
 def _read_texts(folder: Path) -> dict[str, str]:
     if not folder.is_dir():
         fault = "is not a folder" if folder.exists() else "does not exist"
-        raise InputError(f"{folder}: {fault}: {REMEDY}")
+        raise InputError(f"{folder} {fault}: {REMEDY}")
     missing = [name for name in FILES if not (folder / name).is_file()]
     if missing:
         if len(missing) == len(FILES):
             fault = "is empty" if not any(folder.iterdir()) else "is not the folder of a run"
         else:
             fault = f"has no {' and no '.join(missing)}, so it is not the whole folder of a run"
-        raise InputError(f"{folder}: {fault}: {REMEDY}")
+        raise InputError(f"{folder} {fault}: {REMEDY}")
     texts = {}
     for name in FILES:
         try:
             texts[name] = (folder / name).read_text(encoding="utf-8")
         except (OSError, UnicodeDecodeError) as error:
-            raise InputError(f"{folder / name}: cannot be read ({error}): {REMEDY}") from None
+            said = getattr(error, "strerror", None) or error  # an OSError's own text has the path again
+            raise InputError(f"{folder / name} cannot be read ({said}): {REMEDY}") from None
         if not texts[name].endswith("\n"):
             fault = "ends in the middle of a line" if texts[name].strip() else "is empty"
             raise InputError(f"{folder / name}: {fault}: {REMEDY}")

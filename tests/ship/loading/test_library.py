@@ -131,9 +131,14 @@ def test_shipped_ship_loads(name: str) -> None:
         assert build_hull(ship.L_oa, ship.B, ship.T, ship.hull).volume > ship.mass / ship.rho  # it can float
 
 
-def test_unknown_ship_names_the_known_ones() -> None:
-    with pytest.raises(ShipError, match=r"unknown ship 'kvlc2': did you mean kvlcc2\? known: .*kvlcc2, kvlcc2_l7"):
+def test_unknown_ship_names_a_near_one_or_all(tmp_path: Path) -> None:
+    with pytest.raises(ShipError, match=r"unknown ship 'kvlc2': did you mean kvlcc2\? Else give the path"):
         load_ship("kvlc2")
+    with pytest.raises(ShipError, match=r"unknown ship 'x': known: buoy, .*, kcs, .*; or give the path of a TOML file"):
+        load_ship("x")
+    (tmp_path / "scenario.toml").write_text("[scenario]\n[ships.own]\n", encoding="utf-8")
+    with pytest.raises(ShipError, match=r"^scenario.toml is a scenario, not a ship: name one of the ship files in it"):
+        load_ship(tmp_path / "scenario.toml")
 
 
 def test_missing_file() -> None:

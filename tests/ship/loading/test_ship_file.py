@@ -48,7 +48,7 @@ REFUSED: list[tuple[dict[str, Any], str]] = [
     (ship_tables(particulars={"L_pp": None}), r"\[particulars\] L_pp is missing: give the length between perp"),
     (
         ship_tables(particulars={"L_pp": None, "Lpp": 1.0}),
-        r"Lpp is not a known key: did you mean L_pp\? known: L_pp, L_oa",
+        r"Lpp is not a known key: did you mean L_pp\?",
     ),
     (ship_tables(particulars={"colour": "red"}), r"\[particulars\] colour is not a known key: known: L_pp"),
     (

@@ -50,11 +50,11 @@ def test_a_run_of_an_earlier_build_has_six_degrees_of_freedom(folder: Path) -> N
 
 
 def test_no_folder_and_an_empty_and_a_foreign_one(tmp_path: Path) -> None:
-    assert refusal(tmp_path / "nowhere").startswith("DIR: does not exist")
-    assert refusal(tmp_path).startswith("DIR: is empty")
+    assert refusal(tmp_path / "nowhere").startswith("DIR does not exist")
+    assert refusal(tmp_path).startswith("DIR is empty")
     (tmp_path / "holiday.jpg").touch()
-    assert refusal(tmp_path).startswith("DIR: is not the folder of a run")
-    assert refusal(tmp_path / "holiday.jpg").startswith("DIR: is not a folder")
+    assert refusal(tmp_path).startswith("DIR is not the folder of a run")
+    assert refusal(tmp_path / "holiday.jpg").startswith("DIR is not a folder")
 
 
 @pytest.mark.parametrize("name", FILES)

@@ -19,5 +19,5 @@ export function clockTime(seconds, digits) {
 
 export const degrees = (radians) => (radians === null ? null : (radians * 180) / Math.PI);
 
-/** A compass heading in [0, 360). */
-export const compass = (radians) => ((degrees(radians) % 360) + 360) % 360;
+/** A heading [deg], which counts whole turns, as a compass shows it: in [0, 360) when it has so many digits. */
+export const compass = (heading, digits) => ((Number(heading.toFixed(digits)) % 360) + 360) % 360;

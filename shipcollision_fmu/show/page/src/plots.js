@@ -3,7 +3,7 @@
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import { element } from "./dom.js";
-import { degrees, number } from "./format.js";
+import { compass, degrees, number } from "./format.js";
 import { isDark, lineColour, onTheme } from "./theme.js";
 
 const HEIGHT = 108;
@@ -11,12 +11,14 @@ const same = (x) => x;
 /** A number on an axis: as short as it goes, without groups, which look like decimals elsewhere. */
 const mark = (value) => String(Number(value.toPrecision(6))).replace("-", "\u2212");
 
-// Title, unit, what of the scene it shows, factor or function to that unit, digits, least range of the axis.
+// Title, unit, what of the scene it shows, factor or function to that unit, digits, least range of the axis, and how a
+// value is shown where that is not the value itself: a curve of the heading goes on beyond 360, its numbers do not.
 const PLOTS = [
   { title: "Speed", unit: "m/s", quantities: ["speed"], to: same, digits: 2, range: 0.2 },
+  { title: "Surge", unit: "m/s", quantities: ["surge"], to: same, digits: 2, range: 0.2 },
   { title: "Yaw rate", unit: "°/s", quantities: ["yaw_rate"], to: degrees, digits: 3, range: 0.02 },
   { title: "Roll", unit: "°", quantities: ["roll"], to: degrees, digits: 2, range: 0.2 },
-  { title: "Heading", unit: "°", quantities: ["heading"], to: degrees, digits: 1, range: 1 },
+  { title: "Heading", unit: "°", quantities: ["heading"], to: degrees, digits: 1, range: 1, shown: compass },
   { title: "Energy", unit: "MJ", quantities: ["kinetic", "dissipated"], to: (x) => x / 1e6, digits: 1, range: 0.01 },
   { title: "Impulse", unit: "MN s", quantities: ["normal", "tangential"], to: (x) => x / 1e6, digits: 2, range: 0.001 },
   { title: "Clearance", unit: "m", quantities: ["clearance"], to: same, digits: 2, range: 0.5 },
@@ -63,6 +65,7 @@ function makePlot(plot, data, clock, colourOf, cursor) {
   const ink = () => (isDark() ? "#9fb0bd" : "#5a6b78");
   const rule = () => (isDark() ? "rgba(255,255,255,0.07)" : "rgba(20,40,60,0.09)");
   const axis = { stroke: ink, grid: { stroke: rule, width: 1 }, ticks: { show: false }, font: "11px system-ui, sans-serif", values: (_, marks) => marks.map(mark) };
+  const shown = (value, digits) => (plot.shown ? plot.shown(value, digits) : value);
   const chart = new uPlot(
     {
       width: 320,
@@ -83,7 +86,7 @@ function makePlot(plot, data, clock, colourOf, cursor) {
       },
       axes: [
         { ...axis, size: 20, gap: 2 },
-        { ...axis, size: 46, gap: 4, space: 26 },
+        { ...axis, size: 46, gap: 4, space: 26, values: (_, marks) => marks.map((value) => mark(shown(value, 6))) },
       ],
       series: [{}, ...lines.map((line) => ({ stroke: line.colour, width: 1.6, dash: line.dash, points: { show: false } }))],
     },
@@ -106,7 +109,7 @@ function makePlot(plot, data, clock, colourOf, cursor) {
       const x = chart.valToPos(time, "x");
       now.style.transform = `translateX(${x.toFixed(1)}px)`;
       now.hidden = !(x >= 0 && x <= chart.over.clientWidth);
-      for (const { line, value } of chips) value.textContent = number(valueAt(times, line.values, time), plot.digits);
+      for (const { line, value } of chips) value.textContent = number(shown(valueAt(times, line.values, time), plot.digits), plot.digits);
     },
     paint() {
       for (const { line, dot } of chips) dot.style.background = line.colour();
