@@ -261,6 +261,18 @@ def test_a_mistake_is_one_line_and_writes_nothing(
         (["build", "--ships", "own,own"], 2, "ships: 'own' is there twice"),
         (["package", "guan2014", "--osp", "--inputs"], 2, "--inputs is for --ssp: an OSP system has all variables"),
         (["validate", "absent.fmu"], 2, "absent.fmu does not exist: build the FMUs with `shipcollision build`"),
+        (["validate", "other.fmu", "--ignore", "unit"], 2, "--ignore 'unit' is not a check: did you mean units? (see"),
+        (["run", "barge.toml"], 2, "barge.toml is a ship, not a scenario: give a scenario, whose [ships.NAME] ship"),
+        (["ships", "encounter.toml"], 2, "encounter.toml is a scenario, not a ship: name one of the ship files in it"),
+        (["run", "--out"], 2, "Option '--out' requires an argument (see `main run --help`)"),
+        (["run", "--fmi", "4"], 2, "Invalid value for '--fmi': '4' must be one of 2, 3 (see"),
+        (
+            ["package", "guan2014", "--ssp", "--replace", "own=x.fmu"],
+            2,
+            "--replace: x.fmu does not exist: give a .fmu file",
+        ),
+        (["trial", "kvlcc2"], 2, "Missing argument 'MANOEUVRE'. Choose from: turning-circle, zigzag, crash-stop (see"),
+        (["encounter", "imazuu"], 2, "unknown encounter 'imazuu': did you mean imazu? (see"),
         (["validate", "barge.toml"], 2, "barge.toml is not a zip archive: give the path of a .fmu file"),
         (
             ["validate", "other.fmu"],

@@ -117,8 +117,13 @@ def validate(fmu: Path, no_calls: bool, ignore: tuple[str, ...]) -> None:
     checks of the file, and by calls that an FMU must refuse; the calls run its code in another process. Notes are
     good practice and do not count.
     """
+    from ..compliance.report import NAMES
     from ..compliance.report import validate as find_breaches
+    from ..ship.loading.messages import suggest_or_list
 
+    for name in ignore:
+        if name not in NAMES:
+            raise click.UsageError(f"--ignore {name!r} is not a check:{suggest_or_list(name, NAMES)}")
     found = find_breaches(fmu, calls=not no_calls, ignore=ignore)
     for finding in found:
         say(f"{fmu}: {'' if finding.binding else 'note: '}{finding}")

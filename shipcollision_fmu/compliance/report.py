@@ -10,7 +10,6 @@ from zipfile import ZipFile, is_zipfile
 from fmpy.validation import validate_fmu
 
 from ..errors import InputError
-from ..ship.loading.messages import suggest_or_list
 from .calls import PROBES, run_probes
 from .rules import RULES
 from .subject import Subject
@@ -40,7 +39,7 @@ def validate(fmu: Path, *, calls: bool = True, ignore: Collection[str] = ()) -> 
     """
     unknown = [name for name in ignore if name not in NAMES]
     if unknown:
-        raise InputError(f"{unknown[0]!r} is not a check:{suggest_or_list(unknown[0], NAMES)}")
+        raise InputError(f"{unknown[0]!r} is not a check: one of {', '.join(NAMES)}")
     if fmu.is_dir():
         raise InputError(f"{fmu} is a folder: give the path of a .fmu file")
     if not fmu.is_file():

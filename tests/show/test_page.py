@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import csv
 import time
+from math import degrees
 from pathlib import Path
 
 import numpy as np
@@ -230,6 +231,22 @@ def test_table_keys_and_curves_lead_to_their_times(page: Page, scene: Scene) -> 
     assert page.run(dark) != was
     body.send_keys("t")
     page.run("replay.camera('all')")
+
+
+def test_headings_are_those_of_a_compass_and_surge_is_shown(page: Page, scene: Scene, folder: Path) -> None:
+    """The bulk carrier of guan2014 heads -33.8 deg, as its yaw angle has it: 326.2 on a compass."""
+    page.slide(scene.start)
+    chips = {
+        plot.find_element(By.TAG_NAME, "h3").text: [chip.text for chip in plot.find_elements(By.TAG_NAME, "b")]
+        for plot in page.driver.find_elements(By.CSS_SELECTOR, ".plot")
+    }
+    first = rows_of(folder)[0]
+    for ship, heading, surge in zip(scene.ships, chips["Heading"], chips["Surge"], strict=True):
+        assert float(heading) == pytest.approx(degrees(float(first[f"{ship.name}.attitude.yaw"])) % 360.0, abs=0.051)
+        assert float(surge.replace("\u2212", "-")) == pytest.approx(
+            float(first[f"{ship.name}.velocity.surge"]), abs=0.0051
+        )
+    assert any(float(first[f"{ship.name}.attitude.yaw"]) < 0.0 for ship in scene.ships) or "guan2014" not in str(folder)
 
 
 def test_playing_goes_on_to_the_end_and_stops(page: Page, scene: Scene) -> None:

@@ -57,6 +57,15 @@ def test_every_axis_has_its_unit(plots: dict[str, Figure]) -> None:
         assert any("[" in axes.get_xlabel() for axes in figure.axes)
 
 
+def test_the_axis_of_headings_is_a_compass(plots: dict[str, Figure]) -> None:
+    """A ship heads -33.8 deg, as its yaw angle has it."""
+    axes = plots["motion"].axes[5]
+    assert axes.get_ylabel() == "heading [deg]"
+    assert axes.get_ylim()[0] < -30.0
+    labels = [float(axes.yaxis.get_major_formatter()(tick)) for tick in (-30.0, 0.0, 370.0)]
+    assert labels == [330.0, 0.0, 10.0]
+
+
 def test_curves_are_those_of_states_csv(guan2014: Path, plots: dict[str, Figure]) -> None:
     rows = states(guan2014)
     panels = {axes.get_ylabel(): axes for axes in plots["motion"].axes}
