@@ -10,10 +10,14 @@
     conservative_advancement   which pair is examined at which substep
     contact_problem            problem and solution of a substep; caches from substep to substep
     responses                  pgs, closed_form, bullet: how contact is answered
+    delayed_impulses           ships that may have passed what they hit, by an impulse applied one step late
     collisions                 collisions and scratches in time, and their numbers
     contact_points             contact points of a communication step
     fender, fender_ledger      law of a fender; energy in fenders
     totals                     energy lost, and how well contact was solved
+    feedback                   how ships take impulses, by name
+    diagnosis, findings        is a ship wired wrongly? the table of what can be found
+    motion_watch, motion_check, answer_watch    what a ship model gives, compared with itself and with its impulses
 
     dynamics/    states, contacts, impulses, ledger
     geometry/    contact detection

@@ -1,14 +1,18 @@
 """What the collision model can find wrong with the wiring of a ship: the table of findings.
 
 The outputs `diagnosis.*`, the warnings in the log and the page "Wired wrongly?" of the documentation are made from it.
-diagnosis.py looks for the findings.
+diagnosis.py looks for the findings, with motion_watch.py and answer_watch.py.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
-__all__ = ["FINDINGS", "Finding"]
+__all__ = ["FINDINGS", "Finding", "Found"]
+
+Found = tuple[str, Mapping[str, float | str]]
+"""The key of a finding about a ship, and what was measured."""
 
 
 @dataclass(frozen=True)
