@@ -76,7 +76,10 @@ def table(ships: tuple[str, ...] = SHIPS) -> Table:
 
 def _ship(i: int, s: str) -> Table:
     """A ship: inputs at the start of a step, outputs at its end, parameters."""
-    received, given, post = f"inputs.ships.{i}", f"outputs.ships.{i}", f"{s}.{POST}"
+    return *_received(f"inputs.ships.{i}", s), *_given(f"outputs.ships.{i}", s), *_settings(f"parameters.ships.{i}", s)
+
+
+def _received(received: str, s: str) -> Table:
     return (
         *vector("input", named(s, POSITION), "m", f"{received}.position", f"CO of {s} in n"),
         *vector("input", named(s, ATTITUDE), "rad", f"{received}.attitude", f"Attitude of {s} (zyx Euler angles)"),
@@ -87,6 +90,12 @@ def _ship(i: int, s: str) -> Table:
             f"Cumulative impulse that the model of {s} has applied, in b",
             f"Moment about CO of the cumulative impulse that the model of {s} has applied, in b",
         ),
+    )  # fmt: skip
+
+
+def _given(given: str, s: str) -> Table:
+    post = f"{s}.{POST}"
+    return (
         *vector(
             "output", named(post, POSITION), "m", f"{given}.position", f"CO of {s} at the end of the step, in n",
             depends_on=(f"{s}.position",),
@@ -114,25 +123,30 @@ def _ship(i: int, s: str) -> Table:
             f"Mean contact force on {s} over the last step, in b",
             f"Mean moment about CO of the contact forces on {s} over the last step, in b", depends_on=(),
         ),
+    )  # fmt: skip
+
+
+def _settings(settings: str, s: str) -> Table:
+    return (
         string(
-            "parameter", f"{s}.ship", f"parameters.ships.{i}.ship",
+            "parameter", f"{s}.ship", f"{settings}.ship",
             f"Ship of {s}: a name in the FMU's resources or a TOML file",
         ),
         integer(
-            "parameter", f"{s}.degrees_of_freedom", f"parameters.ships.{i}.degrees_of_freedom",
+            "parameter", f"{s}.degrees_of_freedom", f"{settings}.degrees_of_freedom",
             "Degrees of freedom, as in the ship's own model; 3: surge, sway, yaw; 4: and roll; 6: all",
             minimum=3, maximum=6,
         ),
         real(
-            "parameter", f"{s}.fender.stiffness", "N/m", f"parameters.ships.{i}.fender.stiffness", None,
+            "parameter", f"{s}.fender.stiffness", "N/m", f"{settings}.fender.stiffness", None,
             "Stiffness of a fender around the hull; 0: no fender", minimum=0.0,
         ),
         real(
-            "parameter", f"{s}.fender.damping", "N.s/m", f"parameters.ships.{i}.fender.damping", None,
+            "parameter", f"{s}.fender.damping", "N.s/m", f"{settings}.fender.damping", None,
             "Damping of a fender around the hull", minimum=0.0,
         ),
         real(
-            "parameter", f"{s}.fender.thickness", "m", f"parameters.ships.{i}.fender.thickness", None,
+            "parameter", f"{s}.fender.thickness", "m", f"{settings}.fender.thickness", None,
             "Distance from the hull within which its fender acts; 0: no fender", minimum=0.0,
         ),
     )  # fmt: skip
