@@ -159,13 +159,16 @@ for folder in folders:
     assert said[0] == said[2]
 
 
+MESH_FILES = (
+    "mesh", "mesh_file", "mesh_checks", "file_frame", "mending", "one_solid", "convex_parts", "child_process", "hull_cache"
+)  # fmt: skip
+PROGRAMS = ("coacd_process", "manifold_process", "self_crossing")
 LATER = {
     "ship/kinetic_energy.py": "for summaries and pages; the room ship travels whole",
     "ship/ship_state.py": "for helms and tracks; the room ship travels whole",
-    "files.py": "imported with the first hull that is cut into parts",
-    "ship/hull/mesh.py": "imported with the first ship whose hull is a mesh file",
-    "ship/hull/convex_parts.py": "likewise",
-    "ship/hull/coacd_process.py": "runs in a process of its own",
+    "files.py": "imported with the first ship whose hull is a mesh file",
+    **{f"ship/hull/{name}.py": "imported with the first ship whose hull is a mesh file" for name in MESH_FILES},
+    **{f"ship/hull/{name}.py": "runs in a process of its own" for name in PROGRAMS},
 }
 """Files that an FMU carries although its first step does not import them, and why."""
 

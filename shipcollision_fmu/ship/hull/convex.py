@@ -10,10 +10,12 @@ import numpy.typing as npt
 
 from ..frames import Array
 
-__all__ = ["Indices", "enclosed_volume", "half_spaces", "is_convex"]
+__all__ = ["CONVEX_WITHIN", "Indices", "enclosed_volume", "half_spaces", "has_flat_triangles", "is_convex"]
 
 Indices = npt.NDArray[np.int64]
 
+CONVEX_WITHIN = 1e-3
+"""A vertex may lie this far [m] before a face of a mesh that still counts as convex."""
 _SAME_PLANE = 1e-6
 """Difference of a unit normal's components, and of the offset over the solid's size, up to which planes are one."""
 _AT_ONCE = 4_000_000
@@ -61,3 +63,12 @@ def is_convex(vertices: Array, triangles: Indices, tolerance: float) -> bool:
         if before.max() > tolerance:
             return False
     return True
+
+
+def has_flat_triangles(vertices: Array, triangles: Indices) -> npt.NDArray[np.bool_]:
+    """(m,) which triangles have their corners on one line."""
+    p, q, r = (vertices[triangles[:, k]] for k in range(3))
+    area = 0.5 * np.linalg.norm(np.cross(q - p, r - p), axis=1)
+    longest = np.sqrt(np.maximum.reduce([((b - a) ** 2).sum(axis=1) for a, b in ((p, q), (q, r), (r, p))]))
+    flat: npt.NDArray[np.bool_] = area <= 1e-7 * longest**2
+    return flat

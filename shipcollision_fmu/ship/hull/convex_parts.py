@@ -1,38 +1,23 @@
-"""Convex parts of a solid that is not convex: cut in a process of its own, once, and kept in the user's cache.
+"""Convex parts of a solid that is not convex.
 
 CoACD (Wei et al. 2022, ACM Trans. Graph. 41(4)) cuts the solid along planes into parts whose convex hulls hold the
-whole solid and little more (coacd_process.py). There are two reasons for a process. Once CoACD's library is loaded, an
-FMU of a Python wrapper that is instantiated next waits for the interpreter for ever. And a process can be ended when it
-takes too long.
-
-    solid, options -> key -> user's cache, or a process -> parts, added volume, bulge
-
-The cutting is seeded: the same solid gives the same parts, to the bit. A cached file that cannot be read is made anew.
+whole solid and little more (coacd_process.py). The cutting is seeded: the same solid gives the same parts, to the bit.
 """
 
 from __future__ import annotations
 
 import logging
-import os
-import subprocess
-import sys
-import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
-from hashlib import sha256
-from importlib import metadata
 from importlib.util import find_spec
-from io import BytesIO
-from pathlib import Path
-from zipfile import BadZipFile
+from time import monotonic
 
 import numpy as np
 
 from ...errors import HostError, ShipError, describe_installation
-from ...files import user_cache, write_file
 from ..frames import Array
-from .convex import Indices, enclosed_volume, half_spaces, is_convex
+from .child_process import OutOfTimeError, ProgramError, run_program
+from .convex import CONVEX_WITHIN, Indices, enclosed_volume, half_spaces, is_convex
 
 __all__ = ["VOLUME_TOLERANCE", "Cut", "Part", "cut_into_convex_parts"]
 
@@ -43,12 +28,12 @@ BULGE_GOAL = 0.01
 CONCAVITIES = (0.03, 0.015)
 """CoACD's thresholds (a concavity over half the solid's length), from coarse to fine. From 0.01 on a ship falls into
 dozens of parts, which takes half a minute and makes contact slow."""
-CONVEX_WITHIN = 1e-3
-"""A vertex may lie this far [m] before a face of a mesh that still counts as convex."""
+ITERATIONS, FEWER_ITERATIONS, MANY_FACES = 150, 60, 1000
+"""CoACD's search for each cut, and that for a solid of more than MANY_FACES. With 150, 2 100 faces take 10 s of CPU
+instead of 5; the parts hold the same volume to 0.1 %."""
 SEED = 1
-LONGEST_CUTTING = 300.0
-"""Time [s] after which the cutting is ended and the mesh refused. A hull of 22 000 faces takes 45 s. Parts that pass
-through each other take minutes, and give nothing of use."""
+LONGEST_CUTTING = 180.0
+"""Time [s] after which the cutting is ended and the mesh refused. A simplified hull takes 10 s of CPU."""
 
 _log = logging.getLogger("shipcollision_fmu")
 
@@ -67,12 +52,18 @@ class Cut:
 def cut_into_convex_parts(name: str, vertices: Array, triangles: Indices, max_parts: int) -> Cut:
     """At most max_parts convex parts of a closed solid; the solid itself when it is convex.
 
+    Pieces that do not touch each other and are convex are parts; what is left is cut.
     name: of the mesh file, for messages. Raises ShipError when the parts add too much or the cutting takes too long,
     HostError when CoACD is missing or fails.
     """
     if is_convex(vertices, triangles, CONVEX_WITHIN):
         return Cut(((vertices, triangles),))
-    cut = _cut_once(name, vertices.tobytes(), triangles.tobytes(), max_parts)
+    if find_spec("coacd") is None:
+        raise HostError(
+            "coacd cannot be imported (it is not installed), and a hull that is not convex is cut into parts with it: "
+            f"{describe_installation('mesh')}"
+        )
+    cut = _cut_pieces(name, (vertices, triangles), max_parts)
     if cut.volume_error > VOLUME_TOLERANCE:
         raise ShipError(
             f"{name}: its {len(cut.parts)} convex parts hold {cut.volume_error:.1%} more than the solid, at most "
@@ -82,32 +73,44 @@ def cut_into_convex_parts(name: str, vertices: Array, triangles: Indices, max_pa
     return cut
 
 
-@lru_cache(maxsize=8)
-def _cut_once(name: str, vertices: bytes, triangles: bytes, max_parts: int) -> Cut:
-    """The cut solid, from memory, from the user's cache, or cut now."""
-    solid = np.frombuffer(vertices).reshape(-1, 3), np.frombuffer(triangles, dtype=np.int64).reshape(-1, 3)
-    if find_spec("coacd") is None:
-        raise HostError(
-            "coacd cannot be imported (it is not installed), and a hull that is not convex is cut into parts with it: "
-            f"{describe_installation('mesh')}"
-        )
-    kept = user_cache() / "convex-parts" / f"{_compute_key(vertices, triangles, max_parts)}.npz"
-    try:
-        return _unpack(kept.read_bytes())
-    except (OSError, ValueError, KeyError, EOFError, BadZipFile):  # absent, or not what was written
-        pass
-    cut = _cut_solid(name, solid, max_parts)
-    try:
-        write_file(kept, _pack(cut), "its parts are cut again in every process until it is writable")
-    except HostError as error:
-        _log.warning("%s: %s", name, error)
-    return cut
+def _cut_pieces(name: str, solid: Part, max_parts: int) -> Cut:
+    """The convex pieces of a solid as they are, and parts of the others."""
+    convex: list[Part] = []
+    others: list[Part] = []
+    for piece in _split_into_pieces(*solid):
+        (convex if is_convex(*piece, CONVEX_WITHIN) else others).append(piece)
+    if not others and len(convex) <= max_parts:
+        return Cut(tuple(convex))
+    if not convex or len(convex) >= max_parts:
+        return _cut_solid(name, solid, max_parts)
+    rest = _join_pieces(others)
+    cut = _cut_solid(name, rest, max_parts - len(convex))
+    share = enclosed_volume(*rest) / enclosed_volume(*solid)
+    return Cut((*convex, *cut.parts), cut.volume_error * share, cut.bulge)
 
 
-def _compute_key(vertices: bytes, triangles: bytes, max_parts: int) -> str:
-    """Digest of all that the parts depend on."""
-    options = (max_parts, CONCAVITIES, BULGE_GOAL, SEED, metadata.version("coacd"))
-    return sha256(repr(options).encode() + sha256(vertices).digest() + sha256(triangles).digest()).hexdigest()[:32]
+def _split_into_pieces(vertices: Array, triangles: Indices) -> list[Part]:
+    """The connected pieces of a mesh."""
+    label = np.arange(len(vertices))
+    while True:
+        least = label.copy()
+        np.minimum.at(least, triangles, label[triangles].min(axis=1)[:, None])
+        least = least[least]
+        if (least == label).all():
+            break
+        label = least
+    pieces = []
+    for first in np.unique(label[triangles[:, 0]]).tolist():
+        own = triangles[label[triangles[:, 0]] == first]
+        used, corners = np.unique(own, return_inverse=True)
+        pieces.append((vertices[used], corners.reshape(-1, 3).astype(np.int64)))
+    return pieces
+
+
+def _join_pieces(pieces: Sequence[Part]) -> Part:
+    starts = np.cumsum([0, *(len(vertices) for vertices, _ in pieces)])
+    triangles = [faces + start for (_, faces), start in zip(pieces, starts, strict=False)]
+    return np.vstack([vertices for vertices, _ in pieces]), np.vstack(triangles)
 
 
 def _cut_solid(name: str, solid: Part, max_parts: int) -> Cut:
@@ -116,54 +119,37 @@ def _cut_solid(name: str, solid: Part, max_parts: int) -> Cut:
     _log.warning(
         "%s: is cut into convex parts, once for this file: %d faces, at most %g s", name, len(solid[1]), LONGEST_CUTTING
     )
+    end = monotonic() + LONGEST_CUTTING
+    goal = BULGE_GOAL * float(np.ptp(solid[0][:, 1]))
     for threshold in CONCAVITIES:
-        parts = _run_coacd(name, solid, threshold, max_parts)
+        if best is not None:
+            _log.warning(
+                "%s: its %d parts bulge by %.2g m, more than %.2g m: it is cut more finely, for at most %.0f s more",
+                name, len(best.parts), best.bulge, goal, end - monotonic(),
+            )  # fmt: skip
+        parts = _run_coacd(name, solid, threshold, max_parts, end - monotonic())
         cut = Cut(parts, sum(enclosed_volume(*part) for part in parts) / volume - 1.0, _measure_bulge(solid[0], parts))
         if best is None or cut.bulge < best.bulge:
             best = cut
-        if best.bulge <= BULGE_GOAL * float(np.ptp(solid[0][:, 1])):
+        if best.bulge <= goal:
             break
     assert best is not None
     return best
 
 
-def _run_coacd(name: str, solid: Part, threshold: float, max_parts: int) -> tuple[Part, ...]:
-    """Parts that a process with CoACD cuts the solid into. It ends itself too, should this process die before it."""
-    program = [_find_interpreter(), "-m", f"{__package__}.coacd_process"]
-    arguments = [str(threshold), str(max_parts), str(SEED), str(LONGEST_CUTTING)]
-    with tempfile.TemporaryDirectory(prefix="shipcollision-") as folder:
-        given, made = Path(folder, "solid.npz"), Path(folder, "parts.npz")
-        np.savez(given, vertices=solid[0], triangles=solid[1])
-        try:
-            done = subprocess.run(
-                [*program, str(given), str(made), *arguments],
-                stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace", check=False,
-                timeout=LONGEST_CUTTING, env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
-            )  # fmt: skip
-        except subprocess.TimeoutExpired:
-            raise ShipError(
-                f"{name}: is not cut into convex parts within {LONGEST_CUTTING:g} s: give parts that pass through each "
-                "other as one surface (boolean union), simplify the mesh, or leave out what does not touch other ships"
-            ) from None
-        if done.returncode != 0 or not made.is_file():
-            said = done.stderr.strip().splitlines()[-1:] or [f"exit status {done.returncode}"]
-            raise HostError(f"{name}: cannot be cut into convex parts: coacd failed ({said[0]})")
-        return _read_parts(made.read_bytes())
-
-
-def _find_interpreter() -> str:
-    """Python's program. In a simulator that embeds Python, sys.executable may be the simulator or empty."""
-    version = f"python{sys.version_info.major}.{sys.version_info.minor}"
-    candidates = [Path(sys.executable)] if Path(sys.executable).name.startswith("python") else []
-    for prefix in (sys.prefix, sys.exec_prefix, sys.base_exec_prefix):
-        candidates += [Path(prefix, "bin", version), Path(prefix, "bin", "python3"), Path(prefix, "python.exe")]
-    for candidate in candidates:
-        if candidate.is_file():
-            return str(candidate)
-    raise HostError(
-        f"no Python program is found below {sys.exec_prefix}, and a hull that is not convex is cut in a process of its "
-        "own: load the ship once with `shipcollision ships`, which keeps its parts"
-    )
+def _run_coacd(name: str, solid: Part, threshold: float, max_parts: int, longest: float) -> tuple[Part, ...]:
+    iterations = ITERATIONS if len(solid[1]) <= MANY_FACES else FEWER_ITERATIONS
+    given = {"vertices": solid[0], "triangles": solid[1]}
+    try:
+        made = run_program("coacd_process", (threshold, max_parts, iterations, SEED), given, max(longest, 0.001))
+    except OutOfTimeError:
+        raise ShipError(
+            f"{name}: is not cut into convex parts within {LONGEST_CUTTING:g} s: simplify the mesh, leave out what "
+            "does not touch other ships, or set convex_hull = true"
+        ) from None
+    except ProgramError as error:
+        raise HostError(f"{name}: cannot be cut into convex parts: coacd failed ({error})") from None
+    return tuple((made[f"v{i}"], made[f"t{i}"]) for i in range(int(made["count"])))
 
 
 def _measure_bulge(surface: Array, parts: Sequence[Part]) -> float:
@@ -174,34 +160,3 @@ def _measure_bulge(surface: Array, parts: Sequence[Part]) -> float:
         inside = (planes[:, 3] - surface @ planes[:, :3].T).min(axis=1)
         deepest = max(deepest, float(inside.max()))
     return deepest
-
-
-# -- files ------------------------------------------------------------------------------------------
-
-
-def _pack(cut: Cut) -> bytes:
-    arrays = {"measures": np.array([cut.volume_error, cut.bulge]), "count": np.array(len(cut.parts))}
-    for i, (vertices, triangles) in enumerate(cut.parts):
-        arrays |= {f"v{i}": vertices, f"t{i}": triangles}
-    file = BytesIO()
-    np.savez(file, **arrays)  # type: ignore[arg-type]  # the stub takes names for flags
-    return file.getvalue()
-
-
-def _unpack(content: bytes) -> Cut:
-    """The cut of _pack. Raises ValueError, KeyError, EOFError, OSError or BadZipFile for anything else."""
-    with _open(content) as arrays:
-        volume_error, bulge = arrays["measures"].tolist()
-    return Cut(_read_parts(content), volume_error, bulge)
-
-
-def _read_parts(content: bytes) -> tuple[Part, ...]:
-    with _open(content) as arrays:
-        return tuple((arrays[f"v{i}"], arrays[f"t{i}"]) for i in range(int(arrays["count"])))
-
-
-def _open(content: bytes) -> np.lib.npyio.NpzFile:
-    opened = np.load(BytesIO(content), allow_pickle=False)
-    if not isinstance(opened, np.lib.npyio.NpzFile):
-        raise ValueError("not a file of several arrays")
-    return opened

@@ -12,7 +12,9 @@ __all__ = ["HullTable"]
 
 Axis = Literal["+x", "-x", "+y", "-y", "+z", "-z"]
 
-MESH_KEYS = frozenset({"file", "unit", "scale", "forward", "up", "origin", "max_parts"})
+MESH_KEYS = frozenset(
+    {"file", "unit", "scale", "forward", "up", "origin", "weld", "fill_holes", "convex_hull", "max_parts"}
+)
 """Keys of [hull] that go with shape = "mesh" only."""
 
 
@@ -39,15 +41,26 @@ class HullTable(Table):
     bilge: NotNegative = Field(default=0.0, description="the height and breadth of the chamfer at the keel [m]")
     trim_x: float = Field(default=0.0, description="the shift of the whole hull forward of CO [m]")
     file: Annotated[str, Field(min_length=1)] | None = Field(
-        default=None, description="the hull's .obj or .stl file, relative to the ship file"
+        default=None, description="the hull's .obj, .stl, .dae, .glb or .gltf file, relative to the ship file"
     )
-    unit: Literal["m", "cm", "mm", "ft", "in"] = Field(default="m", description="the unit of length of the mesh file")
+    unit: Literal["m", "cm", "mm", "ft", "in"] | None = Field(
+        default=None, description="the unit of length of the mesh file; without it, what a DAE file states, else m"
+    )
     scale: Positive | None = Field(default=None, description="metres per unit of the mesh file, instead of unit")
     forward: Axis = Field(default="+x", description="the mesh file's axis that points to the bow")
-    up: Axis = Field(default="+z", description="the mesh file's axis that points up")
+    up: Axis | None = Field(
+        default=None,
+        description="the mesh file's axis that points up; without it, what a DAE file states, +y in glTF, else +z",
+    )
     origin: Vector = Field(
         default=[0.0, 0.0, 0.0], validate_default=True, description="CO in the mesh file's coordinates and unit"
     )
+    weld: Positive | None = Field(
+        default=None,
+        description="the distance [m] within which vertices of open edges are joined; without it, 1e-5 of the length",
+    )
+    fill_holes: bool = Field(default=False, description="whether holes of the mesh, such as an open deck, are closed")
+    convex_hull: bool = Field(default=False, description="whether the mesh's convex hull is taken instead of the mesh")
     max_parts: Annotated[int, Field(ge=1, le=64)] = Field(
         default=16, description="the most convex parts that the mesh is cut into"
     )
@@ -61,10 +74,12 @@ class HullTable(Table):
         if others := sorted(self.model_fields_set - MESH_KEYS - {"shape", "depth"}):
             raise ValueError(f'[hull] shape = "mesh" has no {", ".join(others)}: the file has the whole shape')
         if self.file is None:
-            raise ValueError('[hull] file is missing: shape = "mesh" needs the name of an .obj or .stl file')
-        if self.scale is not None and "unit" in self.model_fields_set:
+            raise ValueError(
+                '[hull] file is missing: shape = "mesh" needs the name of a mesh file (.obj, .stl, .dae, .glb)'
+            )
+        if self.scale is not None and self.unit is not None:
             raise ValueError(f'[hull] unit = "{self.unit}" and scale = {self.scale} are two units: remove one')
-        if self.forward[1] == self.up[1]:
+        if self.up is not None and self.forward[1] == self.up[1]:
             raise ValueError(
                 f'[hull] forward = "{self.forward}" and up = "{self.up}" lie along one axis: name two different ones'
             )
