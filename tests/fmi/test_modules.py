@@ -160,7 +160,8 @@ for folder in folders:
 
 
 MESH_FILES = (
-    "mesh", "mesh_file", "mesh_checks", "file_frame", "mending", "one_solid", "convex_parts", "child_process", "hull_cache"
+    "mesh", "mesh_file", "mesh_checks", "file_frame", "mending", "one_solid", "convex_parts", "child_process",
+    "hull_cache",
 )  # fmt: skip
 PROGRAMS = ("coacd_process", "manifold_process", "self_crossing")
 LATER = {

@@ -129,9 +129,9 @@ def _drop_doubled(mesh: Mended) -> Mended:
     np.add.at(net, group, direction)
     if (net == 0).all():
         net[group] = direction  # that of the last
-    wanted = np.flatnonzero(direction == np.sign(net)[group])
-    _, first = np.unique(group[wanted], return_index=True)
-    kept = np.sort(wanted[first])
+    alike = np.flatnonzero(direction == np.sign(net)[group])
+    _, first = np.unique(group[alike], return_index=True)
+    kept = np.sort(alike[first])
     vertices, left = _keep_used(mesh.vertices, triangles[kept])
     note = f"{len(triangles) - len(kept)} of {len(triangles)} faces are given twice: dropped"
     return replace(mesh, vertices=vertices, triangles=left, notes=(*mesh.notes, note))
