@@ -48,6 +48,7 @@ def test_the_library_that_cuts_stays_out_of_this_process() -> None:
     assert done.stdout.split() == ["2", "False"]
 
 
+@pytest.mark.slow
 def test_progress_is_said(cut: Cutter, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture) -> None:
     monkeypatch.setattr(convex_parts, "BULGE_GOAL", -1.0)
     cut()
@@ -93,7 +94,8 @@ def test_a_failure_of_the_library_is_one_line(cut: Cutter, monkeypatch: pytest.M
         cut()
 
 
-@pytest.mark.parametrize("program", ["", pytest.param("/opt/simulator/bridge", marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("program", ["", "/opt/simulator/bridge"])
 def test_a_simulator_that_embeds_python_is_not_started_again(
     cut: Cutter, monkeypatch: pytest.MonkeyPatch, program: str
 ) -> None:

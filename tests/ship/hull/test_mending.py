@@ -132,6 +132,7 @@ def test_an_open_deck_is_refused_with_its_place_and_closed_on_demand(
     assert "1 holes are closed, the largest 202.2 across around (0, 0, 10) in the file" in said(caplog)
 
 
+@pytest.mark.slow
 def test_several_holes_are_counted_and_closed(tmp_path: Path) -> None:
     shell = BOX.triangles[2:-1]
     assert "around 2 holes" in refusal(tmp_path, BOX.vertices, shell)
