@@ -51,6 +51,10 @@ TOP, BOTTOM = 5.0, 30.0
 """Heights [m] where the table is silent: above any deck edge that matters, below any keel."""
 
 
+LARGEST, FARTHEST = 1e6, 1e9
+"""[m] Limits of sizes, and of positions as of ships. The squares of much larger numbers overflow."""
+
+
 class FenderTable(Table):
     """fender = {stiffness, damping, thickness} of an obstacle or a ship."""
 
@@ -126,6 +130,16 @@ class ObstacleTable(Table):
                 f"bottom = {self.depth:g} m below the waterline is not below top = {self.top:g} m above it: both count "
                 "away from the waterline"
             )
+        return self
+
+    @model_validator(mode="after")
+    def _is_in_metres(self) -> ObstacleTable:
+        corners = [x for corner in self.points or [] for x in corner]
+        sizes = (self.length, self.breadth, self.diameter, self.top, self.bottom, self.height, *corners)
+        for limit, values in ((LARGEST, sizes), (FARTHEST, self.position)):
+            largest = max((abs(x) for x in values if x is not None), default=0.0)
+            if largest > limit:
+                raise ValueError(f"has a length or place of {largest:g} m, the limit is {limit:g}: give metres")
         return self
 
     @model_validator(mode="after")

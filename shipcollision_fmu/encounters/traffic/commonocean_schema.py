@@ -9,7 +9,7 @@ The project's own reader, commonocean-io, is not used: it is under the GPL and d
 
 from __future__ import annotations
 
-from math import isfinite
+from math import inf, isfinite
 from typing import Annotated, Any, TypeVar
 
 from pydantic import BeforeValidator, ConfigDict, Field, ValidationError, field_validator
@@ -30,7 +30,7 @@ def _take_single(value: Any) -> Any:
 
 
 One = Annotated[T, BeforeValidator(_take_single)]
-Size = Annotated[float, BeforeValidator(_take_single), Field(gt=0, description="a length in metres")]
+Size = Annotated[float, BeforeValidator(_take_single), Field(ge=0.01, le=1e5, description="a length in metres")]
 
 
 class Node(Table):
@@ -39,9 +39,17 @@ class Node(Table):
     model_config = ConfigDict(extra="allow", strict=False)
 
 
+Coordinate = Annotated[float, BeforeValidator(_take_single), Field(ge=-1e8, le=1e8, description="a place in metres")]
+"""Northings of UTM reach 1e7 m."""
+
+
+DEEPEST = 1e4
+"""[m] Limit of the depth of an obstacle; larger ones were meant as infinite."""
+
+
 class Point(Node):
-    x: One[float]
-    y: One[float]
+    x: Coordinate
+    y: Coordinate
 
 
 ORIGIN = Point(x=0.0, y=0.0)
@@ -111,11 +119,11 @@ class Obstacle(Node):
     @classmethod
     def _check_depth(cls, depth: str | None) -> str | None:
         try:
-            valid = depth is None or float(depth) > 0.0
+            valid = depth is None or 0.0 < float(depth) <= DEEPEST or float(depth) == inf
         except ValueError:
             valid = False
         if not valid:
-            raise ValueError(f"depth = {depth!r} must be a number above 0, or inf: it is the depth of the foot [m]")
+            raise ValueError(f"depth = {depth!r} must be above 0 and at most {DEEPEST:g}, or inf: it is in metres")
         return depth
 
     @property
