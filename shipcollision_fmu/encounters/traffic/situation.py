@@ -181,13 +181,18 @@ def _list_omissions(plan: _Plan) -> list[str]:
                 notes.append(f"The file's {what} is not carried over: the ships coast.")
     if around.waves:
         notes.append("The file's waves are not carried over: the sea is smooth.")
-    return notes
+    return [_make_line(note) for note in notes]
+
+
+def _make_line(text: str) -> str:
+    """The text in one line without control characters, which would end a comment; names are the foreign file's."""
+    return " ".join("".join(c if c.isprintable() else " " for c in text).split())
 
 
 def _write(plan: _Plan, directory: Path) -> str:
     traffic = plan.traffic
     comment = [
-        f"Made by `shipcollision import {plan.path.name}` ({traffic.origin}).",
+        _make_line(f"Made by `shipcollision import {plan.path.name}` ({traffic.origin})."),
         traffic.frame,
         *_list_omissions(plan),
     ]

@@ -55,8 +55,8 @@ def parse_xml(content: bytes, file: str) -> tuple[str, dict[str, Any]]:
 
 def _convert(element: Element) -> dict[str, Any] | str:
     if not len(element) and not element.attrib:
-        return (element.text or "").strip()
-    table: dict[str, Any] = dict(element.attrib)
+        return " ".join((element.text or "").split())
+    table: dict[str, Any] = {key: " ".join(value.split()) for key, value in element.attrib.items()}
     for below in element:
         entry = table.setdefault(below.tag, [])
         if isinstance(entry, list):

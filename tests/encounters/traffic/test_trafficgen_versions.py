@@ -250,3 +250,10 @@ def test_tables_that_are_not_used_are_named(tmp_path: Path) -> None:
     said = "landAreas, ownShip.sensors, targetShips.sensors, environment.visibility, environment.waveDirection"
     assert f"# Not used: {said}.\n" in text
     assert "Not used" not in imported(plain(), tmp_path)[1]
+
+
+def test_names_of_a_foreign_file_stay_in_their_comment(tmp_path: Path) -> None:
+    data = changed(plain(), **{"land\n[collision]\u0001\x7fx": [{"x": 1}], "version": "1\n[environment]\nwind = 9"})
+    scenario, text = imported(data, tmp_path)
+    assert "# Not used: land [collision] x." in text
+    assert scenario.environment.wind is None
