@@ -10,7 +10,8 @@ from zipfile import ZipFile, is_zipfile
 from fmpy.validation import validate_fmu
 
 from ..errors import InputError
-from .calls import PROBES, run_probes
+from .calls import run_probes
+from .probes import PROBES
 from .rules import RULES
 from .subject import Subject
 

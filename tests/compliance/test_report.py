@@ -16,8 +16,9 @@ import pytest
 from click.testing import CliRunner
 
 from shipcollision_fmu.cli import main
-from shipcollision_fmu.compliance import calls
-from shipcollision_fmu.compliance.calls import PROBES, run_probes
+from shipcollision_fmu.compliance import probes
+from shipcollision_fmu.compliance.calls import run_probes
+from shipcollision_fmu.compliance.probes import PROBES
 from shipcollision_fmu.compliance.report import NAMES, find_problems, validate
 from shipcollision_fmu.compliance.rules import RULES
 from shipcollision_fmu.compliance.subject import Subject
@@ -330,12 +331,12 @@ class Strict:
         """All outputs."""
         return [self.now.hex()]
 
-    find_variable = calls.Instance.find_variable
+    find_variable = probes.Instance.find_variable
 
 
 def test_an_fmu_that_follows_the_state_machine_is_not_blamed(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """After an error FMI allows no step: a probe that asks for one has itself to blame."""
-    monkeypatch.setattr(calls, "Instance", Strict)
+    monkeypatch.setattr(probes, "Instance", Strict)
     (tmp_path / "modelDescription.xml").write_text("")
     assert [(probe.name, line) for probe in PROBES for line in probe.run(tmp_path)] == []
 
