@@ -216,7 +216,7 @@ def edited(old: str, new: str) -> None:
     [
         ("speed", "sped", [], 2, "encounter.toml: [ships.own] sped is not a known key: did you mean speed?"),
         ("./barge.toml", "kvlc2", [], 2, "unknown ship 'kvlc2': did you mean kvlcc2?"),
-        ("8200000.0", "-82e5", [], 2, "[ships.own] ship = './barge.toml': barge.toml: [particulars] mass = -8200000.0"),
+        ("8200000.0", "-82e5", [], 2, "[ships.own] barge.toml: [particulars] mass = -8200000.0"),
         ("8200000.0", "82e6", [], 2, "rho"),
         ("step = 0.05", "step = 0.0", [], 2, "encounter.toml: [scenario] step = 0.0 must be greater than 0"),
         ("", "", ["--step", "0"], 2, "encounter.toml with another step: [scenario] step = 0.0 must be greater than 0"),

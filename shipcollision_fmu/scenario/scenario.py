@@ -104,8 +104,8 @@ class Scenario(Table):
         key = f"{self._source}: [ships.{name}] ship = {start.ship!r}"
         try:
             ship = load_ship(self.ship_file(name))
-        except ShipError as error:
-            raise ScenarioError(f"{key}: {error}") from None
+        except ShipError as error:  # it names the ship or the file
+            raise ScenarioError(f"{self._source}: [ships.{name}] {error}") from None
         if start.hydrodynamics and ship.manoeuvring is None:
             raise ScenarioError(
                 f"{key} can only coast, it has no table [manoeuvring]: set hydrodynamics = false, or take "
