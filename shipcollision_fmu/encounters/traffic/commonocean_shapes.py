@@ -1,4 +1,4 @@
-"""Middles, boxes and corners of CommonOcean's shapes.
+"""Places in CommonOcean's x, y: middles, boxes and corners of shapes, and the same in n.
 
 An obstacle's shape is turned about its own middle, by the orientation of the initial state, and then moved by its
 position. So does the project's own library; the middle of a polygon is its centroid.
@@ -7,13 +7,35 @@ position. So does the project's own library; the middle of a polygon is its cent
 from __future__ import annotations
 
 from math import cos, sin
+from typing import NamedTuple
 
-from .commonocean_schema import Area, Point
+from ...errors import ScenarioError
+from .commonocean_schema import Area, Point, State
 
-__all__ = ["find_box", "find_middle", "place_box", "place_corners"]
+__all__ = ["Frame", "find_box", "find_middle", "place_box", "place_corners", "read_position"]
 
 Box = tuple[Point, float, float]
 """Middle, length along x, width along y [m]."""
+
+
+class Frame(NamedTuple):
+    """Own ship's position, which is n's origin, the length of a time step [s], and the file's name for messages."""
+
+    origin: Point
+    time_step: float
+    file: str
+
+    def place(self, point: Point) -> tuple[float, float]:
+        """North and east [m]."""
+        return point.y - self.origin.y, point.x - self.origin.x
+
+
+def read_position(state: State, name: str, file: str) -> Point:
+    """The position of a state: a point, or the middle of an area. Raises ScenarioError for a state without one."""
+    middle = None if state.position is None else find_middle(state.position)
+    if middle is None:
+        raise ScenarioError(f"{file}: {name} has no position in its initialState: give a point")
+    return middle
 
 
 def find_middle(area: Area) -> Point | None:

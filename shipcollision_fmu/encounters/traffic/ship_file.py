@@ -50,8 +50,9 @@ def write_ship_file(role: str, size: ShipSize, file: str, remedy: str, sails: bo
     if B >= L:
         raise ScenarioError(f"{file}: {role} is wider than long, width = {B:g} m and length = {L:g} m: check them")
     T = round(B / BREADTH_TO_DRAUGHT, 3) if size.draught is None else size.draught
-    kind, typical = describe_kind(size.kind)
-    C_b = BLOCK_COEFFICIENTS.get(find_ship_type(kind).name, OTHER_BLOCK_COEFFICIENT) if typical else 0.65
+    kind, is_named = describe_kind(size.kind)
+    typical = BLOCK_COEFFICIENTS.get(find_ship_type(kind).name, OTHER_BLOCK_COEFFICIENT)
+    C_b = typical if is_named else OTHER_BLOCK_COEFFICIENT
     draught = f"T = B/{BREADTH_TO_DRAUGHT:g}" if size.draught is None else "draught from the same file"
     estimated = "hull, mass and machinery" if sails else "hull and mass"
     tables: dict[str, dict[str, Any]] = {
