@@ -21,7 +21,7 @@ def blocks(page: str, language: str = "toml") -> list[str]:
 
 
 def test_the_ship_of_the_guide_is_loaded(tmp_path: Path) -> None:
-    ship, least, estimate = blocks("ships.md")
+    ship, least, estimate, *_ = blocks("ships.md")
     path = tmp_path / "mine.toml"
     path.write_text(ship, encoding="utf-8")
     assert load_ship(path).manoeuvring is None
