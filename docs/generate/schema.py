@@ -93,6 +93,7 @@ def _row(place: str, key: str, value: Schema, required: bool, root: Schema) -> t
     schema = _resolved(value, root)
     meaning, unit = _meaning(key, value.get("description", ""), schema)
     default = "required" if required else _default(value.get("default"))
+    default = value.get("without", default)
     if _START in value:
         default = f"`{value[_START]}` (of the FMU)"
     return anchored(key, path), cell(_type(schema, root, path)), unit, cell(_limits(schema)), default, cell(meaning)

@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 
 from ..ship_type import find_ship_type
 from ..tables.hull import MESH_KEYS
-from ..tables.particulars import RHO_SEA
+from ..tables.particulars import RHO_SEA, ShipTable
 
 __all__ = ["complete_dimensions", "estimate_hull", "is_estimable"]
 
@@ -45,6 +45,8 @@ FORMS = {
 }  # fmt: skip
 """By type of ship. With other depths the ship is struck above or below its deck, and KG, GM and windage differ."""
 
+UNSAID: str = ShipTable.model_fields["kind"].default
+
 MMG_TABLES = ("manoeuvring", "propeller", "rudder", "engine")
 
 
@@ -65,6 +67,8 @@ def complete_dimensions(data: Mapping[str, Any]) -> tuple[dict[str, Any], list[s
     if not any(name in data for name in ("hull", *MMG_TABLES)) and "allow_inconsistent" not in p:
         done["manoeuvring"] = {"estimate": True}
     kind, hull = _read_kind(data), data.get("hull", {})
+    if kind == UNSAID and "kind" not in data.get("ship", {}):
+        notes.append(f'[ship] kind = "{UNSAID}" (none is given)')
     L_oa = (_read_numbers(p, "L_oa") or (L,))[0]
     if kind is not None and isinstance(hull, Mapping):
         values, note = estimate_hull(kind, L_oa, T, hull)
@@ -99,8 +103,9 @@ def is_estimable(place: tuple[int | str, ...]) -> bool:
 
 
 def _read_kind(data: Mapping[str, Any]) -> str | None:
-    ship = data.get("ship")
-    kind = ship.get("kind") if isinstance(ship, Mapping) else None
+    """The kind; that of a cargo vessel where none is given, None where it is no text, which validation refuses."""
+    ship = data.get("ship", {})
+    kind = ship.get("kind", UNSAID) if isinstance(ship, Mapping) else None
     return kind if isinstance(kind, str) else None
 
 

@@ -15,7 +15,7 @@ from ..ship_type import find_ship_type
 from ..tables.hull import HullTable
 from ..tables.manoeuvring import EngineTable, ManoeuvringTable, PropellerTable, RudderTable
 from ..tables.particulars import AddedMassTable, ParticularsTable, SeakeepingTable, ShipTable, WindTable
-from ..tables.table import Table
+from ..tables.table import ESTIMATED, Table
 from .consistency import find_contradictions
 from .dimensions_estimate import MMG_TABLES, complete_dimensions, is_estimable
 from .messages import describe_problems, join_problems
@@ -28,10 +28,12 @@ __all__ = ["ShipFile", "validate_ship_file"]
 class ShipFile(Table):
     """A whole ship file."""
 
-    ship: ShipTable = Field(description="the table [ship] with name, kind and source")
-    particulars: ParticularsTable = Field(description="the table [particulars] with L_pp, B, T and mass")
+    ship: ShipTable = Field(default_factory=ShipTable, description="the table [ship] with name, kind and source")
+    particulars: ParticularsTable = Field(description="the table [particulars] with L_pp, B, T, and mass or C_b")
     added_mass: AddedMassTable = Field(default_factory=AddedMassTable, description="the table [added_mass]")
-    hull: HullTable = Field(description='the table [hull], at least shape = "box" and depth')
+    hull: HullTable = Field(
+        description='the table [hull], at least shape = "box" and depth', json_schema_extra=ESTIMATED
+    )
     manoeuvring: ManoeuvringTable | None = None
     propeller: PropellerTable | None = None
     rudder: RudderTable | None = None

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from .table import NotNegative, Positive, Table, Vector
+from .table import ESTIMATED, NotNegative, Positive, Table, Vector
 
 __all__ = ["HullTable"]
 
@@ -21,16 +21,22 @@ MESH_KEYS = frozenset(
 class HullTable(Table):
     """[hull]: the shape that touches other ships. ship/hull/hull.py has a drawing."""
 
-    shape: Literal["parametric", "box", "mesh"] = Field(description='"parametric", "box" or "mesh"')
-    depth: Positive = Field(description="the depth, keel to deck [m]")
-    bow_length: NotNegative = Field(default=0.0, description="the length of the bow from its shoulder to the stem [m]")
+    shape: Literal["parametric", "box", "mesh"] = Field(
+        description='"parametric", "box" or "mesh"; without it, "parametric"', json_schema_extra=ESTIMATED
+    )
+    depth: Positive = Field(description="the depth, keel to deck [m]", json_schema_extra=ESTIMATED)
+    bow_length: NotNegative = Field(
+        default=0.0, description="the length of the bow from its shoulder to the stem [m]", json_schema_extra=ESTIMATED
+    )
     bow_exponent: Annotated[float, Field(ge=1.0, le=10.0)] = Field(
         default=2.0, description="p of the deck line y = B/2 (1 - s^p); from 1, a wedge, to 10, almost blunt"
     )
     stem_rake_deg: Annotated[float, Field(ge=0.0, le=60.0)] = Field(
         default=0.0, description="the stem's rake from the vertical [deg], top forward"
     )
-    stern_length: NotNegative = Field(default=0.0, description="the length over which the stern narrows [m]")
+    stern_length: NotNegative = Field(
+        default=0.0, description="the length over which the stern narrows [m]", json_schema_extra=ESTIMATED
+    )
     stern_exponent: Annotated[float, Field(ge=1.0, le=10.0)] = Field(
         default=2.0, description="p of the stern's deck line; as bow_exponent"
     )

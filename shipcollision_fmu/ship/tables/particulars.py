@@ -10,7 +10,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from .table import NotNegative, Positive, Row, Table, Vector
+from .table import ESTIMATED, NotNegative, Positive, Row, Table, Vector
 
 __all__ = ["RHO_SEA", "AddedMassTable", "ParticularsTable", "SeakeepingTable", "ShipTable", "WindTable", "WindType"]
 
@@ -21,9 +21,12 @@ RHO_SEA = 1025.0
 class ShipTable(Table):
     """[ship]: name and type of the ship, and the source of its numbers."""
 
-    name: str = Field(min_length=1, description="the ship's name")
-    kind: str = Field(min_length=1, description='the ship\'s type, e.g. "bulk carrier"')
-    source: str = Field(min_length=1, description="where every number of the file comes from")
+    name: str = Field(default="ship", min_length=1, description="the ship's name")
+    kind: str = Field(
+        default="cargo vessel", min_length=1,
+        description='the ship\'s type, e.g. "bulk carrier"; hull, machinery and stability are estimated by it',
+    )  # fmt: skip
+    source: str = Field(default="not stated", min_length=1, description="where every number of the file comes from")
     licence: str = Field(default="", description="the licence of the data")
 
 
@@ -34,7 +37,9 @@ class ParticularsTable(Table):
     L_oa: Positive | None = Field(default=None, description="the length over all [m]")
     B: Positive = Field(description="the breadth [m]")
     T: Positive = Field(description="the draught amidships [m]")
-    mass: Positive = Field(description="the displacement [kg] (not the dead-weight); or C_b instead")
+    mass: Positive = Field(
+        description="the displacement [kg] (not the dead-weight); or C_b instead", json_schema_extra=ESTIMATED
+    )
     rho: Positive = Field(default=RHO_SEA, description="the density of the water it floats in [kg/m3]; 1000 in a tank")
     C_b: Positive | None = Field(default=None, description="the block coefficient mass / (rho L_pp B T)")
     r_bg: Vector | None = Field(default=None, description="the centre of gravity from CO in b [x, y, z] [m]")

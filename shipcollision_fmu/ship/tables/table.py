@@ -4,9 +4,13 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, PlainSerializer
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, JsonValue, PlainSerializer
 
-__all__ = ["NotNegative", "Pair", "Positive", "Row", "Table", "Vector"]
+__all__ = ["ESTIMATED", "NotNegative", "Pair", "Positive", "Row", "Table", "Vector"]
+
+ESTIMATED: dict[str, JsonValue] = {"without": "estimated"}
+"""Mark of a key that the main dimensions and the kind give where it is left out (loading/dimensions_estimate.py), for
+the reference page."""
 
 Positive = Annotated[float, Field(gt=0.0)]
 NotNegative = Annotated[float, Field(ge=0.0)]

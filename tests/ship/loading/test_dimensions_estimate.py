@@ -33,6 +33,16 @@ def test_main_dimensions_alone_make_a_ship_with_its_estimates_said() -> None:
         assert word in said
 
 
+def test_four_numbers_are_enough_and_the_kind_is_reported() -> None:
+    ship = load_ship({"particulars": SIZE})
+    assert (ship.name, ship.kind) == ("ship", "cargo vessel")
+    assert '[ship] kind = "cargo vessel" (none is given)' in ship.estimated
+    assert ship.engine is not None
+    named = load_ship({"ship": {"kind": "cargo vessel"}, "particulars": SIZE})
+    assert pytest.approx(ship.M) == named.M
+    assert not any("none is given" in note for note in named.estimated)
+
+
 @pytest.mark.parametrize("size", [{"C_b": None, "mass": 3.2e8}, {"C_b": 0.81}], ids=["mass", "C_b"])
 def test_mass_and_block_coefficient_stand_for_each_other(size: dict[str, Any]) -> None:
     given = {key: value for key, value in {**SIZE, **size}.items() if value is not None}
