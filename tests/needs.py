@@ -14,7 +14,7 @@ import sysconfig
 from collections import defaultdict
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -56,6 +56,11 @@ def find_python(version: str) -> str | None:
     return None
 
 
+def has_python(version: str) -> bool:
+    """Whether there is one."""
+    return find_python(version) is not None
+
+
 _DEBIAN = "apt-get install "
 NEEDS = {
     "chromium": Need(
@@ -71,8 +76,7 @@ NEEDS = {
     ),
     **{
         f"python{version}": Need(
-            f"CPython {version}", lambda version=version: find_python(version) is not None,  # type: ignore[misc]  # mypy: no default in a lambda
-            f"put python{version} on the path",
+            f"CPython {version}", partial(has_python, version), f"put python{version} on the path"
         )
         for version in ("3.12", "3.13")
     },
