@@ -20,8 +20,8 @@ from pathlib import Path
 from time import perf_counter
 
 import numpy as np
-from rich.console import Console
 
+from shipcollision_fmu.cli.console import print_table
 from shipcollision_fmu.cli.table import make_table
 from shipcollision_fmu.collision.geometry.bullet import bullet_module
 from shipcollision_fmu.collision.model import ShipCollision
@@ -170,7 +170,7 @@ def main() -> None:
         ("contact, per substep", contact, beside_contact, 10.0),
     ):
         shown.add_row(case, f"{1e6 * ours:.1f}", f"{1e6 * beside:.1f}", f"{ours / beside:.2f}", f"{goal:g}")
-    Console().print(shown)
+    print_table(shown)
 
 
 main()

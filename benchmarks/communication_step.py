@@ -17,9 +17,8 @@ from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 
-from rich.console import Console
-
 from shipcollision_fmu import load_scenario
+from shipcollision_fmu.cli.console import print_table, say
 from shipcollision_fmu.cli.table import make_table
 from shipcollision_fmu.cosim.component import Buffer, Component, Group, Value
 from shipcollision_fmu.cosim.factories import fmu_factories
@@ -152,10 +151,9 @@ def main() -> None:
     )  # fmt: skip
     for part, value in best["ours"].items():
         shown.add_row(part, f"{value:.1f}", f"{best['empty'][part]:.1f}", f"{value / best['empty'][part]:.2f}")
-    console = Console()
-    console.print(shown)
+    print_table(shown)
     whole = best["ours"]["total"] * scenario.steps / 1e6
-    console.print(f"the whole run: {whole:.2f} s for {scenario.step * scenario.steps:g} s of simulated time")
+    say(f"the whole run: {whole:.2f} s for {scenario.step * scenario.steps:g} s of simulated time")
 
 
 main()

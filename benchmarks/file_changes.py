@@ -18,10 +18,9 @@ from pathlib import Path
 from types import FrameType
 from typing import Any
 
-from rich.console import Console
-
 import shipcollision_fmu
 from shipcollision_fmu import load_scenario, simulate
+from shipcollision_fmu.cli.console import print_table
 from shipcollision_fmu.cli.table import make_table
 from shipcollision_fmu.collision.model import ShipCollision
 
@@ -82,7 +81,7 @@ def main() -> None:
     shown = make_table("from", "into", "function", ">changes", title=f"file changes: {sum(changes.values())}")
     for (source, target, name), number in changes.most_common():
         shown.add_row(source, target, name, str(number))
-    Console().print(shown)
+    print_table(shown)
 
 
 if __name__ == "__main__":

@@ -15,8 +15,7 @@ import sys
 from math import cos, log, pi, sin
 from time import perf_counter
 
-from rich.console import Console
-
+from shipcollision_fmu.cli.console import print_table, say
 from shipcollision_fmu.cli.table import make_table
 from shipcollision_fmu.collision.geometry.broad_phase import near_pairs
 from shipcollision_fmu.collision.model import ShipCollision
@@ -67,12 +66,11 @@ def main() -> None:
     shown = make_table(">ships", ">step [us]", ">per ship [us]", ">of which broad phase [us]", title="harbour")
     for n in counts:
         shown.add_row(str(n), f"{1e6 * best[n]:.0f}", f"{1e6 * best[n] / n:.1f}", f"{1e6 * broad[n]:.0f}")
-    console = Console()
-    console.print(shown)
+    print_table(shown)
     x, y = [log(n) for n in counts], [log(best[n]) for n in counts]
     mx, my = sum(x) / len(x), sum(y) / len(y)
     slope = sum((a - mx) * (b - my) for a, b in zip(x, y, strict=True)) / sum((a - mx) ** 2 for a in x)
-    console.print(f"cost of a step ~ number^{slope:.2f} (goal: at most 1.2)")
+    say(f"cost of a step ~ number^{slope:.2f} (goal: at most 1.2)")
     for model in models.values():
         model.close()
 

@@ -16,8 +16,8 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
-from rich.console import Console
 
+from shipcollision_fmu.cli.console import print_table
 from shipcollision_fmu.cli.table import make_table
 
 L, B, T, DEPTH = 140.0, 22.0, 8.0, 13.0
@@ -127,7 +127,7 @@ def main(sizes: list[int]) -> None:
             )
         seconds = f"{float(first[0]):.1f}", f"{float(second[0]):.2f}"
         table.add_row(str(len(mesh[1])), *seconds, first[1], first[2], f"{100 * float(first[3]):.2f}")
-    Console().print(table)
+    print_table(table)
 
 
 if __name__ == "__main__":

@@ -9,25 +9,23 @@ from textwrap import wrap
 from time import monotonic
 
 import click
-from rich.console import Console, RenderableType
+from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
-__all__ = ["console", "print_table", "progress", "say"]
+from .table import WordTable
+
+__all__ = ["print_table", "progress", "say"]
 
 PLAIN_WIDTH = 110
-"""Characters in a line when stdout is not a terminal: wide enough for every table here."""
+"""Characters in a line when stdout is not a terminal; wider tables have longer lines."""
 PLAIN_PAUSE = 2.0
 """Time [s] between lines of progress when stderr is not a terminal: a short run prints none."""
 
 
-def console() -> Console:
-    """The console for tables on stdout."""
-    return Console() if sys.stdout.isatty() else Console(width=PLAIN_WIDTH)
-
-
-def print_table(table: RenderableType) -> None:
-    """A table on stdout; a line that is longer than the terminal is not cut off."""
-    console().print(table, crop=False)
+def print_table(table: WordTable) -> None:
+    """A table on stdout, as wide as the terminal allows. A file has no width: there every column is shown."""
+    console = Console() if sys.stdout.isatty() else Console(width=max(PLAIN_WIDTH, table.least_width))
+    console.print(table, crop=False)
 
 
 def say(text: str, err: bool = False) -> None:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import click
 from rich.markup import escape
-from rich.table import Table
 
 from .console import print_table, say
 from .options import SHIP
+from .table import WordTable, make_table
 
 __all__ = ["scenarios", "ships"]
 
@@ -39,9 +39,8 @@ def ships(name: str | None) -> None:
         say(f"  {line}")
 
 
-def _list_ships() -> Table:
+def _list_ships() -> WordTable:
     from ..ship.loading.library import list_ship_names, load_ship
-    from .table import make_table
 
     table = make_table(
         "name", "kind", ">L_pp [m]", ">B [m]", ">T [m]", ">mass [t]", "under way", optional=("kind", "T", "B")
@@ -58,7 +57,6 @@ def _list_ships() -> Table:
 def scenarios() -> None:
     """List the shipped scenarios."""
     from ..scenario.scenario import list_scenario_names, load_scenario
-    from .table import make_table
 
     table = make_table("name", "ships", ">duration [s]", ">step [s]", "description")
     for name in list_scenario_names():

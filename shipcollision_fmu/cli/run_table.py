@@ -6,10 +6,8 @@ from collections.abc import Iterator
 from math import degrees, hypot
 from typing import TYPE_CHECKING, Any
 
-from rich.table import Table
-
 from ..fmi.names import VELOCITY, named
-from .table import make_table
+from .table import WordTable, make_table
 
 if TYPE_CHECKING:
     from ..cosim.run import Run
@@ -20,7 +18,7 @@ LARGE_HEEL = 30.0
 """[deg] Heel from which a coasting ship is unrealistic: real ships right themselves."""
 
 
-def make_run_tables(run: Run) -> Iterator[Table]:
+def make_run_tables(run: Run) -> Iterator[WordTable]:
     """The comparison with published numbers where there are any, else collisions and ships with their ledger."""
     if "paper" in run.summary:
         yield make_comparison_table(run.summary)
@@ -66,7 +64,7 @@ def _warn_of_heel(run: Run) -> Iterator[str]:
             )
 
 
-def make_comparison_table(summary: dict[str, Any]) -> Table:
+def make_comparison_table(summary: dict[str, Any]) -> WordTable:
     """Table of published and computed numbers; a star marks a printed number that had to be corrected."""
     reference = summary["reference"]
     rows = make_table(
@@ -88,7 +86,7 @@ def make_comparison_table(summary: dict[str, Any]) -> Table:
     return rows
 
 
-def _make_collision_table(collisions: list[dict[str, Any]]) -> Table:
+def _make_collision_table(collisions: list[dict[str, Any]]) -> WordTable:
     rows = make_table(
         "ships", ">start [s]", ">end [s]", ">closing [m/s]", ">angle [deg]", ">impulse [MN s]", ">energy [MJ]",
         ">delta v [m/s]", title="collisions", optional=("end", "delta v"),
@@ -103,7 +101,7 @@ def _make_collision_table(collisions: list[dict[str, Any]]) -> Table:
     return rows
 
 
-def _make_ship_table(run: Run) -> Table:
+def _make_ship_table(run: Run) -> WordTable:
     """Table of speed, surge (negative astern) and heading before and after, and of pending impulses."""
     rows = make_table(
         "ship", ">speed [m/s]", ">surge [m/s]", ">heading [deg]", ">impulse pending [MN s]", title="ships",

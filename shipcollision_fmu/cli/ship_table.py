@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from math import isnan
 
-from rich.table import Table
-
 from ..manoeuvring.trials.ship_summary import ShipSummary
-from .table import make_table
+from .table import WordTable, make_table
 
 __all__ = ["make_ship_table"]
 
 
-def make_ship_table(summary: ShipSummary) -> Table:
+def make_ship_table(summary: ShipSummary) -> WordTable:
     """Table of a ship's figures; a figure that the ship has not is '-'."""
     ship = summary.ship
     rows = make_table("figure", ">value", "unit", title=f"{ship.name}, {ship.kind}")

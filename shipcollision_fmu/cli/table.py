@@ -31,9 +31,18 @@ class WordTable(Table):
     optional: Sequence[str] = ()
     """Headings of columns that a narrow terminal may leave out, the first one first."""
 
+    @property
+    def least_width(self) -> int:
+        """Characters that a terminal needs for all columns."""
+        cells = self._plain_cells()
+        return _least(cells, list(range(len(cells))))
+
+    def _plain_cells(self) -> list[list[str]]:
+        """The texts of each column, its heading first."""
+        return [[str(column.header), *map(_plain, column._cells)] for column in self.columns]
+
     def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
-        room = options.max_width
-        cells = [[str(column.header), *map(_plain, column._cells)] for column in self.columns]
+        room, cells = options.max_width, self._plain_cells()
         kept = list(range(len(cells)))
         missing: list[str] = []
         for heading in self.optional:

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from dataclasses import fields
 
-from rich.table import Table
-
 from ..manoeuvring.trials.steady_course import SteadyCourse
 from ..manoeuvring.trials.trial import Figure, Moment, Trial
-from .table import make_table
+from .table import WordTable, make_table
 
 __all__ = ["format_track_csv", "make_trial_table"]
 
@@ -16,7 +14,7 @@ SHORTEST = 100.0
 """[m] IMO's standards apply to ships of this length and more."""
 
 
-def make_trial_table(start: SteadyCourse, trial: Trial) -> Table:
+def make_trial_table(start: SteadyCourse, trial: Trial) -> WordTable:
     """Table of a trial's figures with IMO's limits."""
     rows = make_table(
         "figure", ">value", "unit", ">IMO limit", "",
