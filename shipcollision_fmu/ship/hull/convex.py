@@ -10,12 +10,22 @@ import numpy.typing as npt
 
 from ..frames import Array
 
-__all__ = ["CONVEX_WITHIN", "Indices", "enclosed_volume", "half_spaces", "has_flat_triangles", "is_convex"]
+__all__ = [
+    "CONVEX_WITHIN",
+    "LEAST_VOLUME",
+    "Indices",
+    "enclosed_volume",
+    "half_spaces",
+    "has_flat_triangles",
+    "is_convex",
+]
 
 Indices = npt.NDArray[np.int64]
 
 CONVEX_WITHIN = 1e-3
 """A vertex may lie this far [m] before a face of a mesh that still counts as convex."""
+LEAST_VOLUME = 0.01
+"""Volume over that of the box around it below which a mesh is no solid: a ship has 0.4 to 0.9."""
 _SAME_PLANE = 1e-6
 """Difference of a unit normal's components, and of the offset over the solid's size, up to which planes are one."""
 _AT_ONCE = 4_000_000

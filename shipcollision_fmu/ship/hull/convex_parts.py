@@ -31,6 +31,9 @@ dozens of parts, which takes half a minute and makes contact slow."""
 ITERATIONS, FEWER_ITERATIONS, MANY_FACES = 150, 60, 1000
 """CoACD's search for each cut, and that for a solid of more than MANY_FACES. With 150, 2 100 faces take 10 s of CPU
 instead of 5; the parts hold the same volume to 0.1 %."""
+FINE_FACES = 4000
+"""Faces up to which a solid is cut more finely than at the first of CONCAVITIES. 12 000 faces (700 boxes on a deck)
+take a minute at the first and several at the second."""
 SEED = 1
 LONGEST_CUTTING = 180.0
 """Time [s] after which the cutting is ended and the mesh refused. A simplified hull takes 10 s of CPU."""
@@ -121,7 +124,7 @@ def _cut_solid(name: str, solid: Part, max_parts: int) -> Cut:
     )
     end = monotonic() + LONGEST_CUTTING
     goal = BULGE_GOAL * float(np.ptp(solid[0][:, 1]))
-    for threshold in CONCAVITIES:
+    for threshold in CONCAVITIES if len(solid[1]) <= FINE_FACES else CONCAVITIES[:1]:
         if best is not None:
             _log.warning(
                 "%s: its %d parts bulge by %.2g m, more than %.2g m: it is cut more finely, for at most %.0f s more",

@@ -26,6 +26,8 @@ from .child_process import Arrays, read_arrays, write_arrays
 from .convex import Indices, has_flat_triangles
 from .self_crossing import find_crossings
 
+MOST_CHECKED = 50_000
+"""Triangles up to which it is looked whether a surface passes through itself, which takes 3 s then."""
 MOST_PAIRS = 5000
 """Pairs of surfaces of which it is looked where they pass through each other, for the message alone."""
 NOTHING_UNITED = {
@@ -52,6 +54,9 @@ def _unite(manifold: Any, given: Arrays) -> dict[str, Any]:
     else:
         solid, said = _unite_closed(manifold, given["vertices"], given["triangles"])
     own_volume, deviation = solid.volume(), 0.0
+    crossings = np.empty((0, 3))
+    if not given["convex"] and solid.num_tri() <= MOST_CHECKED:  # simplified surfaces may cross where they were folded
+        crossings = find_crossings(*_unpack(solid))
     solid = solid.simplify(float(given["clean"]))
     for step in given["steps"].tolist():
         if solid.num_tri() > int(given["most_faces"]):
@@ -61,7 +66,6 @@ def _unite(manifold: Any, given: Arrays) -> dict[str, Any]:
         solid = solid.hull()
     vertices, triangles = _unpack(solid)
     is_plain = said["shells"] == 1 and not said["cavities"] and deviation == 0.0 and _has_plain_faces(given)
-    crossings = np.empty((0, 3)) if given["convex"] else find_crossings(vertices, triangles)
     return {
         "vertices": vertices, "triangles": triangles, "deviation": deviation, "own_volume": own_volume,
         "is_plain": is_plain, "crossings": crossings, **said,

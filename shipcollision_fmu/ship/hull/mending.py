@@ -18,7 +18,7 @@ import numpy.typing as npt
 from ...errors import HostError, ShipError
 from ..frames import Array
 from .child_process import OutOfTimeError, ProgramError, run_program
-from .convex import Indices, enclosed_volume
+from .convex import LEAST_VOLUME, Indices, enclosed_volume
 
 __all__ = ["Mended", "close_surface", "describe_place", "join_same_vertices"]
 
@@ -28,6 +28,8 @@ WELD = 1e-5
 """Distance over the mesh's length within which vertices of open edges are joined unless the ship file states one."""
 LARGEST_WELD = 1e-3
 """Distance over the mesh's length up to which it is tried whether joining closes the surface, for the message."""
+MOST_OPEN_EDGES = 20_000
+"""Open edges up to which it is looked for seams and for a remedy. A file of loose triangles has more, and no remedy."""
 LONGEST_FILLING = 60.0
 """Time [s] after which the closing of holes is ended."""
 DIRECTION = np.array([0.4142135, 0.7320508, 0.5403023])
@@ -76,7 +78,12 @@ def close_surface(name: str, mesh: Mended, metres: float, weld: float | None, fi
     are closed. Raises ShipError with a place when the surface cannot be closed, or is none.
     """
     distance = WELD * _measure_length(mesh.vertices) if weld is None else weld / metres
-    mesh = _close_seams(_weld(_drop_doubled(mesh), distance), distance)
+    mesh = _weld(_drop_doubled(mesh), distance)
+    is_loose = int((_find_edges(mesh).count == 1).sum()) > MOST_OPEN_EDGES
+    if is_loose and not fill:
+        raise ShipError(_describe_loose(name, mesh))
+    if not is_loose:
+        mesh = _close_seams(mesh, distance)
     if loops := _find_loops(mesh):
         if not fill:
             raise ShipError(_describe_holes(name, mesh, loops, distance, metres))
@@ -291,7 +298,8 @@ def _describe_holes(name: str, mesh: Mended, loops: list[Loop], distance: float,
     try:
         filled = _fill_holes(name, mesh, loops)
         _check_oriented(name, filled)
-        if abs(enclosed_volume(filled.vertices, filled.triangles)) > 0.0:
+        box = float(np.prod(np.ptp(filled.vertices, axis=0)))
+        if abs(enclosed_volume(filled.vertices, filled.triangles)) > LEAST_VOLUME * box:
             remedies.append("fill_holes = true")
     except (ShipError, HostError):
         pass
@@ -299,6 +307,18 @@ def _describe_holes(name: str, mesh: Mended, loops: list[Loop], distance: float,
     return (
         f"{name}: is not closed: {sum(map(len, loops))} open edges around {len(loops)} holes, the largest "
         f"{_describe_loop(mesh, _find_largest(mesh, loops))}: set {', or '.join(remedies)}"
+    )
+
+
+def _describe_loose(name: str, mesh: Mended) -> str:
+    """A surface with so many open edges that no remedy is looked for."""
+    edges = _find_edges(mesh)
+    is_open = edges.count == 1
+    place = describe_place(mesh.vertices[edges.directed[int(np.argmax(is_open))]].mean(axis=0))
+    return (
+        f"{name}: is not closed: {int(is_open.sum())} open edges, one at {place} in the file, as of loose triangles: "
+        "join them in the program that made the file (merge by distance), or set weld to the distance between them, or "
+        "convex_hull = true"
     )
 
 

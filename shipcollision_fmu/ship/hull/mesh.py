@@ -88,9 +88,12 @@ def _prepare(path: Path, L_oa: float, B: float, T: float, table: HullTable) -> K
 
 
 def _mend(name: str, mesh: Mended, frame: FileFrame, table: HullTable) -> tuple[Mended, bool]:
-    """The mesh and whether it is closed: a convex hull is also that of a mesh which is not."""
+    """The mesh and whether it is closed: a convex hull is also that of a mesh which is not.
+
+    Its holes are closed where they can be, for only then is it known what the convex hull adds.
+    """
     try:
-        return close_surface(name, mesh, frame.metres, table.weld, table.fill_holes), True
+        return close_surface(name, mesh, frame.metres, table.weld, table.fill_holes or table.convex_hull), True
     except ShipError:
         if not table.convex_hull:
             raise

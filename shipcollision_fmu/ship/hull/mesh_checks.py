@@ -69,6 +69,15 @@ def check_axes(name: str, placed: Array, L_oa: float, B: float, frame: FileFrame
                 f'"{frame.up}" it is {x:.6g} m long and {y:.6g} m broad, not L_oa = {L_oa:.6g} and B = {B:.6g} m: set '
                 f'forward = "+{forward}" or "-{forward}" and up = "+{up}" or "-{up}"'
             )
+    if (
+        _is_alike(x, L_oa)
+        and _is_alike(2.0 * y, B)
+        and min(abs(placed[:, 1].min()), abs(placed[:, 1].max())) < 0.02 * B
+    ):
+        raise ShipError(
+            f"{name}: is {y:.6g} m broad on one side of the centreline, and B = {B:.6g} m: looks like half a hull; "
+            "mirror it in the program that made the file"
+        )
     raise ShipError(
         f"{name}: is {x:.6g} m long, {y:.6g} m broad and {z:.6g} m high, and L_oa = {L_oa:.6g} m, B = {B:.6g} m: at "
         f"most {SIZE_TOLERANCE:.0%} apart; correct the mesh or [particulars]"
@@ -125,7 +134,7 @@ def _doubt_place(placed: Array, T: float, depth: float, frame: FileFrame) -> lis
 
 
 def _doubt_forward(placed: Array, triangles: Indices, frame: FileFrame) -> list[str]:
-    """The finer end in plan is the bow, or where both are as broad (a raked bow), that of the smaller sections."""
+    """The bow is the end that is finer in plan and has the smaller sections; where both are as broad, the latter."""
     low, high = float(placed[:, 0].min()), float(placed[:, 0].max())
     at = ((np.arange(STATIONS) + 0.5) / STATIONS * END * (high - low)).tolist()
     fore, aft = (
@@ -133,7 +142,7 @@ def _doubt_forward(placed: Array, triangles: Indices, frame: FileFrame) -> list[
         for end, side in ((high, -1.0), (low, 1.0))
     )
     which = 0 if abs(fore[0] / aft[0] - 1.0) > SAME_BREADTH else 1
-    if fore[which] <= FULLER_END * aft[which]:
+    if fore[which] <= FULLER_END * aft[which] or fore[1] <= aft[1]:
         return []
     other = f"{'-' if frame.forward[0] == '+' else '+'}{frame.forward[1]}"
     what = ("m broad", "m2 in section")[which]

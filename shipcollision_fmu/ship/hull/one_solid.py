@@ -14,7 +14,7 @@ import numpy as np
 from ...errors import HostError, ShipError, describe_installation
 from ..frames import Array
 from .child_process import Arrays, OutOfTimeError, ProgramError, run_program
-from .convex import CONVEX_WITHIN, Indices, enclosed_volume, has_flat_triangles, is_convex
+from .convex import CONVEX_WITHIN, LEAST_VOLUME, Indices, enclosed_volume, has_flat_triangles, is_convex
 from .file_frame import FileFrame
 from .mending import describe_place
 
@@ -26,8 +26,6 @@ STEPS = (0.0025, 0.005, 0.01)
 """Distances over B by which simplification may move the surface: the next is tried where faces are still too many."""
 CLEAN = 1e-6
 """Distance over the length within which triangles without area are dissolved."""
-LEAST_VOLUME = 0.01
-"""Volume over that of the box around it below which a mesh is no solid: a ship has 0.4 to 0.9."""
 LONGEST = 60.0
 """Time [s] after which the work is ended and the mesh refused. 140 000 faces take 2 s."""
 

@@ -15,25 +15,27 @@ __all__ = ["find_crossings"]
 
 MARGIN = 1e-6
 """Distance from an end or a border, as a fraction, within which an edge touches and does not pierce."""
-AT_ONCE = 2_000_000
-"""Pairs of an edge and a triangle whose boxes are compared in one go."""
+AT_ONCE = 256
+"""Edges whose boxes are compared with those of the triangles near them in one go."""
 
 
 def find_crossings(vertices: Array, triangles: Indices) -> Array:
     """Points (k, 3) at which an edge of the mesh passes through a triangle of it."""
     edges = np.unique(np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1), axis=0)
+    edges = edges[np.argsort(vertices[edges, 0].min(axis=1), kind="stable")]  # neighbours along x in one go
     corners, ends = vertices[triangles], vertices[edges]
     low, high = corners.min(axis=1), corners.max(axis=1)
-    edge_low, edge_high = ends.min(axis=1), ends.max(axis=1)
     found = [np.empty((0, 3))]
-    rows = max(1, AT_ONCE // len(triangles))
-    for i in range(0, len(edges), rows):
-        near = np.ones((len(edge_low[i : i + rows]), len(triangles)), dtype=bool)
+    for i in range(0, len(edges), AT_ONCE):
+        rows = slice(i, i + AT_ONCE)
+        edge_low, edge_high = ends[rows].min(axis=1), ends[rows].max(axis=1)
+        own = np.flatnonzero(((low < edge_high.max(axis=0)) & (high > edge_low.min(axis=0))).all(axis=1))
+        near = np.ones((len(edge_low), len(own)), dtype=bool)
         for axis in range(3):
-            near &= edge_low[i : i + rows, axis, None] < high[:, axis]
-            near &= edge_high[i : i + rows, axis, None] > low[:, axis]
-        edge, triangle = np.nonzero(near)
-        edge += i
+            near &= edge_low[:, axis, None] < high[own, axis]
+            near &= edge_high[:, axis, None] > low[own, axis]
+        edge, place = np.nonzero(near)
+        edge, triangle = edge + i, own[place]
         apart = (edges[edge][:, :, None] != triangles[triangle][:, None, :]).all(axis=(1, 2))
         found.append(_pierce(ends[edge[apart]], corners[triangle[apart]]))
     return np.concatenate(found)

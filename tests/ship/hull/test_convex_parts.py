@@ -9,6 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from shipcollision_fmu.errors import HostError, ShipError
@@ -77,6 +78,22 @@ def test_convex_pieces_are_parts_as_they_are(monkeypatch: pytest.MonkeyPatch) ->
     assert given == [(20, 2), (44, 2)]
     assert len(cut_into_convex_parts("bar.obj", *together(*boxes), 4).parts) == 2
     assert len(given) == 2
+
+
+@pytest.mark.parametrize(("faces", "times"), [(20, 2), (19, 1)])
+def test_a_solid_of_many_faces_is_cut_once(monkeypatch: pytest.MonkeyPatch, faces: int, times: int) -> None:
+    """The bar has 20 faces."""
+    runs = []
+
+    def run(program: str, arguments: tuple[float, ...], *_: Any) -> dict[str, Any]:
+        runs.append(arguments[0])
+        return {"count": np.array(1), "v0": BAR[0], "t0": BAR[1]}
+
+    monkeypatch.setattr(convex_parts, "FINE_FACES", faces)
+    monkeypatch.setattr(convex_parts, "BULGE_GOAL", -1.0)
+    monkeypatch.setattr(convex_parts, "run_program", run)
+    cut_into_convex_parts("bar.obj", *BAR, 4)
+    assert runs == list(convex_parts.CONCAVITIES[:times])
 
 
 def test_cutting_ends_in_time(cut: Cutter, monkeypatch: pytest.MonkeyPatch) -> None:

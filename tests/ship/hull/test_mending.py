@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from shipcollision_fmu.errors import ShipError
+from shipcollision_fmu.ship.hull import mending
 from tests.ship.hull.mesh_files import BOX, DEPTH, L_OA, SHIP, B, box, read, together
 
 VOLUME = L_OA * B * DEPTH
@@ -139,19 +140,32 @@ def test_several_holes_are_counted_and_closed(tmp_path: Path) -> None:
     assert read(tmp_path, BOX.vertices, shell, fill_holes=True).volume == pytest.approx(VOLUME)
 
 
-def test_a_hole_that_is_no_polygon_is_refused_with_its_place(tmp_path: Path) -> None:
+def eight() -> tuple[np.ndarray, np.ndarray]:
     """A fan over a loop that crosses itself, seen from anywhere."""
     s = 2 * np.pi * (np.arange(24) + 0.3) / 24
     ring = np.column_stack([100 * np.cos(s), 15 * np.sin(2 * s), 10 * np.cos(3 * s)])  # a figure of eight
-    vertices = np.vstack([ring, [[0.0, 0.0, 10.0]]])
-    fan = np.array([(i, (i + 1) % 24, 24) for i in range(24)])
-    with pytest.raises(
-        ShipError, match=r"the hole .* across around \(.*\) in the file is not a simple polygon, and fi"
-    ):
-        read(tmp_path, vertices, fan, fill_holes=True)
-    message = refusal(tmp_path, vertices, fan)
+    return np.vstack([ring, [[0.0, 0.0, 10.0]]]), np.array([(i, (i + 1) % 24, 24) for i in range(24)])
+
+
+def test_a_hole_that_is_no_polygon_is_refused_with_its_place(tmp_path: Path) -> None:
+    with pytest.raises(ShipError, match=r"the hole .* across around \(.*\) in the file is not a simple polygon, and"):
+        read(tmp_path, *eight(), fill_holes=True)
+    message = refusal(tmp_path, *eight())
     assert "fill_holes" not in message
     assert "convex_hull = true" in message
+
+
+def test_loose_triangles_are_refused_without_a_search(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Hundreds of thousands of open edges took minutes to be refused."""
+    monkeypatch.setattr(mending, "MOST_OPEN_EDGES", 30)
+    monkeypatch.setattr(mending, "_find_closing_weld", None)
+    loose = (
+        BOX.vertices[BOX.triangles].reshape(-1, 3) + np.repeat(np.eye(3), 12, axis=0) * 0.03 * np.arange(36)[:, None]
+    )
+    triangles = np.arange(36).reshape(-1, 3)
+    message = refusal(tmp_path, loose, triangles)
+    assert re.search(r"is not closed: 36 open edges, one at \(.*\) in the file, as of loose triangles: join", message)
+    assert read(tmp_path, BOX.vertices[BOX.triangles].reshape(-1, 3), triangles).volume == pytest.approx(VOLUME)
 
 
 # -- convex hull ------------------------------------------------------------------------------------
@@ -172,6 +186,9 @@ def test_a_convex_hull_says_what_it_adds(tmp_path: Path, caplog: pytest.LogCaptu
 
 
 def test_a_convex_hull_needs_no_closed_surface(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    """Where its holes can be closed, it is known what the hull adds."""
     got = read(tmp_path, BOX.vertices, BOX.triangles[3:], convex_hull=True)
     assert got.volume == pytest.approx(VOLUME)
+    assert "adds 0 m3 to the mesh's 1.2e+05 m3 (0.0%)" in said(caplog)
+    assert len(read(tmp_path, *eight(), convex_hull=True).parts) == 1
     assert "how much that adds is not known, for the mesh is not closed" in said(caplog)

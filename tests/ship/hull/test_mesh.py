@@ -142,6 +142,8 @@ REFUSED: list[tuple[dict[str, Any], str]] = [
      r"\+z\" it is 30 m long and 200 m broad, not L_oa = 200 and B = 30 m: set forward = \"\+x\" or \"-x\" and up"),
     ({"up": "+y"}, r"200 m long and 20 m broad, .* set forward = .* and up = \"\+z\" or \"-z\"$"),
     ({"change": lambda v: v * [1, 2, 1]}, r"is 200 m long, 60 m broad and 20 m high, and L_oa = 200 m, B = 30 m"),
+    ({"change": lambda v: v * [1, 0.5, 1] + [0, 7.5, 0]}, r"is 15 m broad on one side of the centreline, and B = 30 m: "
+     r"looks like half a hull; mirror it in the program that made the file$"),
     ({"change": lambda v: v + [100, 0, 0]}, r"its middle lies 100 m forward of CO, at most 20 m: set origin to"),
     ({"change": lambda v: v + [0, 15, 0]}, r"its middle lies -15 m to starboard of CO, at most 1.5 m: set origin"),
     ({"change": lambda v: v + [0, 0, 10]}, r"its lowest point lies 0 m below CO, and the draught is T = 10 m: set or"),

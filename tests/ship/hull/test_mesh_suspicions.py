@@ -77,6 +77,21 @@ def test_a_raked_bow_as_broad_as_the_stern_is_told_by_its_sections(
     assert record.getMessage().endswith('set forward = "+x"')
 
 
+def test_a_broad_bow_with_the_smaller_sections_is_one(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    """A flared bow, at the deck broader than the stern, and finer by its sections."""
+    moved = RAKED.copy()
+    moved[:4, 1] *= 0.7  # the stern, broad 14 m
+    moved[4:6, 1] *= 0.1  # the bow at the keel
+    (tmp_path / "hull.obj").write_text(obj(moved, RAKED_FACES))
+    for forward in ("+x", "-x"):
+        table = HullTable(
+            shape="mesh", depth=8.0, file=str(tmp_path / "hull.obj"), origin=[0.0, 0.0, 4.0], forward=forward,
+            convex_hull=True,
+        )  # fmt: skip
+        build_mesh_hull(100.0, 20.0, 4.0, table)
+        assert not any(" points to its fuller end " in record.getMessage() for record in caplog.records)
+
+
 def test_ends_that_are_alike_are_not_told_apart(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
     assert warnings_of(tmp_path, caplog, BOX.vertices, BOX.triangles, forward="-x") == []
 
