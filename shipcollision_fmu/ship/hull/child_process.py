@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Mapping
+from importlib.util import find_spec
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -18,9 +19,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ...errors import HostError
+from ...errors import HostError, describe_installation
 
-__all__ = ["Arrays", "OutOfTimeError", "ProgramError", "read_arrays", "run_program", "write_arrays"]
+__all__ = ["Arrays", "OutOfTimeError", "ProgramError", "check_installed", "read_arrays", "run_program", "write_arrays"]
 
 Arrays = dict[str, npt.NDArray[Any]]
 
@@ -54,6 +55,14 @@ def run_program(program: str, arguments: tuple[object, ...], given: Mapping[str,
         if done.returncode != 0 or not files[1].is_file():
             raise ProgramError((done.stderr.strip().splitlines()[-1:] or [f"exit status {done.returncode}"])[0])
         return read_arrays(files[1].read_bytes())
+
+
+def check_installed(package: str, purpose: str) -> None:
+    """Raise HostError, with the remedy, when a package that a program needs is missing."""
+    if find_spec(package) is None:
+        raise HostError(
+            f"{package} cannot be imported (it is not installed), and {purpose}: {describe_installation('mesh')}"
+        )
 
 
 def _find_interpreter() -> str:

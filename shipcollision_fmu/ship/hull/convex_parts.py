@@ -9,14 +9,13 @@ from __future__ import annotations
 import logging
 from collections.abc import Sequence
 from dataclasses import dataclass
-from importlib.util import find_spec
 from time import monotonic
 
 import numpy as np
 
-from ...errors import HostError, ShipError, describe_installation
+from ...errors import HostError, ShipError
 from ..frames import Array
-from .child_process import OutOfTimeError, ProgramError, run_program
+from .child_process import OutOfTimeError, ProgramError, check_installed, run_program
 from .convex import CONVEX_WITHIN, Indices, enclosed_volume, half_spaces, is_convex
 
 __all__ = ["VOLUME_TOLERANCE", "Cut", "Part", "cut_into_convex_parts"]
@@ -61,11 +60,7 @@ def cut_into_convex_parts(name: str, vertices: Array, triangles: Indices, max_pa
     """
     if is_convex(vertices, triangles, CONVEX_WITHIN):
         return Cut(((vertices, triangles),))
-    if find_spec("coacd") is None:
-        raise HostError(
-            "coacd cannot be imported (it is not installed), and a hull that is not convex is cut into parts with it: "
-            f"{describe_installation('mesh')}"
-        )
+    check_installed("coacd", "a hull that is not convex is cut into parts with it")
     cut = _cut_pieces(name, (vertices, triangles), max_parts)
     if cut.volume_error > VOLUME_TOLERANCE:
         raise ShipError(

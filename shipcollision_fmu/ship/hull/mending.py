@@ -17,10 +17,10 @@ import numpy.typing as npt
 
 from ...errors import HostError, ShipError
 from ..frames import Array
-from .child_process import OutOfTimeError, ProgramError, run_program
+from .child_process import OutOfTimeError, ProgramError, check_installed, run_program
 from .convex import LEAST_VOLUME, Indices, enclosed_volume
 
-__all__ = ["Mended", "close_surface", "describe_place", "join_same_vertices"]
+__all__ = ["Mended", "close_surface", "count", "describe_place", "join_same_vertices"]
 
 SAME_PLACE = 1e-7
 """Distance over the mesh's length within which vertices are one: numbers of 32 bits are not exact to more."""
@@ -97,6 +97,11 @@ def describe_place(point: Array) -> str:
     return "({:.6g}, {:.6g}, {:.6g})".format(*point.tolist())
 
 
+def count(number: int, noun: str) -> str:
+    """A number of things as text: 1 hole, 2 holes."""
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+
+
 def _measure_length(vertices: Array) -> float:
     return max(float(np.ptp(vertices, axis=0).max()), 1e-300)
 
@@ -140,7 +145,7 @@ def _drop_doubled(mesh: Mended) -> Mended:
     _, first = np.unique(group[alike], return_index=True)
     kept = np.sort(alike[first])
     vertices, left = _keep_used(mesh.vertices, triangles[kept])
-    note = f"{len(triangles) - len(kept)} of {len(triangles)} faces are given twice: dropped"
+    note = f"{count(len(triangles) - len(kept), 'face')} of {len(triangles)}, given twice, dropped"
     return replace(mesh, vertices=vertices, triangles=left, notes=(*mesh.notes, note))
 
 
@@ -156,7 +161,7 @@ def _weld(mesh: Mended, distance: float) -> Mended:
     if moved == 0:
         return mesh
     vertices, triangles = _keep_used(mesh.vertices, joined[mesh.triangles])
-    note = f"{moved} vertices of open edges are joined with others at most {distance:.3g} away (in the file's unit)"
+    note = f"vertices of open edges at most {distance:.3g} (in the file's unit) from others joined with them: {moved}"
     return _drop_doubled(Mended(vertices, triangles, (*mesh.notes, note)))
 
 
@@ -244,7 +249,7 @@ def _close_seams(mesh: Mended, distance: float) -> Mended:
     if not seams:
         return mesh
     fans = [np.column_stack([np.full(len(loop) - 2, loop[0]), loop[1:-1], loop[2:]]) for loop in seams if len(loop) > 2]
-    note = f"{len(seams)} seams, where vertices of one face lie on the edge of another, are closed"
+    note = f"{count(len(seams), 'seam')} closed, where vertices of one face lie on the edge of another"
     return replace(mesh, triangles=np.vstack([mesh.triangles, *fans]), notes=(*mesh.notes, note))
 
 
@@ -259,6 +264,7 @@ def _is_seam(points: Array, distance: float) -> bool:
 
 def _fill_holes(name: str, mesh: Mended, loops: list[Loop]) -> Mended:
     """The mesh with every hole closed by triangles between its own vertices. Raises ShipError with a place."""
+    check_installed("manifold3d", "holes are closed with it")
     given = {
         "points": mesh.vertices[np.concatenate(loops)], "sizes": np.array([len(loop) for loop in loops])
     }  # fmt: skip
@@ -272,7 +278,7 @@ def _fill_holes(name: str, mesh: Mended, loops: list[Loop]) -> Mended:
                 f"{name}: the hole {_describe_loop(mesh, loop)} is not a simple polygon, and fill_holes = true cannot "
                 "close it: close it in the program that made the file, or set convex_hull = true"
             )
-    note = f"{len(loops)} holes are closed, the largest {_describe_loop(mesh, _find_largest(mesh, loops))}"
+    note = f"{count(len(loops), 'hole')} closed, the largest {_describe_loop(mesh, _find_largest(mesh, loops))}"
     triangles = np.vstack([mesh.triangles, np.concatenate(loops)[made["triangles"]]])
     return replace(mesh, triangles=triangles, notes=(*mesh.notes, note))
 
@@ -305,7 +311,7 @@ def _describe_holes(name: str, mesh: Mended, loops: list[Loop], distance: float,
         pass
     remedies += ["convex_hull = true", "close deck, transom and holes in the program that made the file"]
     return (
-        f"{name}: is not closed: {sum(map(len, loops))} open edges around {len(loops)} holes, the largest "
+        f"{name}: is not closed: {sum(map(len, loops))} open edges around {count(len(loops), 'hole')}, the largest "
         f"{_describe_loop(mesh, _find_largest(mesh, loops))}: set {', or '.join(remedies)}"
     )
 

@@ -7,16 +7,15 @@ faces is simplified within a stated distance (manifold_process.py). A single sur
 from __future__ import annotations
 
 from dataclasses import dataclass
-from importlib.util import find_spec
 
 import numpy as np
 
-from ...errors import HostError, ShipError, describe_installation
+from ...errors import HostError, ShipError
 from ..frames import Array
-from .child_process import Arrays, OutOfTimeError, ProgramError, run_program
+from .child_process import Arrays, OutOfTimeError, ProgramError, check_installed, run_program
 from .convex import CONVEX_WITHIN, LEAST_VOLUME, Indices, enclosed_volume, has_flat_triangles, is_convex
 from .file_frame import FileFrame
-from .mending import describe_place
+from .mending import count, describe_place
 
 __all__ = ["Solid", "find_convex_hull", "unite_surfaces"]
 
@@ -86,11 +85,7 @@ def _is_simple(vertices: Array, triangles: Indices) -> bool:
 
 
 def _run(name: str, vertices: Array, triangles: Indices, B: float, convex: bool) -> Arrays:
-    if find_spec("manifold3d") is None:
-        raise HostError(
-            "manifold3d cannot be imported (it is not installed), and a hull that is not convex is prepared with it: "
-            f"{describe_installation('mesh')}"
-        )
+    check_installed("manifold3d", "a hull that is not convex is prepared with it")
     given = {
         "vertices": vertices, "triangles": triangles, "steps": np.array(STEPS) * B, "most_faces": np.array(MOST_FACES),
         "clean": np.array(CLEAN * float(np.ptp(vertices, axis=0).max())), "convex": np.array(convex),
@@ -107,9 +102,10 @@ def _list_notes(made: Arrays, triangles: Indices) -> tuple[str, ...]:
     """What was done to the surfaces."""
     notes = []
     if made["cavities"]:
-        notes.append(f"{made['cavities']} closed surfaces inside others ({made['cavity_volume']:.4g} m3) are filled")
+        cavities = count(int(made["cavities"]), "closed surface")
+        notes.append(f"{cavities} inside others filled ({made['cavity_volume']:.4g} m3)")
     if made["turned"] and made["shells"] > 1:
-        notes.append(f"the normals of {made['turned']} of {made['shells']} closed surfaces are turned outwards")
+        notes.append(f"normals of {made['turned']} of {made['shells']} closed surfaces turned outwards")
     if made["deviation"]:
         notes.append(
             f"{len(triangles)} faces are simplified to {len(made['triangles'])}, which moves the surface by at most "
@@ -129,8 +125,9 @@ def _list_warnings(made: Arrays, frame: FileFrame) -> tuple[str, ...]:
         )
     if len(made["crossings"]):
         place = describe_place(frame.to_file(made["crossings"][0]))
+        times = count(len(made["crossings"]), "place")
         warnings.append(
-            f"its surface passes through itself at {len(made['crossings'])} places, one at {place} in the file, and "
+            f"its surface passes through itself at {times}, one at {place} in the file, and "
             "may be cut wrongly there: mend it in the program that made the file, or set convex_hull = true"
         )
     return tuple(warnings)

@@ -96,6 +96,12 @@ def test_a_solid_of_many_faces_is_cut_once(monkeypatch: pytest.MonkeyPatch, face
     assert runs == list(convex_parts.CONCAVITIES[:times])
 
 
+def test_a_missing_package_is_named(cut: Cutter, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "coacd", None)
+    with pytest.raises(HostError, match=r"coacd cannot be imported .*pip install 'shipcollision-fmu\[mesh\]'"):
+        cut()
+
+
 def test_cutting_ends_in_time(cut: Cutter, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(convex_parts, "LONGEST_CUTTING", 0.001)
     with pytest.raises(

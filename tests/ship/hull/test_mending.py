@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import re
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from shipcollision_fmu.errors import ShipError
+from shipcollision_fmu.errors import HostError, ShipError
 from shipcollision_fmu.ship.hull import mending
+from shipcollision_fmu.ship.hull.mending import count
 from tests.ship.hull.mesh_files import BOX, DEPTH, L_OA, SHIP, B, box, read, together
 
 VOLUME = L_OA * B * DEPTH
@@ -38,7 +40,7 @@ def refusal(folder: Path, vertices: np.ndarray, triangles: np.ndarray) -> str:
 def test_a_face_given_twice_is_dropped(tmp_path: Path, caplog: pytest.LogCaptureFixture, again: np.ndarray) -> None:
     got = read(tmp_path, BOX.vertices, np.vstack([BOX.triangles, again]))
     assert (len(got.triangles), got.volume) == (12, pytest.approx(VOLUME))
-    assert f"hull.obj: {len(again)} of {12 + len(again)} faces are given twice: dropped" in said(caplog)
+    assert f"hull.obj: {count(len(again), 'face')} of {12 + len(again)}, given twice, dropped" in said(caplog)
 
 
 def test_a_surface_drawn_from_both_sides_is_one(tmp_path: Path) -> None:
@@ -81,7 +83,7 @@ def test_vertices_of_open_edges_are_joined_within_the_tolerance(
 ) -> None:
     got = read(tmp_path, *apart(0.0019))
     assert (len(got.vertices), got.volume) == (8, pytest.approx(VOLUME, rel=1e-4))
-    assert "4 vertices of open edges are joined with others at most 0.002 away" in said(caplog)
+    assert "vertices of open edges at most 0.002 (in the file's unit) from others joined with them: 4" in said(caplog)
 
 
 def test_a_wider_gap_is_refused_with_a_tolerance_that_closes_it(tmp_path: Path) -> None:
@@ -107,7 +109,7 @@ def test_a_vertex_on_the_edge_of_another_face_is_a_seam(tmp_path: Path, caplog: 
     got = read(tmp_path, vertices, np.vstack([BOX.triangles[1:], [[a, 8, c], [8, b, c]]]))
     assert got.volume == pytest.approx(VOLUME)
     assert len(got.parts) == 1
-    assert "1 seams, where vertices of one face lie on the edge of another, are closed" in said(caplog)
+    assert "1 seam closed, where vertices of one face lie on the edge of another" in said(caplog)
 
 
 # -- holes ------------------------------------------------------------------------------------------
@@ -125,12 +127,12 @@ def test_an_open_deck_is_refused_with_its_place_and_closed_on_demand(
 ) -> None:
     shell = without_deck(SHIP.vertices, SHIP.triangles)
     message = refusal(tmp_path, SHIP.vertices, shell)
-    assert re.search(r"open edges around 1 holes, the largest 202\.2 across around \(0, 0, 10\) in the file", message)
+    assert re.search(r"open edges around 1 hole, the largest 202\.2 across around \(0, 0, 10\) in the file", message)
     assert "set fill_holes = true, or convex_hull = true, or close deck" in message
     got = read(tmp_path, SHIP.vertices, shell, fill_holes=True)
     assert got.volume == pytest.approx(SHIP.volume, rel=1e-9)
     assert len(got.triangles) == len(SHIP.triangles)
-    assert "1 holes are closed, the largest 202.2 across around (0, 0, 10) in the file" in said(caplog)
+    assert "1 hole closed, the largest 202.2 across around (0, 0, 10) in the file" in said(caplog)
 
 
 @pytest.mark.slow
@@ -153,6 +155,13 @@ def test_a_hole_that_is_no_polygon_is_refused_with_its_place(tmp_path: Path) -> 
     message = refusal(tmp_path, *eight())
     assert "fill_holes" not in message
     assert "convex_hull = true" in message
+
+
+def test_a_missing_package_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "manifold3d", None)
+    with pytest.raises(HostError, match=r"manifold3d cannot be imported .*pip install 'shipcollision-fmu\[mesh\]'"):
+        read(tmp_path, BOX.vertices, BOX.triangles[1:], fill_holes=True)
+    assert "set convex_hull = true" in refusal(tmp_path, BOX.vertices, BOX.triangles[1:])
 
 
 def test_loose_triangles_are_refused_without_a_search(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -183,6 +192,14 @@ def test_a_convex_hull_says_what_it_adds(tmp_path: Path, caplog: pytest.LogCaptu
     assert got.volume == pytest.approx(VOLUME + frustum, rel=1e-9)
     assert len(got.parts) == 1
     assert f"adds {added:.4g} m3 to the mesh's 1.28e+05 m3 ({added / 128000:.1%})" in said(caplog)
+
+
+def test_a_convex_hull_needs_no_agreement_of_normals(tmp_path: Path) -> None:
+    triangles = BOX.triangles.copy()
+    triangles[0] = triangles[0][::-1]
+    message = refusal(tmp_path, BOX.vertices, triangles)
+    assert message.endswith("(recalculate normals outside), or set convex_hull = true")
+    assert read(tmp_path, BOX.vertices, triangles, convex_hull=True).volume == pytest.approx(VOLUME)
 
 
 def test_a_convex_hull_needs_no_closed_surface(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:

@@ -129,7 +129,7 @@ def split_edge() -> tuple[HullMesh, np.ndarray]:
 
 
 REFUSED: list[tuple[dict[str, Any], str]] = [
-    ({"triangles": BOX.triangles[1:]}, r"hull.obj: is not closed: 3 open edges around 1 holes, the largest 36.06 "
+    ({"triangles": BOX.triangles[1:]}, r"hull.obj: is not closed: 3 open edges around 1 hole, the largest 36.06 "
      r"across around \(.*\) in the file: set fill_holes = true, or convex_hull = true, or close deck"),
     ({"triangles": swapped_one(BOX.triangles)}, r"3 edges lie between faces of which one looks inwards, one at .*: ma"),
     ({"change": lambda v: v * 1000}, r"is 200000 m long with unit = \"m\", and L_oa = 200 m: looks like millimetres: "
@@ -197,7 +197,7 @@ def test_shells_inside_each_other_hold_nothing(read: Read) -> None:
         read(plates, triangles=np.vstack([BOX.triangles, BOX.triangles[:, ::-1] + n]))
 
 
-@pytest.mark.parametrize("package", ["trimesh", "coacd"])
+@pytest.mark.parametrize("package", ["trimesh", "manifold3d"])
 def test_a_missing_package_is_named(read: Read, monkeypatch: pytest.MonkeyPatch, package: str) -> None:
     monkeypatch.setitem(sys.modules, package, None)
     with pytest.raises(HostError, match=rf"{package} cannot be imported .*pip install 'shipcollision-fmu\[mesh\]'"):

@@ -168,9 +168,7 @@ def test_surfaces_that_do_not_touch_are_parts_of_their_own(tmp_path: Path, caplo
     port, starboard = box((-100, -15, -10), (100, -5, 10)), box((-100, 5, -10), (100, 15, 10))
     both = together(port, (starboard[0], starboard[1][:, ::-1]))
     got = read(tmp_path, *both)
-    assert [r.getMessage() for r in caplog.records] == [
-        "hull.obj: the normals of 1 of 2 closed surfaces are turned outwards"
-    ]
+    assert [r.getMessage() for r in caplog.records] == ["hull.obj: normals of 1 of 2 closed surfaces turned outwards"]
     assert got.volume == pytest.approx(2 * 200 * 10 * 20)
     assert (len(got.parts), got.volume_error) == (2, 0.0)
 
@@ -181,9 +179,7 @@ def test_a_surface_inside_another_is_filled(tmp_path: Path, caplog: pytest.LogCa
     got = read(tmp_path, *together((BOX.vertices, BOX.triangles), (tank[0], tank[1][:, ::-1])))
     assert got.volume == pytest.approx(L_OA * B * DEPTH)
     assert len(got.parts) == 1
-    assert [r.getMessage() for r in caplog.records] == [
-        "hull.obj: 1 closed surfaces inside others (2e+04 m3) are filled"
-    ]
+    assert [r.getMessage() for r in caplog.records] == ["hull.obj: 1 closed surface inside others filled (2e+04 m3)"]
 
 
 def crossing() -> np.ndarray:
@@ -205,7 +201,7 @@ def test_where_a_surface_passes_through_itself() -> None:
 @pytest.mark.slow
 def test_a_surface_that_passes_through_itself_is_told(tmp_path: Path) -> None:
     """Its parts hold too much, and the message says why."""
-    message = r"parts hold .*; its surface passes through itself at \d+ places, one at \(.*, -10\) in the file, and"
+    message = r"parts hold .*; its surface passes through itself at \d+ places?, one at \(.*, -10\) in the file, and"
     with pytest.raises(ShipError, match=message):
         read(tmp_path, crossing(), BOX.triangles)
     assert len(read(tmp_path, crossing(), BOX.triangles, convex_hull=True).parts) == 1
