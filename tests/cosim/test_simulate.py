@@ -225,7 +225,7 @@ def test_the_step_can_be_changed(scenario_file: Write) -> None:
     run = ran(scenario_file(), step=0.1)
     assert len(run.states) == 31
     assert run.summary["step"] == 0.1
-    with pytest.raises(ScenarioError, match=r"with step 0.07: \[scenario\] duration"):
+    with pytest.raises(ScenarioError, match=r"with another step: \[scenario\] duration"):
         ran(scenario_file(), step=0.07)
 
 

@@ -119,7 +119,7 @@ def test_bad_folders(tmp_path: Path, option: str) -> None:
     for folder, what in (("empty", "is empty"), ("none", "does not exist")):
         result = shown(tmp_path / folder, option)
         assert result.exit_code == 2
-        assert result.stderr.startswith(f"error: {tmp_path / folder}: {what}")
+        assert result.stderr.startswith(f"error: {tmp_path / folder} {what}")
         assert result.stderr.count("\n") == 1
     assert not list((tmp_path / "empty").iterdir())
 
