@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+from typing import TYPE_CHECKING
+
 import click
 from rich.markup import escape
 
 from .console import print_table, say
 from .options import SHIP
 from .table import WordTable, make_table
+
+if TYPE_CHECKING:
+    from ..ship.ship import Ship
 
 __all__ = ["scenarios", "ships"]
 
@@ -19,7 +25,7 @@ def ships(name: str | None) -> None:
 
     NAME is a shipped ship or the path of a TOML file; without it the shipped ships are listed. Its figures are GM,
     roll period, service speed, power and stopping distance, for which a crash stop is sailed. The estimates that
-    stand for missing values follow.
+    stand for missing values follow. A hull from a mesh file is read, checked and kept for later runs.
     """
     if name is None:
         print_table(_list_ships())
@@ -29,14 +35,26 @@ def ships(name: str | None) -> None:
     from .ship_table import make_ship_table
 
     ship = load_ship(name)
+    hull = _describe_mesh(ship)
     summary = summarise_ship(name, ship)
     print_table(make_ship_table(summary))
-    for note in (*summary.notes, *ship.suspicious):
+    for note in (*summary.notes, *ship.suspicious, *hull):
         say(f"note: {note}")
     if ship.estimated:
         say("Estimated:")
     for line in ship.estimated:
         say(f"  {line}")
+
+
+def _describe_mesh(ship: Ship) -> list[str]:
+    """What a hull from a mesh file has become; nothing for other hulls. Raises ShipError when the mesh is refused."""
+    from ..ship.hull.hull import build_hull
+
+    if ship.hull.file is None:
+        return []
+    hull = build_hull(ship.L_oa, ship.B, ship.T, ship.hull)
+    file, faces, parts = Path(ship.hull.file).name, len(hull.triangles), len(hull.parts)
+    return [f"{file}: {hull.volume:.4g} m3 in {faces} faces, convex parts: {parts}, which add {hull.volume_error:.2%}"]
 
 
 def _list_ships() -> WordTable:

@@ -27,12 +27,13 @@ BULGE_GOAL = 0.01
 CONCAVITIES = (0.03, 0.015)
 """CoACD's thresholds (a concavity over half the solid's length), from coarse to fine. From 0.01 on a ship falls into
 dozens of parts, which takes half a minute and makes contact slow."""
-ITERATIONS, FEWER_ITERATIONS, MANY_FACES = 150, 60, 1000
-"""CoACD's search for each cut, and that for a solid of more than MANY_FACES. With 150, 2 100 faces take 10 s of CPU
-instead of 5; the parts hold the same volume to 0.1 %."""
 FINE_FACES = 4000
-"""Faces up to which a solid is cut more finely than at the first of CONCAVITIES. 12 000 faces (700 boxes on a deck)
-take a minute at the first and several at the second."""
+"""Faces up to which a solid is cut more finely where its parts bulge. One of more faces is where they hold too much."""
+ITERATIONS = ((1000, 150), (FINE_FACES, 60))
+"""CoACD's search for each cut, up to so many faces. With 150, 2 100 faces take 10 s of CPU instead of 5; the parts hold
+the same volume to 0.1 %."""
+FEWEST_ITERATIONS = 20
+"""The search for a solid of more faces: 12 000 (700 boxes on a deck) take 3 s of CPU, and minutes with 60."""
 SEED = 1
 LONGEST_CUTTING = 180.0
 """Time [s] after which the cutting is ended and the mesh refused. A simplified hull takes 10 s of CPU."""
@@ -63,10 +64,11 @@ def cut_into_convex_parts(name: str, vertices: Array, triangles: Indices, max_pa
     check_installed("coacd", "a hull that is not convex is cut into parts with it")
     cut = _cut_pieces(name, (vertices, triangles), max_parts)
     if cut.volume_error > VOLUME_TOLERANCE:
+        more = f"raise max_parts = {max_parts}, or " if len(cut.parts) >= max_parts else ""
         raise ShipError(
             f"{name}: its {len(cut.parts)} convex parts hold {cut.volume_error:.1%} more than the solid, at most "
-            f"{VOLUME_TOLERANCE:.0%}: raise max_parts = {max_parts}, or leave out what does not touch other ships "
-            "(masts, railings, tanks)"
+            f"{VOLUME_TOLERANCE:.0%}: {more}leave out what does not touch other ships (masts, railings, tanks), or set "
+            "convex_hull = true"
         )
     return cut
 
@@ -119,7 +121,7 @@ def _cut_solid(name: str, solid: Part, max_parts: int) -> Cut:
     )
     end = monotonic() + LONGEST_CUTTING
     goal = BULGE_GOAL * float(np.ptp(solid[0][:, 1]))
-    for threshold in CONCAVITIES if len(solid[1]) <= FINE_FACES else CONCAVITIES[:1]:
+    for threshold in CONCAVITIES:
         if best is not None:
             _log.warning(
                 "%s: its %d parts bulge by %.2g m, more than %.2g m: it is cut more finely, for at most %.0f s more",
@@ -129,14 +131,14 @@ def _cut_solid(name: str, solid: Part, max_parts: int) -> Cut:
         cut = Cut(parts, sum(enclosed_volume(*part) for part in parts) / volume - 1.0, _measure_bulge(solid[0], parts))
         if best is None or cut.bulge < best.bulge:
             best = cut
-        if best.bulge <= goal:
+        if best.bulge <= goal or (len(solid[1]) > FINE_FACES and best.volume_error <= VOLUME_TOLERANCE):
             break
     assert best is not None
     return best
 
 
 def _run_coacd(name: str, solid: Part, threshold: float, max_parts: int, longest: float) -> tuple[Part, ...]:
-    iterations = ITERATIONS if len(solid[1]) <= MANY_FACES else FEWER_ITERATIONS
+    iterations = next((n for most, n in ITERATIONS if len(solid[1]) <= most), FEWEST_ITERATIONS)
     given = {"vertices": solid[0], "triangles": solid[1]}
     try:
         made = run_program("coacd_process", (threshold, max_parts, iterations, SEED), given, max(longest, 0.001))

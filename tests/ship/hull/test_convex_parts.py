@@ -96,6 +96,15 @@ def test_a_solid_of_many_faces_is_cut_once(monkeypatch: pytest.MonkeyPatch, face
     assert runs == list(convex_parts.CONCAVITIES[:times])
 
 
+@pytest.mark.parametrize(("parts", "remedy"), [(4, "raise max_parts = 4, or leave out what"), (3, "leave out what")])
+def test_more_parts_are_offered_where_all_are_used(
+    cut: Cutter, monkeypatch: pytest.MonkeyPatch, parts: int, remedy: str
+) -> None:
+    monkeypatch.setattr(convex_parts, "_cut_solid", lambda *_: Cut((BAR,) * parts, 0.2))
+    with pytest.raises(ShipError, match=rf"^bar.obj: its {parts} convex parts hold 20.0% more .* at most 5%: {remedy}"):
+        cut()
+
+
 def test_a_missing_package_is_named(cut: Cutter, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "coacd", None)
     with pytest.raises(HostError, match=r"coacd cannot be imported .*pip install 'shipcollision-fmu\[mesh\]'"):

@@ -10,13 +10,16 @@ from typing import Any
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
+from shipcollision_fmu.cli import main
 from shipcollision_fmu.errors import ShipError
 from shipcollision_fmu.ship.hull import hull_cache, mesh
 from shipcollision_fmu.ship.hull.mesh import build_mesh_hull
 from shipcollision_fmu.ship.hull.solid import HullMesh
 from shipcollision_fmu.ship.tables.hull import HullTable
 from tests.ship.hull.mesh_files import BAR, obj
+from tests.ship_files import ship_toml
 
 Loader = Callable[..., HullMesh]
 
@@ -122,3 +125,22 @@ def test_a_file_that_may_not_be_read_is_refused(load: Loader, monkeypatch: pytes
     monkeypatch.setattr(mesh, "digest_content", fail)
     with pytest.raises(ShipError, match=r"^bar.obj: cannot be read \(Permission denied\): make the file readable$"):
         load()
+
+
+def test_the_command_ships_refuses_a_mesh_and_keeps_a_good_one(load: Loader, tmp_path: Path) -> None:
+    """What the message about a missing Python program advises."""
+    text = ship_toml(
+        particulars={"L_pp": 4.0, "B": 3.0, "T": 0.5, "mass": 4e3},
+        hull={"shape": "mesh", "depth": 1.0, "file": "bar.obj", "origin": [2.0, 1.5, 0.5]},
+    )
+    (tmp_path / "bar.toml").write_text(text)
+    (tmp_path / "bar.obj").write_text(obj(BAR[0], BAR[1][1:]))
+    command = ["ships", str(tmp_path / "bar.toml")]
+    refused = CliRunner().invoke(main, command)
+    assert refused.exit_code == 2
+    assert "bar.obj: is not closed: 3 open edges" in " ".join(refused.output.split())
+    (tmp_path / "bar.obj").write_text(obj(*BAR))
+    shown = CliRunner().invoke(main, command)
+    assert shown.exit_code == 0
+    assert "note: bar.obj: 6 m3 in 20 faces, convex parts: 2, which add" in shown.output
+    assert len(list((tmp_path / "cache").rglob("*.npz"))) == 1
