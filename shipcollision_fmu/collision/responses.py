@@ -69,7 +69,7 @@ def respond_closed_form(problem: ContactProblem, caches: ContactCaches) -> Conta
     The pair that approaches fastest is answered first, with the twists that the impacts before it left: the order in
     which ships are named does not matter. A pair is answered again when the impact of another one has left it closing.
     Contacts that a substep leaves closing, by the friction of the resultant, after MAX_ANSWERS or when the work of the
-    step is spent, are solved in the next. Then every pair is answered once, by a plastic impact.
+    step is spent, are solved in the next. Then there are as many answers as pairs, by plastic impacts.
     """
     states = list(problem.states)
     touching = [
@@ -77,11 +77,15 @@ def respond_closed_form(problem: ContactProblem, caches: ContactCaches) -> Conta
         for a, b in problem.pairs
         if (contacts := problem.detector.contacts(a, b, states, caches.last_normals))
     ]
-    least = AT_REST_SHARE * max((pair.measure_approach(states) for pair in touching), default=0.0)
+    largest = max((pair.measure_approach(states) for pair in touching), default=0.0)
+    least, scale = AT_REST_SHARE * largest, max(largest, LEAST_REBOUNDING_APPROACH)
     work, residual = caches.work.lend(), 0.0
     for answers in range(MAX_ANSWERS * len(touching)):
         pair = max(touching, key=TouchingPair.urgency)
-        if pair.approach <= least or (work.is_spent and answers >= len(touching)):
+        if pair.approach <= least:
+            break
+        if work.is_spent and answers >= len(touching):  # what is left of the approach is missed
+            residual = max(residual, pair.approach / scale)
             break
         e = problem.restitution if pair.approach >= LEAST_REBOUNDING_APPROACH else 0.0
         contact = pair.reduce(states, work)

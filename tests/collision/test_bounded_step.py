@@ -133,8 +133,8 @@ def test_ships_wedged_in_a_lock(world: MakeWorld, box: str, last_resort: list[in
 def test_closed_form_follows_a_bounded_length_of_slip(
     world: MakeWorld, box: str, monkeypatch: pytest.MonkeyPatch, restitution: float
 ) -> None:
-    """When the work of a step is spent, every pair is still answered once in each substep, by a plastic impact. What
-    that lacks in restitution is counted."""
+    """When the work of a step is spent, a substep still has as many answers as pairs that touch, by plastic impacts.
+    What that lacks in restitution, and what it leaves of the approach, is counted."""
     stretches = [0]
     plain = responses.solve_impact_process
 
@@ -153,8 +153,8 @@ def test_closed_form_follows_a_bounded_length_of_slip(
     assert stretches[0] <= 2 * impact_process.MAX_STRETCHES, "one impact, and the events on its path"
     assert w.work[-1] <= 1e-6 * had, "energy from contact"
     assert max(nu[1] for nu in w.nu) < 0.3, "the row runs on into the quay at its first speed of up to 1 m/s"
-    assert bool(w.model.outputs.solver.unconverged) is (restitution > 0.0)
-    assert w.model.outputs.solver.residual in (0.0, restitution)
+    assert w.model.outputs.solver.unconverged > 0
+    assert w.model.outputs.solver.residual >= max(restitution, 0.1), "a pair of the row is left closing"
 
 
 def motion_in_n(R: np.ndarray, nu: np.ndarray, r_bg: np.ndarray) -> np.ndarray:
