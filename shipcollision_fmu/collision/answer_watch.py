@@ -94,9 +94,9 @@ class AnswerWatch:
             key = "impulse_applied not returned" if self.share > HEAVIEST else "impulse not applied"
             return key, {"duration": T}
         if overdue and counts and not by_ledger:
-            return (
-                ("force without effect", {"duration": T, "share": share}) if share < NO_ANSWER else _other_mass(share)
-            )
+            if self.share < NO_ANSWER:
+                return "force without effect", {"duration": T, "share": share}
+            return _other_mass(share)
         if overdue and T >= LONGEST_WATCH:
             self.t = None
         return None

@@ -5,11 +5,13 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Sequence
 from math import cos, degrees, pi, radians, sin
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 
+from shipcollision_fmu.collision.answer_watch import AnswerWatch
 from shipcollision_fmu.collision.findings import FINDINGS
 from shipcollision_fmu.collision.interface import ShipState
 from shipcollision_fmu.collision.model import ShipCollision
@@ -435,3 +437,16 @@ def test_a_ship_is_absent_again_in_a_state_from_before_it_was_connected() -> Non
     access.set_real(access.references(["target.velocity.surge"]), [1.0])
     assert access.model._absent == frozenset()
     access.close()
+
+
+def test_a_ship_that_answered_at_first_is_heavier_and_not_without_effect() -> None:
+    """Of 10 m/s by an impulse it shows 2 m/s, and 0.5 m/s at the deadline, since its propeller has pushed it back."""
+    watch, ship, found = AnswerWatch(), ShipState(), None
+    body: Any = SimpleNamespace(feedback="force", inverse_at=lambda _: np.eye(6))
+    assert watch.look(ship, body, [10.0, 0.0, 0.0, 0.0, 0.0, 0.0], 0.0) is None
+    for k in range(1, 11):
+        assert found is None
+        ship.velocity[:] = [2.0 if k < 10 else 0.5, 0.0, 0.0]
+        found = watch.look(ship, body, [10.0, 0.0, 0.0, 0.0, 0.0, 0.0], 0.125 * k)
+    assert found is not None
+    assert found[0] == "other mass"
