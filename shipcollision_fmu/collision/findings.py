@@ -54,7 +54,8 @@ _TABLE = (
     Finding(
         "other velocity", "impulses have the wrong size or direction",
         "{ship!r} moves by {moved:.3g} m/s, and {ship}.velocity, of {given:.3g} m/s, differs from it by {off:.3g} m/s",
-        "give {ship}.velocity over ground, not through the water, in b at CO, and {ship}.position in metres",
+        "give {ship}.velocity over ground, not through the water, in b at CO, and {ship}.position as north and east in "
+        "metres, and connect {ship}.attitude",
     ),
     Finding(
         "attitude in degrees", "ships collide where they should pass, or with the wrong side",
@@ -80,7 +81,8 @@ _TABLE = (
     Finding(
         "overlap at the start", "a collision at time zero, with large impulses",
         "{ship!r} and {other!r} overlap by {overlap:.3g} m in the first step",
-        "move one of them, and look at the unit and the origin of {ship}.position and {ship}.attitude",
+        "move one of them, and look whether {ship}.position and {ship}.attitude are connected, at their unit and their "
+        "origin",
     ),
     Finding(
         "impulse not applied", "a ship is hit and sails on",
@@ -98,8 +100,9 @@ _TABLE = (
     Finding(
         "force without effect", "a ship is hit and sails on, and the sum of its impulses grows without bound",
         "{ship!r} has not answered for {duration:.3g} s: its velocity shows {share:.2g} of the impulse issued",
-        'connect {ship}.force and {ship}.moment to the ship model (for feedback = "state" adopt {ship}.post), or set '
-        '{ship}.feedback = "prescribed" for a ship that cannot answer',
+        'connect {ship}.force and {ship}.moment to the ship model (for feedback = "state" adopt {ship}.post); if '
+        "they are connected, give the model the mass and the inertia of {ship}.ship; or set {ship}.feedback = "
+        '"prescribed" for a ship that cannot answer',
     ),
     Finding(
         "other mass", "a ship leaves an impact far too fast, or as if it were a wall",
