@@ -37,6 +37,7 @@ def distances(points: np.ndarray, vertices: np.ndarray, triangles: np.ndarray) -
     return np.asarray(trimesh.proximity.closest_point_naive(mesh, points)[1])
 
 
+@pytest.mark.slow
 def test_simplification_keeps_to_its_distance(made: ModuleType) -> None:
     """What is left are vertices of the file, and the shell between the bulb and the stern is where it was."""
     vertices, triangles = made.make_ship(6000)

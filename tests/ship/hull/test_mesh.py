@@ -182,6 +182,7 @@ def test_broken_files_are_refused(tmp_path: Path, name: str, content: bytes | No
     assert "\n" not in str(raised.value)
 
 
+@pytest.mark.slow
 def test_a_triangle_without_area_is_dissolved(read: Read) -> None:
     hull, triangles = split_edge()
     got = read(hull, triangles=triangles)
