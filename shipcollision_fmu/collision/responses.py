@@ -10,7 +10,7 @@ bullet       Bullet's own dynamics with a scalar mass and Bullet's own contacts:
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -38,6 +38,11 @@ MAX_ANSWERS = 10
 """Impacts per pair that touches, in one substep. Fewer leave a row of ships closing, which then depends on the order of
 the answers; more only cost time, since the next substep goes on."""
 
+PRESSING = 2.0
+"""Communication steps of other forces whose approach is no impact, though it exceeds LEAST_REBOUNDING_APPROACH. Under a
+parallel master a ship pressed to a quay closes by that of one and a half. With 0.6 such a ship springs back in every
+step, and creeps into the quay."""
+
 AT_REST_SHARE = 1e-6
 """Approach, as a share of the largest of the substep, that is left to the next substep."""
 
@@ -56,7 +61,8 @@ def respond_pgs(problem: ContactProblem, caches: ContactCaches) -> ContactSoluti
     start = guess_impulses(contacts, [c.axes for c in contacts], caches.warm_starts)
     if H is not None:
         W, slip, start = yield_to_friction(W, velocity, problem.friction, H, start, work)
-    solution = solve_poisson_impact(W, velocity, problem.friction, problem.restitution, start, slip, work)
+    e = problem.restitution if -velocity[0::3].min() >= _least_rebounding_approach(contacts, states) else 0.0
+    solution = solve_poisson_impact(W, velocity, problem.friction, e, start, slip, work)
     caches.work.settle(work)
     impulses = [Impulse(c, c.axes.T @ P) for c, P in zip(contacts, solution.P, strict=True)]
     keep_impulses(impulses, caches.warm_starts)
@@ -87,8 +93,8 @@ def respond_closed_form(problem: ContactProblem, caches: ContactCaches) -> Conta
         if work.is_spent and answers >= len(touching):  # what is left of the approach is missed
             residual = max(residual, pair.approach / scale)
             break
-        e = problem.restitution if pair.approach >= LEAST_REBOUNDING_APPROACH else 0.0
         contact = pair.reduce(states, work)
+        e = problem.restitution if pair.approach >= _least_rebounding_approach([contact], states) else 0.0
         W, velocity = delassus([contact], states), approach_velocities([contact], states)
         if work.is_spent:  # the restitution is missed
             P, residual = solve_gauss_seidel(W, velocity, problem.friction).P[0], max(residual, e)
@@ -105,6 +111,19 @@ def respond_closed_form(problem: ContactProblem, caches: ContactCaches) -> Conta
                 other.measure_approach(states)
     caches.work.settle(work)
     return ContactSolution([impulse for pair in touching for impulse in pair.impulses()], residual)
+
+
+def _least_rebounding_approach(contacts: Sequence[Contact], states: Sequence[BodyState]) -> float:
+    """Approach [m/s] below which nothing springs back: LEAST_REBOUNDING_APPROACH, or what other forces make of rest in
+    PRESSING communication steps."""
+    pressed = 0.0
+    for c in contacts:
+        closing = 0.0
+        for sign, body, G in ((2.0, c.a, c.G_a), (-2.0, c.b, c.G_b)):
+            if (bias := states[body].velocity_bias) is not None:  # the mean over the step: half of its end
+                closing += sign * float(c.normal @ G @ bias)
+        pressed = max(pressed, closing)
+    return max(LEAST_REBOUNDING_APPROACH, PRESSING * pressed)
 
 
 def respond_bullet(problem: ContactProblem, caches: ContactCaches) -> ContactSolution:

@@ -19,7 +19,7 @@ from tests.collision.conftest import BOX
 
 Make = Callable[..., str]
 
-FORCE = 3.2e6  # N to the quay: some 5 mm/s2, a gale on a large ship's side
+FORCE = 3.2e6  # N to the quay: 43 mm/s2, ten times a gale on a large ship's side
 QUAY = '[quay]\nkind = "quay"\nshape = "box"\nlength = 800.0\nbreadth = 20.0\nposition = [0.0, 25.5]'  # face at 15.5
 
 
@@ -29,14 +29,14 @@ class Berthed:
     def __init__(
         self, ship: str, algorithm: str, *, speed: float = 0.0, twist: float = 0.0, quay: str = QUAY,
         response: str = "pgs", force: Callable[[float], float] = lambda t: FORCE, moves_by: float = 0.5,
-        along: float = 0.0,
+        along: float = 0.0, restitution: float = 0.0,
     ) -> None:  # fmt: skip
         """moves_by: share of a step's force in the velocity that she moves by; 1/2 is exact. along: force ahead [N]."""
         self.moves_by, self.along = moves_by, along
         self.model = ShipCollision(("own",))
         p = self.model.parameters
         p.ships[0].ship, p.ships[0].degrees_of_freedom, p.obstacles, p.response = ship, 3, quay, response
-        p.substep = 0.05  # substep [s]
+        p.substep, p.restitution = 0.05, restitution  # substep [s]
         self.M = load_ship(ship).M
         self.M_inverse = free_inverse(self.M, 3)
         self.algorithm, self.force, self.twist = algorithm, force, twist
@@ -116,6 +116,20 @@ def is_held(b: Berthed, places: np.ndarray, H: float) -> None:
 def test_a_minute_at_the_quay(berthed: MakeBerthed, algorithm: str, response: str) -> None:
     b = berthed(algorithm, response=response)
     is_held(b, b.run(60.0, 0.1), 0.1)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("response", ["pgs", "closed_form"])
+@pytest.mark.parametrize(("times", "H"), [(1.0, 0.5), (10.0, 0.1), (10.0, 0.5)])
+@pytest.mark.parametrize("restitution", [0.3, 0.5, 1.0])
+def test_a_ship_that_springs_back_does_not_creep(
+    berthed: MakeBerthed, response: str, times: float, H: float, restitution: float
+) -> None:
+    """Under a parallel master it closes by its acceleration times the step, 4 to 200 mm/s here, and rests still."""
+    b = berthed("jacobi", response=response, restitution=restitution, force=lambda t: times * FORCE)
+    places = b.run(60.0, H)
+    rest = places[len(places) * 2 // 3 :]
+    assert rest.max() - rest.min() < 1e-3
 
 
 @pytest.mark.soak

@@ -41,8 +41,7 @@ A ship that lies against another is pressed on by wind, current or propeller and
 acceleration of 1 to 50 mm/s2 of a ship in a gale, at 0.01 to 0.5 mm/s in a substep of 10 ms. Such an approach is no
 impact but a force, which steel plates carry without a rebound. At 1 mm/s a ship of 100 000 t has 50 J, less than a
 person who walks. A rebound would be below 1 mm/s, and would carry the ship less than a millimetre in a second.
-Under a parallel master a pressed ship closes by its acceleration times the communication step, which may be more: with
-a restitution of 0.5 it then creeps (docs/theory/contact.md, limits).
+Under a parallel master a pressed ship may close faster: responses.py takes that for no impact either.
 
 Zero: ships at rest spring back from the rounding of their contacts, and rebounds of rebounds are solved to shares of
 nothing. Larger than the slowest berthing, some 10 mm/s: real impacts lose their restitution.
