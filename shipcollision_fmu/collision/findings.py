@@ -111,6 +111,12 @@ _TABLE = (
         "give {ship}.ship the file of the ship that sails, look at the unit of its mass (kg), and apply the impulse in "
         "b about CO",
     ),
+    Finding(
+        "no motion", "a ship is hit by nothing, or is hit where it does not lie",
+        "{ship}.velocity is {given:.3g} m/s, but {ship}.position has not changed for {duration:.3g} s",
+        "connect {ship}.position, {ship}.attitude, {ship}.velocity and {ship}.rate (start values are not enough), or "
+        "give a ship that lies still the velocity 0",
+    ),
 )  # fmt: skip
 
 FINDINGS: dict[str, tuple[int, Finding]] = {finding.key: (code, finding) for code, finding in enumerate(_TABLE, 1)}

@@ -16,7 +16,7 @@ from collections.abc import Mapping, Sequence
 from math import cos, degrees, hypot, pi, radians, remainder, sin
 from typing import NamedTuple
 
-__all__ = ["Motion", "Verdict", "judge_motion"]
+__all__ = ["SLOW", "Motion", "Verdict", "judge_motion"]
 
 SLOW, SLOW_TURN = 0.5, 0.005
 """Speed [m/s] and rate [rad/s] below which a window shows nothing. Lower, and waves and rounding decide."""

@@ -7,12 +7,12 @@ ships that lie still or sail north cost little.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import inf
+from math import hypot, inf
 from typing import Any
 
 from .findings import Found
 from .interface import ShipState
-from .motion_check import Motion, judge_motion
+from .motion_check import SLOW, Motion, judge_motion
 
 __all__ = ["MotionWatch"]
 
@@ -30,13 +30,18 @@ of a far step per ship and step."""
 WINDOWS = 2
 """Windows in a row with the same finding before it is said: a host may move a ship once."""
 
+STILL_STEPS, STILL = 50, 15.0
+"""A ship with a velocity whose position has not changed since the start for so many steps and seconds is not connected.
+With fewer, ship models with steps ten times as long and tracks with a report every 10 s would be suspected."""
+
 
 @dataclass
 class MotionWatch:
     """Watch over the motion of a ship, until it was seen to be right.
 
     next: time [s] of the next look; stride, pause: in steps; start: of the window; position: last received; changes: of
-    it in the window, -2 before the first is received; idle: steps without one; speed, rate: seen to be right.
+    it in the window, -2 before the first is received; idle: steps without one; still_since: time [s] from which on
+    the ship had a velocity without a change of the position, inf once it moved; speed, rate: seen to be right.
     """
 
     next: float = -inf
@@ -46,6 +51,7 @@ class MotionWatch:
     position: list[float] = field(default_factory=list)
     changes: int = -2
     idle: int = 0
+    still_since: float = -inf
     suspicion: str = ""
     windows: int = 0
     speed: bool = False
@@ -60,9 +66,9 @@ class MotionWatch:
         elif ship.position == self.position:
             self.idle += 1
             if self.changes < 0 or self.idle > PATIENCE:
-                self._rest(t, H, self.stride)
-                self.position, self.stride = list(ship.position), min(2 * self.stride, LONGEST_STRIDE)
+                return self._judge_still(ship, t, H)
         else:
+            self.still_since = inf if self.position or self.still_since == inf else t
             self.idle, self.position, self.next = 0, list(ship.position), t
             self.changes += 1
             now = Motion(t, self.position, list(ship.attitude), list(ship.velocity), list(ship.rate))
@@ -87,6 +93,17 @@ class MotionWatch:
         else:
             self._rest(now.t, H, self.pause)
             self.pause = min(2 * self.pause, LONGEST_PAUSE)
+        return None
+
+    def _judge_still(self, ship: ShipState, t: float, H: float) -> Found | None:
+        """What is found of a ship whose position has not changed since the last look, and look again after a stride."""
+        u, v, _ = ship.velocity
+        if u * u + v * v <= SLOW * SLOW:
+            self.still_since = inf if self.still_since == inf else t
+        elif t - self.still_since >= STILL and t - self.still_since >= STILL_STEPS * H:
+            return "no motion", {"given": hypot(u, v), "duration": t - self.still_since}
+        self._rest(t, H, self.stride)
+        self.position, self.stride = list(ship.position), min(2 * self.stride, LONGEST_STRIDE)
         return None
 
     def _rest(self, t: float, H: float, steps: int) -> None:

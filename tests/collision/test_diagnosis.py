@@ -379,6 +379,78 @@ def test_a_restored_state_leads_to_the_same_finding_at_the_same_step(make_ship: 
         twice.model.close()
 
 
+# -- not moved -------------------------------------------------------------------------------------------------------
+
+
+def lie(position_of: Callable[[float], float], speed_of: Callable[[float], float], H: float) -> tuple[list[str], Any]:
+    """Warnings of 40 s with a ship at north position_of(t) [m] that gives the surge velocity speed_of(t) [m/s]."""
+    model = ShipCollision()
+    model.initialise()
+    warnings = []
+    for k in range(round(40.0 / H)):
+        for i, ship in enumerate(model.inputs.ships):
+            ship.position[:] = [position_of(k * H) if i == 0 else -5000.0, 0.0, 0.0]
+            ship.velocity[0] = speed_of(k * H) if i == 0 else 0.0
+        model.step(k * H, H)
+        warnings += [model.warning] if model.warning else []
+    model.close()
+    return warnings, model.outputs.diagnosis
+
+
+@pytest.mark.parametrize("H", [0.5, pytest.param(0.05, marks=pytest.mark.slow)])
+def test_a_ship_with_a_velocity_whose_position_never_changes_is_said_once(H: float) -> None:
+    """Start values that nobody connected: the ship is there, and stays there at 5 m/s."""
+    warnings, out = lie(lambda _: 300.0, lambda _: 5.0, H)
+    key = "no motion"
+    assert (out.code, out.ship, out.count) == (FINDINGS[key][0], 1, 1)
+    assert len(warnings) == 1
+    assert warnings[0].startswith("own.velocity is 5 m/s, but own.position has not changed for ")
+    assert FINDINGS[key][1].remedy.format(ship="own") in warnings[0]
+    assert FINDINGS[key][0] == max(code for code, _ in FINDINGS.values())  # codes are an interface: at the end
+
+
+@pytest.mark.parametrize("H", [0.5, pytest.param(0.05, marks=pytest.mark.slow)])
+def test_a_ship_that_lies_waits_or_takes_long_steps_gives_no_warning(H: float) -> None:
+    """Moored in waves, without a change of the position; steps ten times as long; a report of the position every 10 s,
+    as of a recorded track; put in motion, and stopped in motion, by an instructor."""
+    long = 10.0 * H
+    cases: dict[str, tuple[Callable[[float], float], Callable[[float], float]]] = {
+        "moored": (lambda _: 300.0, lambda t: 0.1 * sin(t)),
+        "long steps": (lambda t: 5.0 * long * int(t / long + 1e-9), lambda _: 5.0),
+        "reports": (lambda t: 50.0 * int(t / 10.0 + 1e-9), lambda _: 5.0),
+        "put in motion": (lambda t: 5.0 * max(0.0, t - 30.0 - long), lambda t: 5.0 if t >= 30.0 else 0.0),
+        "frozen": (lambda t: 5.0 * min(t, 5.0), lambda _: 5.0),
+    }
+    for name, (position_of, speed_of) in cases.items():
+        assert lie(position_of, speed_of, H)[0] == [], name
+
+
+@pytest.mark.slow
+def test_a_ship_that_is_held_by_contact_gives_no_warning(make_ship: Make) -> None:
+    """Its propeller presses it to another for 20 s: neither moves."""
+    box = make_ship("box", BOX)
+    start = [
+        {"position": [0.0, 0.0, 0.0], "nu": [0.0] * 6},
+        {"position": [199.9999, 0.0, 0.0], "nu": [0.0] * 6},
+    ]
+
+    def press(w: World, i: int, ship: ShipState) -> None:
+        if i == 0:
+            w.nu[0][0] += 0.005
+            ship.velocity[0] += 0.005
+
+    kind = type("Pressed", (Wired,), {"fault": staticmethod(press)})
+    w = kind([box, box], start, degrees_of_freedom=3, substep=0.05, friction=0.0)
+    try:
+        w.upright[1] = np.zeros((6, 6))
+        w.model.parameters.ships[1].feedback = "prescribed"
+        w.model.initialise()
+        w.run(20.0, 0.1)
+        assert w.warnings == []
+    finally:
+        w.model.close()
+
+
 # -- not connected ---------------------------------------------------------------------------------------------------
 
 

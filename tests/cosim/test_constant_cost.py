@@ -28,7 +28,7 @@ VISIT = 45
 """Steps from where the ships are apart to the deepest contact, and back again."""
 PERIOD = 150
 """Steps from one visit to the next; the ships are apart for longer than a collision lasts."""
-LOOK = 15
+LOOK = 20
 """Calls of a look of the diagnosis at a ship, of which a piece may have one more: they come every 64 to 512 steps. What
 grows with every visit adds more in two hours."""
 
