@@ -177,6 +177,10 @@ def test_a_ship_shows_its_figures() -> None:
     assert shown.exit_code == 0, shown.output
     for figure in ("GM_T", "roll period", "service speed", "rated power", "bollard pull", "crash stop, track reach"):
         assert figure in shown.stdout, figure
+    assert max(map(len, shown.stdout.partition("Estimated:")[0].splitlines())) <= 60
+    (yaw,) = (line.split() for line in shown.stdout.splitlines() if "yaw I_zz" in line)
+    assert yaw[-3:] == [f"{42.08e6 * (0.25 * 250.0) ** 2:.4g}", "kg", "m2"]  # about CG: m k_zz^2
+    assert sum("added mass, " in line or "added inertia about CO, " in line for line in shown.stdout.splitlines()) == 6
     assert "  [engine] rate = " in shown.stdout  # an estimate is told as one
     coasting = called("ships", "guan2014_own")
     assert coasting.exit_code == 0
@@ -225,6 +229,7 @@ def edited(old: str, new: str) -> None:
         ("", "", ["--step", "x"], 2, "Invalid value for '--step': 'x' is not a number: give one such as 0.5"),
         ("4.0", "nan", [], 2, "encounter.toml: [ships.own] speed = nan must be a finite number"),
         ("", "", ["--algorithm", "gauss"], 2, "Invalid value for '--algorithm': 'gauss': did you mean gauss-seidel?"),
+        ("", "", ["--dry"], 2, "there is no option --dry: known: --out, --algorithm, --"),
         ("", "", ["--stp", "1"], 2, "there is no option --stp: did you mean --step? (see `main run --help`)"),
         ("", "", ["--out", "barge.toml"], 1, "cannot write to barge.toml: barge.toml is not a folder; give another"),
         ("", "", ["--out", "/proc/x"], 1, "cannot write to /proc/x: "),
@@ -508,7 +513,7 @@ def test_import_replaces_no_other_ship_file_unless_told_so(folder: Path) -> None
         (["encounter", "head-on", "--angle-deg", "90"], 2, "angle_deg = 90 must be 135 to 180 for this type: take"),
         (["encounter", "t-bone", "--angle-deg", "0"], 2, "close at 0.00 m/s, at least 0.15 m/s is needed"),
         (["import", "absent.json", "--out", "x.toml"], 2, "absent.json cannot be read: No such file or directory"),
-        (["import", "barge.toml", "--out", "x.toml"], 2, "barge.toml: is not valid JSON: "),
+        (["import", "barge.toml", "--out", "x.toml"], 2, "column 2 (char 1); give JSON of trafficgen or"),
         (["import", "bad.json", "--out", "x.toml"], 2, "[ownShip.initial] sog = 1000 must be less than or equal to 60"),
         (["import", "bad.json"], 2, "Missing option '--out'"),
     ],

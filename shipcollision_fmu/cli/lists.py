@@ -23,9 +23,9 @@ __all__ = ["scenarios", "ships"]
 def ships(name: str | None) -> None:
     """List the ships, or show one.
 
-    NAME is a shipped ship or the path of a TOML file; without it the shipped ships are listed. Its figures are GM,
-    roll period, service speed, power and stopping distance, for which a crash stop is sailed. The estimates that
-    stand for missing values follow. A hull from a mesh file is read, checked and kept for later runs.
+    NAME is a shipped ship or the path of a TOML file; without it the shipped ships are listed. Its figures are inertia,
+    added mass, GM, roll period, service speed, power and stopping distance, for which a crash stop is sailed. The
+    estimates that stand for missing values follow. A hull from a mesh file is read, checked and kept for later runs.
     """
     if name is None:
         print_table(_list_ships())

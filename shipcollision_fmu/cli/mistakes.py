@@ -35,10 +35,11 @@ def _end(number: int, frame: FrameType | None) -> NoReturn:
 def _describe(error: click.UsageError) -> str:
     """click's message of a wrong option, in the words of all others, or as it is without its full stop."""
     if isinstance(error, click.NoSuchOption):
-        from ..ship.loading.messages import suggest
+        from ..ship.loading.messages import suggest_or_list
 
-        near = suggest(error.option_name, error.possibilities or ())
-        return f"there is no option {error.option_name}{near and ':'}{near}"
+        given = [] if error.ctx is None else error.ctx.command.get_params(error.ctx)
+        options = [name for parameter in given for name in parameter.opts if name.startswith("--")]
+        return f"there is no option {error.option_name}:{suggest_or_list(error.option_name, options)}"
     return error.format_message().removesuffix(".")
 
 

@@ -68,7 +68,7 @@ class Body:
 def prepare_bodies(names: Sequence[str], parameters: CollisionParameters, directory: Path | None = None) -> list[Body]:
     """The bodies that the parameters ask for; ship files are looked for in `directory` first. Raises InputError."""
     feedbacks = choose_feedbacks(names, parameters)
-    ships = [load_ship(p.ship, directory) for p in parameters.ships]
+    ships = [_load(name, p.ship, directory) for name, p in zip(names, parameters.ships, strict=True)]
     if parameters.response == "bullet":
         _refuse_what_bullet_lacks(names, ships, parameters.ships, feedbacks)
     bodies = [_ship(*each) for each in zip(names, ships, parameters.ships, feedbacks, strict=True)]
@@ -77,6 +77,13 @@ def prepare_bodies(names: Sequence[str], parameters: CollisionParameters, direct
             raise InputError(f"obstacles: {obstacle.name!r} is the name of a ship: give the obstacle another name")
         bodies.append(_wall(obstacle))
     return bodies
+
+
+def _load(name: str, source: str, directory: Path | None) -> Ship:
+    try:
+        return load_ship(source, directory)
+    except ShipError as error:
+        raise ShipError(f"{name}.ship: {error}") from None
 
 
 def _ship(name: str, ship: Ship, parameters: ShipParameters, feedback: str) -> Body:

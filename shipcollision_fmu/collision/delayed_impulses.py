@@ -30,7 +30,7 @@ def describe_delayed_impulses(
         if way > thin:
             return (
                 f"an impulse between {names[a]!r} and {names[b]!r} was applied one step late, at t = {t:g} s: they "
-                f"moved {way:.2g} m on, and the thinner of them is {thin:.2g} m thick, so that one may have passed the "
+                f"moved {way:.4g} m on, and the thinner of them is {thin:.2g} m thick, so that one may have passed the "
                 f"other; take steps below {H * thin / way:.1g} s, or a master that steps the collision model first"
             )
     return ""

@@ -106,8 +106,8 @@ _TABLE = (
     ),
     Finding(
         "other mass", "a ship leaves an impact far too fast, or as if it were a wall",
-        "an impulse changed the velocity of {ship!r} by {share:.2g} times what was predicted, as if its mass were "
-        "{mass:.2g} times that of {ship}.ship",
+        "an impulse changed the velocity of {ship!r} by {share:.4g} times what was predicted, as if its mass were "
+        "{mass:.4g} times that of {ship}.ship",
         "give {ship}.ship the file of the ship that sails, look at the unit of its mass (kg), and apply the impulse in "
         "b about CO",
     ),

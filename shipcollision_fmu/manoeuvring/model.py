@@ -298,7 +298,9 @@ def _reals(of: ShipParameters | ShipInputs) -> dict[str, float | list[float]]:
 def _refuse_not_finite(named: dict[str, float | list[float]], refusal: type[InputError | StepError], rule: str) -> None:
     for name, value in named.items():
         if not all(map(isfinite, value if isinstance(value, list) else [value])):
-            raise refusal(f"{name} = {value} {rule}: look at what feeds it")
+            raise refusal(
+                f"{name} = {value} {rule}: look at what feeds it; where it has failed, its message has the cause"
+            )
 
 
 def _refuse_steep_start(eta: Six) -> None:

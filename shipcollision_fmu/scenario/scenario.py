@@ -251,8 +251,8 @@ def _choose_motion(table: Any, directory: Path) -> Any:
         return table
     try:
         sails = "coasting" not in table and load_ship(_resolve(table["ship"], directory)).manoeuvring is not None
-    except ShipError:  # raised again, with the ship's name
-        sails = False
+    except ShipError:  # raised again, with the ship's name; until then nothing is said of a ship that coasts
+        sails = True
     return {**table, "hydrodynamics": sails}
 
 

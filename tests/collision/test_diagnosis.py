@@ -522,3 +522,8 @@ def test_a_ship_that_answered_at_first_is_heavier_and_not_without_effect() -> No
         found = watch.look(ship, body, [10.0, 0.0, 0.0, 0.0, 0.0, 0.0], 0.125 * k)
     assert found is not None
     assert found[0] == "other mass"
+
+
+def test_a_large_share_is_said_in_plain_digits() -> None:
+    (finding,) = (finding for _, finding in FINDINGS.values() if finding.key == "other mass")
+    assert " by 100 times what was predicted" in finding.describe(ship="own", share=100.0, mass=0.01)

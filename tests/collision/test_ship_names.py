@@ -12,6 +12,17 @@ from shipcollision_fmu.collision.ship_names import RESERVED, check_ship_names
 from shipcollision_fmu.fmi.ship_collision import table
 
 
+@pytest.mark.parametrize("source", ["", "ferry.toml", "kvlc2"])
+def test_a_refused_ship_is_named(source: str, tmp_path: Path) -> None:
+    model = ShipCollision(("own", "target"))
+    model.directory = tmp_path
+    model.parameters.ships[1].ship = source
+    with pytest.raises(InputError, match=r"^target\.ship: .*ship ") as refused:
+        model.initialise()
+    assert ("looked for in" in str(refused.value)) == (source == "ferry.toml")
+    assert (str(tmp_path) in str(refused.value)) == (source == "ferry.toml")
+
+
 @pytest.mark.parametrize(
     ("ships", "line"),
     [

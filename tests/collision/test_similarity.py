@@ -37,6 +37,7 @@ def written(folder: Path, name: str, hull: str, scale: float) -> str:
         "T": 10.0 * scale,
         "mass": 40e6 * scale**3,
         "k_xx": 11.1 * scale,
+        "allow_inconsistent": "2 km long at a scale of 10",
     }
     path.write_text(ship_toml(ship={"name": name}, particulars=particulars, hull=scaled))
     return str(path)

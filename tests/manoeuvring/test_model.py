@@ -112,7 +112,11 @@ BAD_STARTS: list[tuple[dict[str, Any], type[ShipCollisionError], str]] = [
     ),
     ({**SPATIAL, "attitude": [0.0, 1.5, 0.0]}, ScenarioError, r"initial pitch angle = 1\.5 rad must be below 1\.4 rad"),
     ({**SPATIAL, "substep": 3.0}, ScenarioError, r"substep = 3\.0 s is too long for the heave, .* at most 1\.9\d* s"),
-    ({"wind": [nan, 0.0]}, ScenarioError, r"wind_speed = nan at the start must be finite"),
+    (
+        {"wind": [nan, 0.0]},
+        ScenarioError,
+        r"wind_speed = nan at the start must be finite: look at what feeds it; where it has failed, its message",
+    ),
 ]
 
 

@@ -149,6 +149,11 @@ def test_every_shipped_scenario_can_be_loaded() -> None:
         ("step = 0.05", 'algorithm = "gauss"', r"algorithm = 'gauss' must be 'gauss-seidel' or 'jacobi'"),
         ('ship = "./barge.toml"', 'ship = "kvlc2"', r"^encounter.toml: \[ships.own\] unknown ship 'kvlc2': did you"),
         ('ship = "./barge.toml"', 'ship = "./brig.toml"', r"\[ships.own\] ship file .*/brig.toml does not"),
+        (
+            'ship = "./barge.toml"',
+            'ship = "./brig.toml"\norders = [{time = 0.0, rudder_deg = 5.0}]',
+            r"^encounter.toml: \[ships.own\] ship file .*/brig.toml does not",
+        ),
         ("heading_deg = 90.0", "heading = 90.0", r"\[ships.own\] heading is not a known key: did you mean heading_deg"),
         ("heading_deg = 90.0", "", r"\[ships.own\] heading_deg is missing: clockwise from north"),
         ("speed = 4.0", "speed = 400.0", r"\[ships.own\] moves at 400 m/s, the limit is 50: give metres per second"),

@@ -31,9 +31,16 @@ __all__ = [
 ]  # fmt: skip
 
 Knots = Annotated[float | None, Field(ge=0, le=60, description="the speed over ground in knots")]
+
 Course = Annotated[float | None, Field(ge=-360, le=360, description="clockwise from north, in degrees")]
 Metres = Annotated[float | None, Field(gt=0, le=500, description="a length in metres")]
 Reach = Annotated[float | None, Field(ge=0, le=511, description="a distance from the reference point in metres")]
+
+FORMATS = (
+    "give JSON of trafficgen or maritime-schema, or XML of CommonOcean (a scenario in TOML needs no import: "
+    "`shipcollision run FILE.toml`)"
+)
+"""The remedy for a file that is none of these."""
 
 
 class Part(Table):
@@ -174,7 +181,7 @@ def parse_situation(content: bytes, name: str) -> Situation:
     except UnicodeDecodeError as error:
         raise ScenarioError(f"{name}: is not UTF-8 text (byte {error.start}): save it as UTF-8") from None
     except (ValueError, RecursionError) as error:
-        raise ScenarioError(f"{name}: is not valid JSON: {error}") from None
+        raise ScenarioError(f"{name}: is not valid JSON: {error}; {FORMATS}") from None
     if isinstance(data, dict) and isinstance(data.get("trafficSituation"), dict):
         data = data["trafficSituation"]
     _refuse_input_of_trafficgen(data, name)

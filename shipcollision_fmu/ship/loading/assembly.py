@@ -27,6 +27,12 @@ from .stability_estimate import estimate_k_xx, estimate_stability
 
 __all__ = ["assemble_ship"]
 
+LARGEST = {"L_pp": 460.0, "B": 125.0, "T": 30.0}
+"""[m] Seawise Giant was 458 m long, Pioneering Spirit is 124 m broad; 27 m is the deepest draught of the two."""
+
+USUAL_L_B, USUAL_B_T = (2.0, 12.0), (1.5, 12.0)
+"""Of ships in service, from tugs to inland ships of 135 m, and from sailing yachts to empty inland ships."""
+
 
 def assemble_ship(content: ShipFile, file: str) -> Ship:
     """The ship that a validated file describes; `file` names it in messages.
@@ -92,7 +98,8 @@ def _place_centre_of_gravity(content: ShipFile, estimated: list[str]) -> tuple[A
 
 def _list_suspicious(content: ShipFile) -> tuple[str, ...]:
     """What may be right, but looks like a number in another unit, or like a word that is misspelt."""
-    return tuple(note for note in (_question_x_G(content), _question_kind(content)) if note)
+    notes = (_question_x_G(content), _question_kind(content), _question_size(content))
+    return tuple(note for note in notes if note)
 
 
 def _question_x_G(content: ShipFile) -> str:
@@ -116,6 +123,19 @@ def _question_kind(content: ShipFile) -> str:
         f"[ship] kind = {kind!r} names no known type of ship, so its estimates are those of a {CARGO_VESSEL.name}:"
         f"{near or ' words for types: ' + ', '.join(words)}"
     )
+
+
+def _question_size(content: ShipFile) -> str:
+    """Main dimensions larger than of any ship, and proportions of few where manoeuvring is estimated from them."""
+    p, wrong = content.particulars, list[str]()
+    for key, largest in LARGEST.items():
+        if getattr(p, key) > largest:
+            wrong.append(f"{key} = {getattr(p, key):.6g} m is more than {largest:g} m, of any ship")
+    if any(note.startswith("[manoeuvring]") for note in content.estimated):
+        for name, ratio, (low, high) in (("L_pp/B", p.L_pp / p.B, USUAL_L_B), ("B/T", p.B / p.T, USUAL_B_T)):
+            if not low <= ratio <= high:
+                wrong.append(f"{name} = {ratio:.3g} is outside {low:g} to {high:g}, of nearly all ships")
+    return f"[particulars] {', and '.join(wrong)}: leave it if it is meant so, else give metres" if wrong else ""
 
 
 def _list_sailing_estimates(ship: Ship) -> tuple[str, ...]:

@@ -15,13 +15,27 @@ from ..tables.hull import HullTable
 from ..tables.manoeuvring import ManoeuvringTable
 from ..tables.particulars import AddedMassTable, ParticularsTable
 
-__all__ = ["find_contradictions"]
+__all__ = ["find_contradictions", "find_wrong_sizes"]
 
 C_B_LIMITS = (0.40, 0.90)
 """Block coefficients of displacement ships; fine yachts and full barges lie just inside."""
 
 C_B_TOLERANCE = 0.02
 """Relative difference allowed between a given C_b and the one from the mass: published C_b have two digits."""
+
+SIZES = {"L_pp": (0.5, 500.0), "B": (0.05, 250.0), "T": (0.01, 250.0)}
+"""Least and largest dimensions [m]: a model of a buoy and more than the longest ship ever, 458 m. Wider limits let
+millimetres, centimetres and feet pass."""
+
+PROPORTIONS = {
+    ("L_pp", "B"): (1.0, 25.0), ("B", "T"): (0.5, 60.0), ("L_oa", "L_pp"): (0.5, 2.0),
+    ("k_xx", "B"): (0.0, 2.0), ("k_yy", "L_pp"): (0.0, 1.0), ("k_zz", "L_pp"): (0.0, 1.0),
+}  # fmt: skip
+"""Least and largest ratio, of those that are given: a buoy and a floating log have L_pp/B = 1 and 17, a log and a flat
+pontoon B/T = 1.4 and 40. Wider limits let one length in another unit pass."""
+
+DEEPEST_HULL = 50.0
+"""Depth over T; a light pontoon of 6 m with a draught of 0.3 m has 20."""
 
 MMG_X_G = 0.15
 """x_G over L_pp of a ship with [manoeuvring]; ships in service stay within 0.05."""
@@ -35,6 +49,32 @@ def find_contradictions(tables: Mapping[str, Any]) -> Iterator[str]:
     for check, needs in CHECKS:
         if all(name in tables for name in needs):
             yield from check(*(tables[name] for name in needs))
+
+
+def _check_size(p: ParticularsTable) -> Iterator[str]:
+    if p.allow_inconsistent is None:
+        yield from find_wrong_sizes(p)
+
+
+def find_wrong_sizes(p: ParticularsTable) -> Iterator[str]:
+    """A message for main dimensions that are no ship's, or else for each ratio of two lengths. Whatever the reason to
+    keep them, the estimate of an MMG set has no numbers for these."""
+    remedy = 'metres, or, for a body that is no ship and coasts, give the reason: allow_inconsistent = "..."'
+    wrong = [
+        f"{key} = {getattr(p, key):.6g} m must be {low:g} to {high:g} m"
+        for key, (low, high) in SIZES.items()
+        if not low <= getattr(p, key) <= high
+    ]
+    if wrong:
+        yield f"[particulars] {', '.join(wrong)}: give {remedy}"
+        return
+    for (one, other), (low, high) in PROPORTIONS.items():
+        a, b = getattr(p, one), getattr(p, other)
+        if a is not None and not low <= a / b <= high:
+            yield (
+                f"[particulars] {one} = {a:.6g} m over {other} = {b:.6g} m is {a / b:.3g}, must be {low:g} to "
+                f"{high:g}: give both in {remedy}"
+            )
 
 
 def _check_mass(p: ParticularsTable) -> Iterator[str]:
@@ -77,6 +117,11 @@ def _check_hull(p: ParticularsTable, hull: HullTable) -> Iterator[str]:
     if hull.depth <= p.T:
         yield f"[hull] depth = {hull.depth} m must be greater than the draught T = {p.T} m: the deck would be awash"
         return
+    if hull.depth > DEEPEST_HULL * p.T:
+        yield (
+            f"[hull] depth = {hull.depth} m must be at most {DEEPEST_HULL:g} times the draught T = {p.T} m: give both "
+            "in metres"
+        )
     if hull.shape != "parametric":
         return
     L = p.L_oa or p.L_pp
@@ -136,6 +181,7 @@ def _check_mmg_set(mmg: ManoeuvringTable | None, *machines: object) -> Iterator[
 MACHINES = ("propeller", "rudder", "engine")
 
 CHECKS: tuple[tuple[Callable[..., Iterator[str]], tuple[str, ...]], ...] = (
+    (_check_size, ("particulars",)),
     (_check_mass, ("particulars",)),
     (_check_centre_of_gravity, ("particulars", "hull")),
     (_check_hull, ("particulars", "hull")),

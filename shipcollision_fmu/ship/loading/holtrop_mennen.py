@@ -13,8 +13,9 @@ of a tenth of the midship section, c_2 = exp(-1.89 sqrt(c_3)). Transom and appen
 
 J. Holtrop and G. G. J. Mennen, An approximate power prediction method, Int. Shipbuilding Progress 29 (1982) 166-170;
 J. Holtrop, A statistical re-analysis of resistance and propulsion data, Int. Shipbuilding Progress 31 (1984) 272-276.
-Known from public implementations that agree. The regression has hulls of C_P 0.55 to 0.85 and L/B 3.9 to 15; beyond,
-the values of its edge are taken, and the wave resistance coefficient of Fn = 0.4 above that speed.
+Known from public implementations that agree. The regression has hulls of C_P 0.55 to 0.85, L/B 3.9 to 15 and B/T 2.1 to
+4; beyond, the values of its edge are taken (in m_1, L/T of both edges), and the wave resistance coefficient of Fn = 0.4
+above that speed.
 """
 
 from __future__ import annotations
@@ -44,6 +45,9 @@ BULB_LENGTH, BULB = 80.0, 0.1
 PRISMATIC = (0.55, 0.85)
 LEAST_SLENDERNESS = 3.0
 """L/B, a little below the regression's 3.9: its exponentials run away for tubs."""
+
+MOST_LENGTH = 60.0
+"""L/T, that of L/B = 15 with B/T = 4 in the regression: beyond, the waves of a pontoon need any power, or overflow."""
 
 FASTEST = 0.4
 """Fn of the wave resistance coefficient at most: above it a ship planes, or is no ship of this kind."""
@@ -120,7 +124,7 @@ def compute_wave_resistance(form: HullForm, speed: float) -> float:
     c_7 = 0.229577 * pow(BL, 1.0 / 3.0) if BL < 0.11 else BL if BL < 0.25 else 0.5 - 0.0625 * LB
     c_1 = 2223105.0 * pow(c_7, 3.78613) * pow(T / B, 1.07961) * pow(90.0 - _estimate_entrance(form, B), -1.37565)
     c_16 = 8.07981 * C_P - 13.8673 * C_P**2 + 6.984388 * C_P**3 if C_P < 0.8 else 1.73014 - 0.7067 * C_P
-    m_1 = 0.0140407 * L / T - 1.75254 * pow(volume, 1.0 / 3.0) / L - 4.79323 * BL - c_16
+    m_1 = 0.0140407 * min(L / T, MOST_LENGTH) - 1.75254 * pow(volume, 1.0 / 3.0) / L - 4.79323 * BL - c_16
     c_15 = min(0.0, max(-1.69385, -1.69385 + (L / pow(volume, 1.0 / 3.0) - 8.0) / 2.36))
     lam = 1.446 * C_P - 0.03 * LB if LB < 12.0 else 1.446 * C_P - 0.36
     m_4 = 0.4 * c_15 * exp(-0.034 * pow(F, -3.29))

@@ -60,7 +60,7 @@ def load_ship(source: str | Path | Mapping[str, Any], directory: Path | None = N
     _check_source(source)
     if directory is not None and _is_path(source) and (directory / source).is_file():
         source = directory / source
-    path = _locate(source)
+    path = _locate(source, also=directory)
     return _make_ship(_read_with_base(path, ()), path.name)
 
 
@@ -107,7 +107,8 @@ def _is_path(name_or_path: str | Path) -> bool:
     return isinstance(name_or_path, Path) or text.endswith(".toml") or "/" in text or "\\" in text
 
 
-def _locate(name_or_path: str | Path, beside: Path | None = None) -> Path:
+def _locate(name_or_path: str | Path, beside: Path | None = None, also: Path | None = None) -> Path:
+    """The path of a ship file. `also` is the folder where a caller has looked for it before, for the message."""
     text = str(name_or_path)
     if _is_path(name_or_path):
         path = Path(text)
@@ -115,7 +116,8 @@ def _locate(name_or_path: str | Path, beside: Path | None = None) -> Path:
             path = beside / path
         if not path.is_file():
             known = ", ".join(list_ship_names())
-            raise ShipError(f"ship file {text} does not exist: give the path of a TOML file or one of {known}")
+            where = "" if Path(text).is_absolute() else f" (looked for in {_list_folders(also, beside or Path())})"
+            raise ShipError(f"ship file {text} does not exist: give the path of a TOML file or one of {known}{where}")
         return path
     folders = [find_models() / "ships"] if beside is None else [beside, find_models() / "ships"]
     for folder in folders:
@@ -124,6 +126,10 @@ def _locate(name_or_path: str | Path, beside: Path | None = None) -> Path:
             return path
     known = suggest_or_list(text, list_ship_names(), "give the path of a TOML file")
     raise ShipError(f"unknown ship {text!r}:{known}")
+
+
+def _list_folders(*folders: Path | None) -> str:
+    return " and ".join(dict.fromkeys(str(folder.absolute()) for folder in folders if folder is not None))
 
 
 def _convert_to_toml(value: Any) -> Any:

@@ -52,8 +52,8 @@ def join_problems(problems: Sequence[str]) -> str:
 
 
 def suggest(word: str, known: Sequence[str]) -> str:
-    """' did you mean X?' or nothing."""
-    word, words = word.lower(), {k.lower(): k for k in known}
+    """' did you mean X?' or nothing. The dashes of options are left out: they would make all options alike."""
+    word, words = word.lower().lstrip("-"), {k.lower().lstrip("-"): k for k in known}
     near = get_close_matches(word, words, n=1, cutoff=0.6) or [k for k in words if len(word) > 2 and k.startswith(word)]
     return f" did you mean {words[near[0]]}?" if near else ""
 

@@ -16,7 +16,7 @@ from ..tables.hull import HullTable
 from ..tables.manoeuvring import EngineTable, ManoeuvringTable, PropellerTable, RudderTable
 from ..tables.particulars import AddedMassTable, ParticularsTable, SeakeepingTable, ShipTable, WindTable
 from ..tables.table import ESTIMATED, Table
-from .consistency import find_contradictions
+from .consistency import find_contradictions, find_wrong_sizes
 from .dimensions_estimate import MMG_TABLES, complete_dimensions, is_estimable
 from .messages import describe_problems, join_problems
 from .mmg_estimate import Dimensions, complete_tables
@@ -77,6 +77,8 @@ def _complete_and_validate(data: Mapping[str, Any], file: str) -> ShipFile:
         raise ShipError(f"{file}: {join_problems(problems)}")
     content = _validate(rest, file)
     p = content.particulars
+    if wrong := list(find_wrong_sizes(p)):
+        raise ShipError(f"{file}: {join_problems(wrong)}")
     d = Dimensions(p.L_pp, p.B, p.T, p.mass / (p.rho * p.L_pp * p.B * p.T), p.r_bg[0] if p.r_bg else 0.0, p.rho)
     own_masses, of = _find_planar_masses(d, content), find_ship_type(content.wind.type or content.ship.kind)
     try:

@@ -49,7 +49,8 @@ class ParticularsTable(Table):
     GM_T: Positive | None = Field(default=None, description="the transverse metacentric height [m]")
     GM_L: Positive | None = Field(default=None, description="the longitudinal metacentric height [m]")
     allow_inconsistent: Annotated[str, Field(min_length=1)] | None = Field(
-        default=None, description="the reason why a mass that contradicts the main dimensions is kept"
+        default=None,
+        description="the reason why a mass that contradicts the main dimensions, or dimensions of no ship, are kept",
     )
 
 

@@ -146,6 +146,14 @@ def test_missing_file() -> None:
         load_ship("no/such/ship.toml")
 
 
+def test_a_missing_file_says_where_it_was_looked_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(ShipError, match=rf" \(looked for in {tmp_path}/a and {tmp_path}\)$"):
+        load_ship("ferry.toml", tmp_path / "a")
+    with pytest.raises(ShipError, match=r"kvlcc2_l7, mesh_example$"):
+        load_ship(tmp_path / "ferry.toml")
+
+
 def test_broken_toml(tmp_path: Path) -> None:
     with pytest.raises(ShipError, match=r"^broken\.toml: is not valid TOML: .*line 1"):
         load_ship(written(tmp_path, "broken.toml", "[ship\n"))
