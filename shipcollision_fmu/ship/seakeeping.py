@@ -70,11 +70,16 @@ def compute_seakeeping(ship: Ship) -> Seakeeping:
         )
     table, notes = ship.seakeeping, []
     water = compute_hydrostatics(ship.L_pp, ship.B, ship.T, C_b, float(ship.r_bg[2]), GM_T=ship.GM_T, GM_L=ship.GM_L)
-    if water.GM_T < LEAST_GM * ship.B or water.GM_L <= 0.0:
+    if water.GM_T < LEAST_GM * ship.B:
         how = "" if ship.GM_T is not None else f", estimated with KG = {ship.T - float(ship.r_bg[2]):.2f} m"
         raise ShipError(
             f"ship {ship.name!r}: GM_T = {water.GM_T:.3f} m{how}, must be at least {LEAST_GM} B = "
             f"{LEAST_GM * ship.B:.3f} m, or it does not float upright: give [particulars] GM_T, or r_bg with CG lower"
+        )
+    if water.GM_L <= 0.0:  # of a body that is broader than long
+        raise ShipError(
+            f"ship {ship.name!r}: GM_L = {water.GM_L:.3f} m must be greater than 0, or it does not float on an even "
+            "keel: give [particulars] GM_L, or r_bg with CG lower"
         )
 
     def or_estimate(value: float | None, formula: str, otherwise: float) -> float:

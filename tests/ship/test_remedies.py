@@ -35,6 +35,13 @@ def test_a_ship_that_does_not_float_upright_does_then(
     assert compute_seakeeping(load_ship(ship_tables(particulars=done))).GM_T > 0.0
 
 
+def test_a_body_that_would_pitch_over_is_refused_by_its_GM_L() -> None:
+    broad = {"L_pp": 12.0, "B": 60.0, "T": 5.0, "mass": 2.6e6, "r_bg": [0.0, 0.0, -3.0], "allow_inconsistent": "a raft"}
+    with pytest.raises(ShipError, match=r"GM_L = -\d.* m must be greater than 0, .* give \[particulars\] GM_L"):
+        compute_seakeeping(load_ship(ship_tables(particulars=broad)))
+    assert compute_seakeeping(load_ship(ship_tables(particulars={**broad, "GM_L": 1.0}))).GM_L == 1.0
+
+
 def test_without_buoyancy_it_coasts() -> None:
     ship = load_ship(ship_tables(particulars=TOP_HEAVY))
     with pytest.raises(ShipError, match=r"or let it coast without buoyancy, coasting = 'straight'"):
