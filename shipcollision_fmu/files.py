@@ -8,17 +8,28 @@ from __future__ import annotations
 
 import os
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from .errors import HostError
 
-__all__ = ["IN_PLACE", "check_writable", "refuse_other_texts", "user_cache", "write_file", "write_files"]
+__all__ = [
+    "IN_PLACE",
+    "check_writable",
+    "refuse_other_origin",
+    "refuse_other_texts",
+    "user_cache",
+    "write_file",
+    "write_files",
+]
 
 ANOTHER_FOLDER = "give another folder with --out"
 """Remedy in messages about a folder that the user chose."""
 IN_PLACE = "make its folder writable, or room on the disk"
 """Remedy in messages about a folder that the user did not choose, such as that of a run."""
+
+MOST_NAMED = 3
+"""Files named in a refusal; more would break its one line."""
 
 
 def user_cache() -> Path:
@@ -38,6 +49,21 @@ def check_writable(out: Path) -> None:
         Path(tempfile.mkdtemp(prefix=".shipcollision-", dir=place)).rmdir()
     except OSError as error:
         raise _describe_failure(out, error) from None
+
+
+def refuse_other_origin(out: Path, names: Iterable[str], sign: str, place: str = "folder") -> None:
+    """Raise HostError when the folder `out` has files of these names.
+
+    sign: which sign of this program is missing there; place: what the user gives with --out.
+    """
+    there = [name for name in names if (out / name).exists()]
+    if not there:
+        return
+    listed = ", ".join(there[:MOST_NAMED]) + (" and others" if len(there) > MOST_NAMED else "")
+    raise HostError(
+        f"{out} holds {listed} of other origin ({sign}): give another {place} with --out, or replace what is there "
+        "with --overwrite (overwrite=True in Python)"
+    )
 
 
 def refuse_other_texts(out: Path, texts: Mapping[str, str]) -> None:

@@ -83,6 +83,19 @@ def unpacked(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder / "unpacked"
 
 
+@pytest.mark.slow
+def test_libcosim_steps_the_folder_as_our_parallel_master_does(unpacked: Path) -> None:
+    """And the guide shows the example's code."""
+    pytest.importorskip("libcosimpy")
+    text = said(sys.executable, EXAMPLES / "osp_folder.py", unpacked.parent / "osp")
+    ours = simulate(load_scenario("guan2014").changed(algorithm="jacobi"), in_process=True)
+    ((energy,),) = numbers(r"energy lost to contact: # MJ", text)
+    lost = ours.summary["energy"]["dissipated"]
+    assert energy == pytest.approx(lost / 1e6, abs=6e-4)
+    code = (EXAMPLES / "osp_folder.py").read_text(encoding="utf-8").split('"""', 2)[2].strip()
+    assert code in (EXAMPLES.parent / "docs" / "guide" / "hosts.md").read_text(encoding="utf-8")
+
+
 @pytest.fixture(scope="module")
 def host(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """examples/host.c compiled."""

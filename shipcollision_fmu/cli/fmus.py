@@ -58,6 +58,7 @@ def build(out: Path, fmi: str, scalar: bool, ships: str) -> None:
     "--replace", multiple=True, metavar="SHIP=FILE.fmu",
     help="A ship model of your own, coupled by force; FILE.toml beside it names its variables.",
 )  # fmt: skip
+@click.option("--overwrite", is_flag=True, help="Replace files of other origin at the place of the package, too.")
 def package(
     scenario: str,
     ssp: bool,
@@ -67,6 +68,7 @@ def package(
     fmi: str,
     inputs: bool,
     replace: tuple[str, ...],
+    overwrite: bool,
 ) -> None:
     """Make a system of FMUs for other hosts.
 
@@ -89,10 +91,15 @@ def package(
         place = out if out is not None else Path(f"{loaded.name}.ssp")
         if place.suffix != ".ssp":
             raise click.UsageError(f"--out {place}: hosts recognise the file by its suffix; call it {place.name}.ssp")
-        left_out = write_ssp(loaded, place, initial_orders=initial_orders, fmi=int(fmi), inputs=inputs, foreign=foreign)
+        left_out = write_ssp(
+            loaded, place, initial_orders=initial_orders, fmi=int(fmi), inputs=inputs, foreign=foreign,
+            overwrite=overwrite,
+        )  # fmt: skip
     else:
         place = out if out is not None else Path(f"{loaded.name}-osp")
-        left_out = write_osp(loaded, place, initial_orders=initial_orders, fmi=int(fmi), foreign=foreign)
+        left_out = write_osp(
+            loaded, place, initial_orders=initial_orders, fmi=int(fmi), foreign=foreign, overwrite=overwrite
+        )
     for line in left_out:
         say(f"note: {line}", err=True)
     say(str(place))

@@ -23,6 +23,7 @@ from __future__ import annotations
 import zipfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -51,6 +52,11 @@ _KINDS: Mapping[str, Kind] = {
     "Real": "Real", "Float64": "Real", "Integer": "Integer", "Int32": "Integer", "Boolean": "Boolean",
     "String": "String",
 }  # fmt: skip
+_TYPES: Mapping[Kind, tuple[tuple[type, ...], str]] = {
+    "Real": ((int, float), "a number"), "Integer": ((int,), "a whole number"), "Boolean": ((bool,), "true or false"),
+    "String": ((str,), "text in quotes"),
+}  # fmt: skip
+"""Types of a start value in TOML, by kind of the variable."""
 
 
 @dataclass(frozen=True)
@@ -58,6 +64,7 @@ class _Known:
     kind: Kind
     causality: str
     unit: str
+    has_start: bool
 
 
 @dataclass(frozen=True)
@@ -96,9 +103,8 @@ def read_foreign_ship(file: Path) -> ForeignShip:
             if theirs in known or our in _NEEDED or (key in said and theirs):
                 names[our] = _check(file, our, theirs, known, causality, units)
     start = said.get("start", {})
-    for name in start:
-        if name not in known:
-            raise ScenarioError(f"--replace: [start] {name}: {file.name} has no such variable; {_has(known)}")
+    for name, value in start.items():
+        _check_start(file, name, value, known)
     return ForeignShip(
         file, data, root.get("description", ""), names, said.get("velocity_frame", "b"), said.get("force_frame", "b"),
         {name: (known[name].kind, value) for name, value in start.items()},
@@ -113,7 +119,7 @@ def _list_variables(root: ElementTree.Element) -> dict[str, _Known]:
         kind = _KINDS.get(typed.tag)
         if kind is not None and typed.find("Dimension") is None:
             name, causality = str(node.get("name")), node.get("causality", "local")
-            found[name] = _Known(kind, causality, typed.get("unit", ""))
+            found[name] = _Known(kind, causality, typed.get("unit", ""), "start" in typed.attrib)
     return found
 
 
@@ -143,11 +149,17 @@ def _check(
 ) -> str:
     """The name of a variable that fits."""
     found = known.get(theirs)
-    if found is None or found.kind != "Real" or found.causality != causality:
-        article = "output" if causality == "output" else "input"
+    if not theirs:
+        parts = ", ".join(sorted(_NEEDED, key=[*chain(*(names for _, names, _ in GROUPS.values()))].index))
         raise ScenarioError(
-            f"--replace: {file.name} has no real {article} {theirs!r} for {our}: name it in "
-            f"{file.with_suffix('.toml').name} beside the FMU; {_has(known)}"
+            f'--replace: {file.with_suffix(".toml").name} has "" for {our}, which is required: {file.name} must have '
+            f'{parts}; only the others may be ""'
+        )
+    if found is None or found.kind != "Real" or found.causality != causality:
+        fitting = [name for name, one in known.items() if one.kind == "Real" and one.causality == causality]
+        raise ScenarioError(
+            f"--replace: {file.name} has no real {causality} {theirs!r} for {our}: name it in "
+            f"{file.with_suffix('.toml').name} beside the FMU; {_list(fitting, f'real {causality}')}"
         )
     if found.unit and found.unit not in units:
         raise ScenarioError(
@@ -157,6 +169,27 @@ def _check(
     return theirs
 
 
-def _has(known: Mapping[str, _Known]) -> str:
-    reals = [name for name, one in known.items() if one.kind == "Real" and one.causality in ("input", "output")]
-    return "it has " + ", ".join(reals[:20]) + (f" and {len(reals) - 20} more" if len(reals) > 20 else "")
+def _check_start(file: Path, name: str, value: object, known: Mapping[str, _Known]) -> None:
+    """Refuse a start value of a variable that is not there, or of another type."""
+    if name not in known:
+        if name in GROUPS or name in _FRAMES:
+            raise ScenarioError(
+                f"--replace: [start] {name}: {name} is no start value: it belongs above the line [start] of "
+                f"{file.with_suffix('.toml').name}"
+            )
+        settable = [
+            other for other, one in known.items()
+            if one.causality == "parameter" or (one.causality == "input" and one.has_start)
+        ]  # fmt: skip
+        raise ScenarioError(
+            f"--replace: [start] {name}: {file.name} has no such variable; {_list(settable, 'parameter')}"
+        )
+    types, said = _TYPES[known[name].kind]
+    if not isinstance(value, types) or (isinstance(value, bool) and bool not in types):
+        raise ScenarioError(f"--replace: [start] {name} = {value!r} must be {said}, as in {file.name}")
+
+
+def _list(names: Sequence[str], what: str) -> str:
+    if not names:
+        return f"it has no {what}"
+    return "it has " + ", ".join(names[:20]) + (f" and {len(names) - 20} more" if len(names) > 20 else "")

@@ -18,7 +18,7 @@ from pathlib import Path
 from xml.etree.ElementTree import Comment, Element, SubElement
 
 from ..errors import HostError
-from ..files import check_writable, write_files
+from ..files import check_writable, refuse_other_origin, write_files
 from ..fmi.ship_collision import INTERFACE as COLLISION_INTERFACE
 from ..fmi.ship_manoeuvring import INTERFACE as SHIP_INTERFACE
 from ..scenario.scenario import Scenario
@@ -32,7 +32,10 @@ from .xml_file import format_document, format_value
 __all__ = ["build_osp_files", "write_osp"]
 
 SYSTEM_NAMESPACE = "http://opensimulationplatform.com/MSMI/OSPSystemStructure"
+SYSTEM_FILE = "OspSystemStructure.xml"
 SCENARIO_FILE = "scenario.json"
+SIGN = "Written by shipcollision_fmu."
+"""Line of the system's comment by which a folder of this program is known, which may be replaced."""
 
 
 def write_osp(
@@ -42,13 +45,14 @@ def write_osp(
     initial_orders: bool = False,
     fmi: int = 2,
     foreign: Mapping[str, ForeignShip] | None = None,
+    overwrite: bool = False,
 ) -> tuple[str, ...]:
     """Write the scenario into the folder `out`; returns sentences on what the folder does not hold.
 
     With `initial_orders` the orders of time 0 are held and everything that a helm does later is left out. Otherwise
     later orders go into scenario.json, and an autopilot, a route or an evasion is refused. With fmi = 3 the FMUs are
-    for FMI 3.0; `foreign`: see build_system_structure. Raises ScenarioError, and HostError when the
-    folder cannot be written.
+    for FMI 3.0; `foreign`: see build_system_structure. Files of an earlier package are replaced, files of other origin
+    only with `overwrite`. Raises ScenarioError, and HostError when the folder cannot be written.
     """
     if out.is_file():
         raise HostError(f"cannot write to {out}: it is a file; give the name of a folder with --out")
@@ -61,7 +65,10 @@ def write_osp(
         left_out.insert(0, "libcosim 0.0.6 loads FMUs of FMI 2.0 alone; these are for hosts that read both.")
     if system.orders and not initial_orders:
         left_out.insert(0, f"Orders after time 0 are in {SCENARIO_FILE}: load it into the host as its scenario.")
-    write_files(out, build_osp_files(system, tuple(left_out), with_orders=not initial_orders))
+    files = build_osp_files(system, tuple(left_out), with_orders=not initial_orders)
+    if not (overwrite or _is_of_a_package(out / SYSTEM_FILE)):
+        refuse_other_origin(out, files, f"no package of this program has its {SYSTEM_FILE} there")
+    write_files(out, files)
     return tuple(left_out)
 
 
@@ -69,7 +76,7 @@ def build_osp_files(
     system: SystemStructure, left_out: tuple[str, ...] = (), *, with_orders: bool = True
 ) -> dict[str, str | bytes]:
     """The files of the folder by name; the same system gives the same bytes."""
-    files: dict[str, str | bytes] = {"OspSystemStructure.xml": _build_system(system, left_out)}
+    files: dict[str, str | bytes] = {SYSTEM_FILE: _build_system(system, left_out)}
     for instance in system.instances:
         files[f"{instance.name}.fmu"] = instance.build_fmu()
         if instance.model not in (SHIP_INTERFACE.name, COLLISION_INTERFACE.name):
@@ -82,6 +89,13 @@ def build_osp_files(
     if system.orders and with_orders:
         files[SCENARIO_FILE] = _format_orders(system)
     return files
+
+
+def _is_of_a_package(file: Path) -> bool:
+    try:
+        return SIGN.encode() in file.read_bytes()
+    except OSError:
+        return False
 
 
 def _build_system(system: SystemStructure, left_out: tuple[str, ...]) -> bytes:
@@ -106,7 +120,7 @@ def _build_system(system: SystemStructure, left_out: tuple[str, ...]) -> bytes:
             node = SubElement(connections, "VariableGroupConnection")
             SubElement(node, "VariableGroup", {"simulator": name, "name": group})
             SubElement(node, "VariableGroup", {"simulator": COLLISION, "name": f"{name}.{group}"})
-    return format_document(root, (system.title, "", *left_out), {"": SYSTEM_NAMESPACE})
+    return format_document(root, (system.title, SIGN, "", *left_out), {"": SYSTEM_NAMESPACE})
 
 
 def _add_simulator(simulators: Element, instance: Instance) -> None:

@@ -11,6 +11,7 @@ from ..fmi.names import FORCE, MOMENT
 from ..fmi.ship_manoeuvring import INTERFACE as SHIP_INTERFACE
 from ..fmi.variable_access import Model
 from ..fmi.variables import Variable
+from ..scenario.tables.ship_start import StartState
 from .foreign_ship import ForeignShip
 from .instance import COLLISION, Connection, Instance
 
@@ -64,11 +65,24 @@ def list_frames(name: str, foreign: ForeignShip) -> dict[str, Value]:
     }
 
 
-def describe_replaced_ship(name: str, foreign: ForeignShip, parameters: Mapping[str, object]) -> str:
-    """What the package cannot know of a foreign ship."""
-    return (
+def describe_replaced_ship(
+    name: str, foreign: ForeignShip, parameters: Mapping[str, object], start: StartState
+) -> tuple[str, ...]:
+    """What the package cannot know of a foreign ship. start: that of the scenario, in n and b."""
+    known = (
         f"{name} is {foreign.file.name}, coupled by force: its orders are its own, its start values those of the file "
         f"and of [start], its mass and inertia must be those of {parameters[f'{name}.ship']}."
+    )
+    if foreign.start:
+        return (known,)
+    wiring = foreign.file.with_suffix(".toml").name
+    values = (
+        f"north {start.position[0]:.6g} m, east {start.position[1]:.6g} m, yaw {start.attitude[2]:.6g} rad, surge "
+        f"{start.velocity[0]:.6g} m/s" + (f", sway {start.velocity[1]:.6g} m/s" if start.velocity[1] else "")
+    )
+    return known, (
+        f"The scenario starts {name} at {values}: give these in [start] of {wiring}, by the parameter names of "
+        f" {foreign.file.name}, or it starts elsewhere."
     )
 
 

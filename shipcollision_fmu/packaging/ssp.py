@@ -11,12 +11,13 @@ refused, or left out on request.
 
 from __future__ import annotations
 
+import zipfile
 from collections.abc import Mapping
 from pathlib import Path
 from xml.etree.ElementTree import Element, SubElement
 
 from .. import __version__
-from ..files import check_writable, write_file
+from ..files import check_writable, refuse_other_origin, write_file
 from ..fmi.builder.zip_archive import zip_bytes
 from ..fmi.names import ORDERS, SURROUNDINGS
 from ..fmi.units import UNITS
@@ -48,21 +49,32 @@ def write_ssp(
     fmi: int = 2,
     inputs: bool = False,
     foreign: Mapping[str, ForeignShip] | None = None,
+    overwrite: bool = False,
 ) -> tuple[str, ...]:
     """Write the scenario as the file `out` (NAME.ssp); returns sentences on what the file does not hold.
 
     With `initial_orders` the orders of time 0 are held and everything that a helm does later is left out. Otherwise a
     scenario with later orders, an autopilot, a route or an evasion is refused. With fmi = 3 the FMUs are for FMI 3.0.
-    `inputs`: see build_ssp; `foreign`: see build_system_structure. Raises ScenarioError, and HostError when the
-    file cannot be written.
+    `inputs`: see build_ssp; `foreign`: see build_system_structure. An earlier package is replaced, a file of other
+    origin only with `overwrite`. Raises ScenarioError, and HostError when the file cannot be written.
     """
     check_writable(out.parent)
+    if out.is_file() and not (overwrite or _is_of_a_package(out)):
+        refuse_other_origin(out.parent, (out.name,), "it is no package of this program", "file")
     system = build_system_structure(scenario, fmi, foreign)
     if not initial_orders:
         check_orders_fit(system, "an .ssp file", system.orders)
     left_out = describe_left_out(system, system.orders)
     write_file(out, build_ssp(system, left_out, inputs=inputs))
     return left_out
+
+
+def _is_of_a_package(file: Path) -> bool:
+    try:
+        with zipfile.ZipFile(file) as archive:
+            return b'generationTool="shipcollision_fmu ' in archive.read("SystemStructure.ssd")
+    except (OSError, KeyError, zipfile.BadZipFile):
+        return False
 
 
 def build_ssp(system: SystemStructure, left_out: tuple[str, ...] = (), *, inputs: bool = False) -> bytes:

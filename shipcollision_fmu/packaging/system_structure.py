@@ -118,7 +118,11 @@ def build_system_structure(
         helm=tuple(phrase for name, start in ours.items() for phrase in _describe_helm(name, start)),
         left_out=(
             *_describe_settings(scenario),
-            *(describe_replaced_ship(name, one, collision.start) for name, one in foreign.items()),
+            *(
+                line
+                for name, one in foreign.items()
+                for line in describe_replaced_ship(name, one, collision.start, scenario.ships[name].start)
+            ),
         ),
         replaced=tuple(foreign),
     )

@@ -21,7 +21,6 @@ from shipcollision_fmu.errors import HostError, InputError, ScenarioError, ShipE
 from shipcollision_fmu.fmi.interface import Interface
 from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
-from shipcollision_fmu.packaging import instance as instance_module
 from shipcollision_fmu.packaging.osp import build_osp_files, write_osp
 from shipcollision_fmu.packaging.osp_groups import KINDS, list_collision_groups, list_ship_groups
 from shipcollision_fmu.packaging.packed_ship import pack_ship
@@ -41,12 +40,6 @@ AWAY = ("position = [0.0, 0.0]", "position = [0.0, 300.0]")
 def started(fmu: Path) -> dict[str, str]:
     """Start values in an FMU's modelDescription.xml."""
     return {v.name: v.start for v in read_model_description(fmu, validate=False).modelVariables if v.start is not None}
-
-
-@pytest.fixture
-def empty_fmus(monkeypatch: pytest.MonkeyPatch) -> None:
-    """For tests of what is around the FMUs, which take a third of a second each."""
-    monkeypatch.setattr(instance_module, "instance_fmu", lambda *a: b"no FMU")
 
 
 # What is in it. ------------------------------------------------------------------------------
