@@ -82,7 +82,7 @@ def describe_replaced_ship(
     )
     return known, (
         f"The scenario starts {name} at {values}: give these in [start] of {wiring}, by the parameter names of "
-        f" {foreign.file.name}, or it starts elsewhere."
+        f"{foreign.file.name}, or it starts elsewhere."
     )
 
 
