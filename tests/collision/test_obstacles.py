@@ -115,7 +115,7 @@ def test_names_of_kinds_survive_any_character() -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        (WALL + "hight = 3.0", r"obstacles: \[obstacles.wall\] hight is not a known key: did you mean height\? known"),
+        (WALL + "hight = 3.0", r"obstacles: \[obstacles.wall\] hight is not a known key: did you mean height\?$"),
         (WALL + "diameter = 3.0", r"wall\] shape = 'box' takes length and breadth: remove diameter"),
         (WALL.replace("breadth = 20.0", ""), r"shape = 'box' takes length and breadth: give breadth"),
         (WALL.replace("20.0", "-20.0"), r"\[obstacles.wall\] breadth = -20.0 must be greater than 0: it is the box's"),
