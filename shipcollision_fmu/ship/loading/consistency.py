@@ -28,11 +28,11 @@ SIZES = {"L_pp": (0.5, 500.0), "B": (0.05, 250.0), "T": (0.01, 250.0)}
 millimetres, centimetres and feet pass."""
 
 PROPORTIONS = {
-    ("L_pp", "B"): (1.0, 25.0), ("B", "T"): (0.5, 60.0), ("L_oa", "L_pp"): (0.5, 2.0),
+    ("L_pp", "B"): (1.0, 40.0), ("B", "T"): (0.5, 60.0), ("L_oa", "L_pp"): (0.5, 2.0),
     ("k_xx", "B"): (0.0, 2.0), ("k_yy", "L_pp"): (0.0, 1.0), ("k_zz", "L_pp"): (0.0, 1.0),
 }  # fmt: skip
-"""Least and largest ratio, of those that are given: a buoy and a floating log have L_pp/B = 1 and 17, a log and a flat
-pontoon B/T = 1.4 and 40. Wider limits let one length in another unit pass."""
+"""Least and largest ratio, of those that are given: a buoy and a floating log have L_pp/B = 1 and 17, a racing
+shell 30; a log and a flat pontoon B/T = 1.4 and 40. Wider limits let one length in another unit pass."""
 
 DEEPEST_HULL = 50.0
 """Depth over T; a light pontoon of 6 m with a draught of 0.3 m has 20."""
