@@ -86,7 +86,6 @@ def unpacked(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.mark.slow
 def test_libcosim_steps_the_folder_as_our_parallel_master_does(unpacked: Path) -> None:
     """And the guide shows the example's code."""
-    pytest.importorskip("libcosimpy")
     text = said(sys.executable, EXAMPLES / "osp_folder.py", unpacked.parent / "osp")
     ours = simulate(load_scenario("guan2014").changed(algorithm="jacobi"), in_process=True)
     ((energy,),) = numbers(r"energy lost to contact: # MJ", text)
