@@ -67,11 +67,11 @@ def file_changes_of_a_contact_step() -> Counter[Change]:
         if model.outputs.contact_active:
             counted.append(changes)
 
-    ShipCollision.step = counting_step  # type: ignore[method-assign]
+    ShipCollision.step = counting_step  # type: ignore[method-assign]  # watched while it steps
     try:
         simulate(load_scenario(SCENARIO), in_process=True)
     finally:
-        ShipCollision.step = step  # type: ignore[method-assign]
+        ShipCollision.step = step  # type: ignore[method-assign]  # watched while it steps
     return counted[0]
 
 

@@ -113,7 +113,7 @@ def shipmmg() -> Contender | None:
     state = np.array([u, v, r, 0.0, 0.0, 0.0, HELM, REVOLUTIONS])
     right_hand_side: list[Any] = []
 
-    class Listening(RK45):  # type: ignore[misc]
+    class Listening(RK45):  # type: ignore[misc]  # SciPy has no types
         """SciPy's RK45, which remembers the right-hand side that it is given."""
 
         def __init__(self, fun: Any, *rest: Any, **options: Any) -> None:

@@ -309,8 +309,8 @@ def test_a_nan_in_mid_run_is_one_line_and_writes_nothing(folder: Path, monkeypat
     advance = simulate.ALGORITHMS["gauss-seidel"]
 
     def broken(system: object, t: float, h: float) -> None:
-        system.states[1].outputs.values[0] = float("nan")  # type: ignore[attr-defined]
-        advance(system, t, h)  # type: ignore[arg-type]
+        system.states[1].outputs.values[0] = float("nan")  # type: ignore[attr-defined]  # a system of any master
+        advance(system, t, h)  # type: ignore[arg-type]  # a system of any master
 
     monkeypatch.setitem(simulate.ALGORITHMS, "gauss-seidel", broken)
     result = called("run", "encounter.toml")

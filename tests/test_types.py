@@ -96,7 +96,7 @@ def test_the_types_are_the_real_ones(reported: dict[str, list[str]]) -> None:
 
 @pytest.mark.slow
 def test_a_wrong_use_is_an_error_and_a_right_one_is_none(reported: dict[str, list[str]]) -> None:
-    numbers = {int(re.search(r"script.py:(\d+):", line)[1]) for line in reported["error"]}  # type: ignore[index]
+    numbers = {int(re.search(r"script.py:(\d+):", line)[1]) for line in reported["error"]}  # type: ignore[index]  # mypy's own lines
     texts = "\n".join(reported["error"])
     assert numbers == {30, 31, 32}
     assert 'Argument 2 to "energy" has incompatible type "Ship"; expected "Scenario"' in texts

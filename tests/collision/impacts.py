@@ -89,7 +89,7 @@ class Impact:
     @property
     def W(self) -> Array:
         """(3, 3) in contact axes."""
-        return sum(  # type: ignore[return-value]
+        return sum(  # type: ignore[return-value]  # a sum of arrays
             (G @ ship.M_inverse @ G.T)
             for ship in (self.a, self.b)
             for G in [self.axes @ ship.jacobian(self.point)]

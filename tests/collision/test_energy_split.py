@@ -33,7 +33,7 @@ def answer(impact: Impact, places: list[np.ndarray], response: str) -> tuple[flo
     """Energy lost along the normal and by friction, and what both ships lose, of contacts at places about the point."""
     states = [impact.a.state(), impact.b.state()]
     contacts = [make_contact(0, 1, states, impact.point + place, impact.normal, 0.0) for place in places]
-    problem = ContactProblem([(0, 1)], states, Touching(contacts), [], impact.mu, impact.e, 0.01)  # type: ignore[arg-type]
+    problem = ContactProblem([(0, 1)], states, Touching(contacts), [], impact.mu, impact.e, 0.01)  # type: ignore[arg-type]  # stands for a Detector
     impulses, _ = enforce_passivity(RESPONSES[response](problem, ContactCaches()).impulses, states)
     booked = book_impulses(impulses, states)
     losses = np.array(split_losses(booked, states, impact.mu, impact.e))

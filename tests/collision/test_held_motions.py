@@ -96,7 +96,7 @@ def respond(impact: Impact, response: str) -> Array:
     """Impulse (3,) in n on ship b by a response of the model, made passive as the model does."""
     states: list[BodyState] = [impact.a.state(), impact.b.state()]
     contact = make_contact(0, 1, states, impact.point, impact.normal, 0.0)
-    problem = ContactProblem([(0, 1)], states, Touching([contact]), [], impact.mu, impact.e, 0.01)  # type: ignore[arg-type]
+    problem = ContactProblem([(0, 1)], states, Touching([contact]), [], impact.mu, impact.e, 0.01)  # type: ignore[arg-type]  # stands for a Detector
     impulses, _ = enforce_passivity(RESPONSES[response](problem, ContactCaches()).impulses, states)
     return impulses[0].P
 

@@ -107,7 +107,7 @@ def sail(tmp_path: Path) -> Sail:
             f'[ships.target]\nship = "./barge.toml"\nheading_deg = 0.0\n{target}\n',
             encoding="utf-8",
         )
-        return simulate(load_scenario(path), **{"in_process": True, **how})  # type: ignore[arg-type]
+        return simulate(load_scenario(path), **{"in_process": True, **how})  # type: ignore[arg-type]  # passed on
 
     return run
 

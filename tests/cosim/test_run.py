@@ -77,7 +77,7 @@ def test_the_tables_are_data_frames(run: Run) -> None:
     for frame, table in ((frames.states, run.states), (frames.signals, run.signals)):
         assert frame.index.name == "time"
         assert np.array_equal(frame.index, table["time"])
-        assert tuple(frame.columns) == table.dtype.names[1:]  # type: ignore[index]
+        assert tuple(frame.columns) == table.dtype.names[1:]  # type: ignore[index]  # structured arrays have names
         for column in frame.columns:
             assert np.array_equal(frame[column], table[column])
     assert tuple(frames.contacts.columns) == run.contacts.dtype.names

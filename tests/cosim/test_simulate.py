@@ -26,7 +26,7 @@ LINEAR, ANGLES = ("surge", "sway", "heave"), ("roll", "pitch", "yaw")
 
 
 def ran(path: Path, **options: object) -> Run:
-    return simulate(load_scenario(path), **{"in_process": True, **options})  # type: ignore[arg-type]
+    return simulate(load_scenario(path), **{"in_process": True, **options})  # type: ignore[arg-type]  # passed on
 
 
 def compared_files(out: Path) -> dict[str, bytes]:
@@ -249,8 +249,8 @@ def test_a_run_that_fails_writes_nothing_and_leaves_nothing(
 
     def broken(system: object, t: float, h: float) -> None:
         if t > 0.5:
-            system.states[0].outputs.values[0] = float("nan")  # type: ignore[attr-defined]
-        advance(system, t, h)  # type: ignore[arg-type]
+            system.states[0].outputs.values[0] = float("nan")  # type: ignore[attr-defined]  # a system of any master
+        advance(system, t, h)  # type: ignore[arg-type]  # a system of any master
 
     monkeypatch.setitem(module.ALGORITHMS, "gauss-seidel", broken)
     with pytest.raises(StepError, match=r"collision: own.position = \[nan, .*\] at t = 0.55.* s is not finite"):

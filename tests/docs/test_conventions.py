@@ -102,7 +102,7 @@ def test_the_papers_quaternion_and_rates() -> None:
     for i, quantity, sign in ((0, "r", 1), (1, "p", 1), (2, "h", -1)):
         attitude = [0.2 if i == k else 0.0 for k in range(3)]
         heeled = paper_quantities(ShipState(0.0, 0.0, 0.0, *attitude, *[0.0] * 6), np.zeros(3))
-        assert heeled[quantity] == pytest.approx(sign * np.sin(0.1))  # type: ignore[index]
+        assert heeled[quantity] == pytest.approx(sign * np.sin(0.1))  # type: ignore[index]  # a quantity by its name
     state = paper_quantities(ShipState(*[0.0] * 6, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0), np.zeros(3))
     assert (state["v_y"], state["v_x"], -state["v_z"]) == (1.0, 2.0, 3.0)
     assert (state["w_y"], state["w_x"], -state["w_z"]) == (4.0, 5.0, 6.0)

@@ -163,7 +163,7 @@ def test_every_variable_of_both_versions_is_on_its_page(name: str, interface: In
 @pytest.mark.parametrize(("name", "interface"), FMUS.items())
 def test_units_meanings_and_references_are_those_of_the_table(name: str, interface: Interface) -> None:
     text, table = page(f"reference/{name}"), interface.table(SHIPS)
-    by_first = {re.search(r"#(\S+) \}", row[0])[1]: row for row in rows(text) if "{ #" in row[0]}  # type: ignore[index]
+    by_first = {re.search(r"#(\S+) \}", row[0])[1]: row for row in rows(text) if "{ #" in row[0]}  # type: ignore[index]  # such a row has one
     for line in table:
         if line.name in by_first:
             assert (line.unit or "") in by_first[line.name]

@@ -139,11 +139,11 @@ def test_the_grid_under_way_collides_as_requested() -> None:
     for freedom, angle in product((4, 6), (50.0, 90.0)):
         check(encounter(Request("late-evasive", angle_deg=angle, degrees_of_freedom=freedom, after=0.5)))
     for angle, s, side in product((60.0, 90.0, 120.0), (-0.3, 0.2), ("port", "starboard")):
-        check(encounter(Request("drifting-target", angle_deg=angle, at=s, side=side, hydrodynamics=True, after=0.5)))  # type: ignore[arg-type]
+        check(encounter(Request("drifting-target", angle_deg=angle, at=s, side=side, hydrodynamics=True, after=0.5)))  # type: ignore[arg-type]  # texts of Side
 
 
 def test_port_is_the_mirror_of_starboard() -> None:
-    starboard, port = (encounter(Request("glancing", side=side)) for side in ("starboard", "port"))  # type: ignore[arg-type]
+    starboard, port = (encounter(Request("glancing", side=side)) for side in ("starboard", "port"))  # type: ignore[arg-type]  # texts of Side
     a, b = (made.scenario.ships["own"].start for made in (starboard, port))
     assert a.position == pytest.approx([b.position[0], -b.position[1], 0.0])
     assert a.attitude[2] + b.attitude[2] == pytest.approx(2 * np.pi)
@@ -190,7 +190,7 @@ def test_a_ship_given_by_path_is_found_from_the_file(tmp_path: Path) -> None:
         (Request("crossing", own_speed=float("nan")), r"own_speed = nan must be 0 to 50: give metres per second"),
         (Request("crossing", own_speed=-5.0), r"own_speed = -5 must be 0 to 50: give metres per second"),
         (Request("crossing", time=0.0), r"time = 0 must be 0.05 to 7200: give seconds from the start to the impact"),
-        (Request("crossing", side="left"), r"side = 'left' must be port or starboard"),  # type: ignore[arg-type]
+        (Request("crossing", side="left"), r"side = 'left' must be port or starboard"),  # type: ignore[arg-type]  # what is refused
         (Request("crossing", degrees_of_freedom=5), r"degrees_of_freedom = 5 must be 3 \(surge, sway, yaw\), 4 \(and"),
         (Request("crossing", before=20.0), r"encounter crossing has no before: leave it out, or take another type"),
         (Request("t-bone", drift_speed=2.0), r"encounter t-bone has no drift_speed: leave it out"),

@@ -59,7 +59,7 @@ def test_the_contact_height_is_the_lower_one() -> None:
     ],
 )  # fmt: skip
 def test_places_of_a_box(x: float, side: str, point: tuple[float, float], normal: float) -> None:
-    found = locate_place(BOX, x, side)  # type: ignore[arg-type]
+    found = locate_place(BOX, x, side)  # type: ignore[arg-type]  # one of Side
     assert tuple(found.point) == point
     assert [cos(n) for n in found.normals] == pytest.approx([cos(normal)] * 2, abs=1e-12)
     assert [sin(n) for n in found.normals] == pytest.approx([sin(normal)] * 2, abs=1e-12)
@@ -92,7 +92,7 @@ def test_hulls_touch_at_the_place_and_nowhere_overlap(own: str, target: str) -> 
     a, b = cut_section(meshes[0], deck), cut_section(meshes[1], deck)
     for s, side, degrees in product((-0.5, -0.4, -0.1, 0.3, 0.45, 0.5), ("port", "starboard"), range(0, 360, 15)):
         heading = radians(degrees)
-        struck = locate_place(b, s * load_ship(target).L_oa, side)  # type: ignore[arg-type]
+        struck = locate_place(b, s * load_ship(target).L_oa, side)  # type: ignore[arg-type]  # one of Side
         found = find_contacts(struck, a, heading)[0]
         theirs = move_polygon(a, found.position, heading)
         assert measure_gap(theirs, b) == pytest.approx(0.0, abs=1e-6)

@@ -104,7 +104,7 @@ class Fmu:
         array = (c_uint * len(references))(*references)
         sizes = (c_size_t(len(values)),) if self.fmi == 3 else ()
         given = (type_ * len(values))(*values)
-        return self.call(f"Set{name}")(component, array, c_size_t(len(references)), given, *sizes)  # type: ignore[no-any-return]
+        return self.call(f"Set{name}")(component, array, c_size_t(len(references)), given, *sizes)  # type: ignore[no-any-return]  # ctypes
 
     # Life of an instance.
 
@@ -129,15 +129,15 @@ class Fmu:
     def enter(self, component: pointer, start: float, stop: float) -> int:
         if self.fmi == 3:
             times = c_double(0.0), c_double(start), c_bool(True), c_double(stop)
-            return self.call("EnterInitializationMode")(component, c_bool(False), *times)  # type: ignore[no-any-return]
+            return self.call("EnterInitializationMode")(component, c_bool(False), *times)  # type: ignore[no-any-return]  # ctypes
         self.call("SetupExperiment")(component, 0, c_double(0.0), c_double(start), 1, c_double(stop))
-        return self.call("EnterInitializationMode")(component)  # type: ignore[no-any-return]
+        return self.call("EnterInitializationMode")(component)  # type: ignore[no-any-return]  # ctypes
 
     def step(self, component: pointer, t: float, h: float) -> int:
         if self.fmi == 2:
-            return self.call("DoStep")(component, c_double(t), c_double(h), 1)  # type: ignore[no-any-return]
+            return self.call("DoStep")(component, c_double(t), c_double(h), 1)  # type: ignore[no-any-return]  # ctypes
         flags = [byref(c_bool()) for _ in range(3)]
-        return self.call("DoStep")(component, c_double(t), c_double(h), c_bool(True), *flags, byref(c_double()))  # type: ignore[no-any-return]
+        return self.call("DoStep")(component, c_double(t), c_double(h), c_bool(True), *flags, byref(c_double()))  # type: ignore[no-any-return]  # ctypes
 
     # State.
 
@@ -147,7 +147,7 @@ class Fmu:
         return state
 
     def restored(self, component: pointer, state: pointer) -> int:
-        return self.call("SetFMUState" if self.fmi == 3 else "SetFMUstate")(component, state)  # type: ignore[no-any-return]
+        return self.call("SetFMUState" if self.fmi == 3 else "SetFMUstate")(component, state)  # type: ignore[no-any-return]  # ctypes
 
     def freed(self, component: pointer, state: pointer) -> None:
         self.call("FreeFMUState" if self.fmi == 3 else "FreeFMUstate")(component, byref(state))

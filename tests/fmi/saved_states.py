@@ -27,7 +27,7 @@ def saved_states(scenario: str = "guan2014_added_mass", every: int = 12) -> dict
     touching: list[Any] = [False]
 
     def keep(done: int, total: int) -> None:
-        active = made["collision"].model.outputs.contact_active  # type: ignore[attr-defined]
+        active = made["collision"].model.outputs.contact_active  # type: ignore[attr-defined]  # ours has a model
         if done % every == 1 or active != touching[-1]:
             found["ShipCollision"].append(state_to_bytes(made["collision"].save()))
             found["ShipManoeuvring"].append(state_to_bytes(made["own"].save()))

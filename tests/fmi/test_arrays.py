@@ -17,13 +17,13 @@ TABLES = (COLLISION.table(("own", "target", "third")), MANOEUVRING.table(()))
 
 @pytest.mark.parametrize("table", TABLES)
 def test_every_scalar_is_in_one_place(table: tuple[object, ...]) -> None:
-    scalars = sorted(scalar for array in gather_arrays(table) for scalar in array.references)  # type: ignore[arg-type]
+    scalars = sorted(scalar for array in gather_arrays(table) for scalar in array.references)  # type: ignore[arg-type]  # the table of an interface
     assert scalars == list(range(len(table)))
 
 
 @pytest.mark.parametrize("table", TABLES)
 def test_names_are_unique_and_differ_from_no_scalar_in_meaning(table: tuple[object, ...]) -> None:
-    names = [array.name for array in gather_arrays(table)]  # type: ignore[arg-type]
+    names = [array.name for array in gather_arrays(table)]  # type: ignore[arg-type]  # the table of an interface
     assert len(set(names)) == len(names)
 
 

@@ -21,7 +21,7 @@ def strike(frame: str) -> VariableAccess:
     access = INTERFACE.make_access()
 
     def put(group: str, names: tuple[str, ...], values: object) -> None:
-        access.set_real(access.references(named(group, names)), [float(x) for x in values])  # type: ignore[attr-defined]
+        access.set_real(access.references(named(group, names)), [float(x) for x in values])  # type: ignore[attr-defined]  # numbers of any kind
 
     for name in ("own", "target"):
         access.set_string(access.references([f"{name}.ship"]), ["guan2014_own"])

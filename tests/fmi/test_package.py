@@ -180,7 +180,7 @@ def test_requirements_are_those_of_the_project_and_each_fmus_own() -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["dependencies"]
 
     def plain(lines: object) -> set[str]:
-        return {re.sub(r"[\s'\"]", "", line) for line in lines}  # type: ignore[attr-defined]
+        return {re.sub(r"[\s'\"]", "", line) for line in lines}  # type: ignore[attr-defined]  # lines of any source
 
     # The package installs without pybullet where that has no wheels; the FMU that needs it says so everywhere.
     assert "pybullet>=3.2.5; python_version < '3.12'" in project

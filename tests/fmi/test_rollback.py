@@ -43,7 +43,7 @@ class Encounter:
                 Fmi2Component(name, fmu) if fmi == 2 else Fmi3Component(name, fmu, made_from.table(("own", "target")))
             )
             self.parts.append(stack.enter_context(closing(made)))
-            return self.parts[-1]  # type: ignore[no-any-return]
+            return self.parts[-1]  # type: ignore[no-any-return]  # the component just made
 
         scenario = load_scenario("guan2014_added_mass")
         ships = lambda name: component(name, MANOEUVRING)  # noqa: E731

@@ -39,8 +39,8 @@ def cases(draw: st.DrawFn) -> Case:
     xi_0 = solve_guan_impact(A, B, 1.0, 2.0, alpha, beta, 0.0, 0.0).xi_0 if _moving(A, B) else 0.0
     assume(abs(xi_0) > 1e-3)
     if xi_0 < 0.0:
-        A, B = ({**s.__dict__, "u": -s.u, "v": -s.v, "p": -s.p, "r": -s.r} for s in (A, B))  # type: ignore[assignment]
-        A, B = GuanShip(**A), GuanShip(**B)  # type: ignore[arg-type]
+        A, B = ({**s.__dict__, "u": -s.u, "v": -s.v, "p": -s.p, "r": -s.r} for s in (A, B))  # type: ignore[assignment]  # ships mirrored by their fields
+        A, B = GuanShip(**A), GuanShip(**B)  # type: ignore[arg-type]  # ships mirrored by their fields
     return A, B, alpha, beta, draw(floats(0.0, 1.0)), draw(floats(0.0, 1.0)), abs(xi_0)
 
 

@@ -84,7 +84,7 @@ def test_both_masters_converge_to_one_roll_rate(scenario: Scenario) -> None:
 def printed(scenario: Scenario, ship: str) -> np.ndarray:
     assert scenario.reference is not None
     after = scenario.reference.ships[ship].printed
-    return np.array([after[q] - BEFORE[ship][q] for q in V])  # type: ignore[index]
+    return np.array([after[q] - BEFORE[ship][q] for q in V])  # type: ignore[index]  # a quantity by its name
 
 
 def test_printed_changes_of_velocity_show_a_scalar_mass(scenario: Scenario) -> None:

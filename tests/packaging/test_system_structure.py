@@ -297,7 +297,7 @@ def test_variable_groups_follow_the_rules_of_osp_is(interface: Interface, tmp_pa
     assert root.attrib == {"version": "1.0"}
     table = {variable.name: variable for variable in interface.table(("own", "target"))}
     (groups,) = root
-    order = [KINDS.index(group.tag.removeprefix(GROUPS)) for group in groups]  # type: ignore[arg-type]
+    order = [KINDS.index(group.tag.removeprefix(GROUPS)) for group in groups]  # type: ignore[arg-type]  # XML text
     assert all(a <= b for a, b in pairwise(order))
     plain = []
     for group in groups:

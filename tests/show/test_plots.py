@@ -96,7 +96,7 @@ def test_the_legend_covers_no_axes(plots: dict[str, Figure]) -> None:
 
 def test_ships_differ_in_line_style_too(plots: dict[str, Figure]) -> None:
     handles = plots["motion"].legends[0].legend_handles
-    assert handles[0].get_linestyle() != handles[1].get_linestyle()  # type: ignore[union-attr]
+    assert handles[0].get_linestyle() != handles[1].get_linestyle()  # type: ignore[union-attr]  # drawn above
 
 
 def test_names_are_shown_as_they_are(guan2014: Path, tmp_path: Path) -> None:
@@ -113,7 +113,7 @@ def test_no_contact_and_an_obstacle(meeting: MakeRun) -> None:
     track = draw_figures(scene)["track"]
     assert [text.get_text() for text in track.legends[0].get_texts()] == ["own", "target"]
     quay = track.axes[0].patches[0].get_path().vertices
-    np.testing.assert_allclose([quay.min(0), quay.max(0)], [[50.0, -100.0], [70.0, 100.0]])  # type: ignore[union-attr]
+    np.testing.assert_allclose([quay.min(0), quay.max(0)], [[50.0, -100.0], [70.0, 100.0]])  # type: ignore[union-attr]  # drawn above
 
 
 @pytest.mark.slow

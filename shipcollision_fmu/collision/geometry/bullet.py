@@ -49,7 +49,7 @@ def bullet_module() -> ModuleType:
             f"pybullet cannot be imported ({error}): install it with `pip install pybullet`; its wheels exist for "
             "Linux and CPython 3.10 and 3.11, on others pip needs a C++ compiler"
         ) from error
-    return pybullet  # type: ignore[no-any-return]
+    return pybullet  # type: ignore[no-any-return]  # a module
 
 
 @contextmanager

@@ -139,7 +139,7 @@ def test_a_hull_off_its_place_is_warned_of(
     (said,) = warnings_of(tmp_path, caplog, moved, SHIP.triangles)
     x, y, z = off
     assert f"lies {x:.3g} m forward and {y:.3g} m to starboard of CO, and its keel {z:.3g} m below" in said
-    origin = [float(v) for v in re.search(r"set origin = \[(.*)\]$", said)[1].split(",")]  # type: ignore[index]
+    origin = [float(v) for v in re.search(r"set origin = \[(.*)\]$", said)[1].split(",")]  # type: ignore[index]  # the match above
     assert warnings_of(tmp_path, caplog, moved, SHIP.triangles, origin=origin) == []
     placed = read(tmp_path, moved, SHIP.triangles, origin=origin).vertices
     assert placed.mean(axis=0) == pytest.approx(SHIP.vertices.mean(axis=0))

@@ -107,7 +107,7 @@ def load(folder: Path, text: str) -> object:
 def test_in_the_band_is_grade_B(tmp_path: Path) -> None:
     """C_b 0.60, L/B 5, T/B 0.30."""
     ship = load(tmp_path, BARGE)
-    assert "[manoeuvring] Yoshimura & Masumoto (2012), grade B" in ship.estimated  # type: ignore[attr-defined]
+    assert "[manoeuvring] Yoshimura & Masumoto (2012), grade B" in ship.estimated  # type: ignore[attr-defined]  # load gives an object
 
 
 def test_outside_the_band_is_grade_C() -> None:

@@ -41,7 +41,7 @@ def test_gif(scene: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
     film = Image.open(io.BytesIO(data))
     assert isinstance(film, Image.Image)
     count = len(choose_frame_times(scene))
-    assert (film.format, film.size, film.n_frames) == ("GIF", SMALL, count)  # type: ignore[attr-defined]
+    assert (film.format, film.size, film.n_frames) == ("GIF", SMALL, count)  # type: ignore[attr-defined]  # of a GIF
     assert film.info["duration"] == 400
     assert film.info["loop"] == 0
     first = np.asarray(film.convert("RGB")).astype(int)
