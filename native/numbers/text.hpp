@@ -1,0 +1,36 @@
+// A line of text of bounded length, for messages: no memory is allocated and no locale asked.
+#pragma once
+
+#include <stddef.h>
+
+namespace shipcollision {
+
+// What is longer than the capacity is cut off between two characters of UTF-8.
+class Text {
+ public:
+  static constexpr size_t CAPACITY = 2000;
+
+  Text() { clear(); }
+
+  void clear();
+  bool is_empty() const { return size_ == 0; }
+  const char* get() const { return characters_; }
+  size_t size() const { return size_; }
+
+  Text& operator<<(const char* words);
+  Text& operator<<(const Text& other) { return *this << other.get(); }
+  Text& operator<<(int number) { return *this << static_cast<long long>(number); }
+  Text& operator<<(long long number);
+  Text& operator<<(double number);                         // as Python's repr: the shortest that reads back the same
+  Text& short_number(double number, int digits = 6);       // as Python's format 'g'
+  Text& list(const double* numbers, size_t count);         // as Python's repr of a list
+  Text& quote(const char* words);                          // as Python's repr of a string, in single quotes
+
+ private:
+  void put(char character);
+
+  char characters_[CAPACITY + 1];
+  size_t size_;
+};
+
+}  // namespace shipcollision
