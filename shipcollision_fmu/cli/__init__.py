@@ -17,7 +17,7 @@ import click
 
 from .. import __version__
 from .encounters import encounter, import_
-from .fmus import build, package, validate
+from .fmus import build, package, prepare, validate
 from .lists import scenarios, ships
 from .mistakes import Commands
 from .runs import run, show
@@ -35,5 +35,5 @@ def main(ctx: click.Context) -> None:
         click.echo(ctx.get_help())
 
 
-for command in (build, encounter, import_, package, run, scenarios, ships, show, trial, validate):
+for command in (build, encounter, import_, package, prepare, run, scenarios, ships, show, trial, validate):
     main.add_command(command)

@@ -1,4 +1,4 @@
-"""`build`, `package` and `validate`: build FMUs, put them together for other hosts, and check them."""
+"""`build`, `package`, `prepare` and `validate`: build FMUs, put them together for other hosts, and check them."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ import click
 
 from .console import say
 from .mistakes import fail
-from .options import FMI, PATH, SCENARIO
+from .options import FMI, PATH, SCENARIO, SHIP
 
-__all__ = ["build", "package", "validate"]
+__all__ = ["build", "package", "prepare", "validate"]
 
 
 @click.command()
@@ -111,6 +111,24 @@ def _split_replacement(text: str) -> tuple[str, str]:
     if not (ship and equals and file):
         raise click.UsageError(f"--replace {text}: say which ship and by which file, such as own=vessel.fmu")
     return ship, file
+
+
+@click.command()
+@click.argument("ship", type=SHIP)
+@click.option("--out", type=PATH, metavar="FILE", help="[default: NAME.ship]")
+def prepare(ship: str, out: Path | None) -> None:
+    """Write a ship as native FMUs read it.
+
+    SHIP is a shipped ship or the path of a TOML file. A native FMU has no Python to read TOML with: its parameter
+    `ship` takes the path of the file that is written here. Prepare a ship again when its TOML or mesh file changes.
+    """
+    from ..files import write_file
+    from ..manoeuvring.prepared_ship import SUFFIX, prepare_ship
+
+    place = out if out is not None else Path(f"{Path(ship).stem}{SUFFIX}")
+    if place.suffix != SUFFIX:
+        raise click.UsageError(f"--out {place}: native FMUs know the file by its suffix; call it {place.stem}{SUFFIX}")
+    say(str(write_file(place, prepare_ship(ship))))
 
 
 @click.command()

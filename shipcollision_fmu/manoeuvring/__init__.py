@@ -9,6 +9,7 @@
     wind                            forces of the air
     held_motions                    starts in 3 and 4 degrees of freedom: what is held must be at rest
     actuators                       rudder and engine follow their orders
+    prepared_ship                   a ship as the native model reads it: all numbers, exact, in one file
     trials/                         turning circle, zigzag and crash stop of a ship; no FMU carries them
 
 Imports: ship and errors. The room collision is not imported; impulses come in as numbers.

@@ -51,7 +51,7 @@ def speed_and_drift_angle(u: float, v: float) -> tuple[float, float]:
 
 
 class Propeller:
-    """Inflow and thrust of one propeller."""
+    """Inflow and thrust of one propeller. series: T over rho D^2 (u_P^2 + (0.7 pi n D)^2), PER_DEGREE from -180 deg."""
 
     def __init__(self, ship: Ship, table: PropellerTable) -> None:
         self.D_P = table.D_p
@@ -62,7 +62,7 @@ class Propeller:
         self._k_0, self._k_1, self._k_2 = table.k_0, table.k_1, table.k_2
         self._astern = table.astern_factor
         self.unit = ship.rho * table.D_p**2  # times velocity^2 is a thrust [N]
-        self._series = _tabulate_series(self._k_0, _find_own_zero(ship.name, self._k_0, self._k_1, self._k_2))
+        self.series = _tabulate_series(self._k_0, _find_own_zero(ship.name, self._k_0, self._k_1, self._k_2))
 
     def compute_inflow(self, u: float, U: float, beta: float, r: float) -> float:
         """u_P [m/s]."""
@@ -103,8 +103,8 @@ class Propeller:
         """That of the series [N]."""
         blade = ROTATION * nD
         place = (degrees(atan2(u_P, blade)) + 180.0) * PER_DEGREE
-        k = min(floor(place), len(self._series) - 2)
-        low, high = self._series[k], self._series[k + 1]
+        k = min(floor(place), len(self.series) - 2)
+        low, high = self.series[k], self.series[k + 1]
         return self.unit * (u_P * u_P + blade * blade) * (low + (place - k) * (high - low))
 
 

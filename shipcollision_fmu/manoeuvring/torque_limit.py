@@ -31,36 +31,37 @@ Torque = Callable[[float, float], float]
 class TorqueLimit:
     """Least and most revolutions [1/s] of an engine with the torque Q_e = most_torque [N m].
 
-    least_wake: u_P is at least this part of u > 0.
+    least_wake: u_P is at least this part of u > 0. root: sqrt(q) [m/s]; most, least: n D/sqrt(q) of the table;
+    per_speed: entries of the table per metre per second of u.
     """
 
     def __init__(self, torque: Torque, D_P: float, rho: float, most_torque: float, least_wake: float) -> None:
-        self._root = sqrt(most_torque / (rho * D_P**3))
-        self._n = self._root / D_P
+        self.root = sqrt(most_torque / (rho * D_P**3))
+        self._n = self.root / D_P
         places = range(-round(WIDEST * PER_UNIT), round(WIDEST * PER_UNIT) + 1)
-        self._most = [_find_limit(torque, k / PER_UNIT, 1.0) for k in places]
-        self._least = [_find_limit(torque, k / PER_UNIT, -1.0) for k in places]
-        self._per_speed = least_wake * PER_UNIT / self._root
-        self._sure = [self._n * most for most in self._most[round(WIDEST * PER_UNIT) :]]
+        self.most = [_find_limit(torque, k / PER_UNIT, 1.0) for k in places]
+        self.least = [_find_limit(torque, k / PER_UNIT, -1.0) for k in places]
+        self.per_speed = least_wake * PER_UNIT / self.root
+        self._sure = [self._n * most for most in self.most[round(WIDEST * PER_UNIT) :]]
 
     def is_surely_free(self, u: float, n: float) -> bool:
         """Whether n > 0 [1/s] is within the limit at the surge velocity u [m/s] through the water, at a glance.
 
         The limit rises with the inflow, so that of the next lower place of the table is a bound.
         """
-        return u >= 0.0 and n <= self._sure[min(int(u * self._per_speed), len(self._sure) - 1)]
+        return u >= 0.0 and n <= self._sure[min(int(u * self.per_speed), len(self._sure) - 1)]
 
     def find_range(self, u_P: float) -> tuple[float, float]:
         """Least revolutions (astern) and most (ahead) in the inflow u_P [m/s]."""
-        inflow, scale = u_P / self._root, self._n
+        inflow, scale = u_P / self.root, self._n
         if not -WIDEST < inflow < WIDEST:
             scale *= abs(inflow) / WIDEST
             inflow = WIDEST if inflow > 0.0 else -WIDEST
         place = (inflow + WIDEST) * PER_UNIT
-        k = min(floor(place), len(self._most) - 2)
+        k = min(floor(place), len(self.most) - 2)
         share = place - k
-        low, high = self._least[k], self._most[k]
-        return scale * (low + share * (self._least[k + 1] - low)), scale * (high + share * (self._most[k + 1] - high))
+        low, high = self.least[k], self.most[k]
+        return scale * (low + share * (self.least[k + 1] - low)), scale * (high + share * (self.most[k + 1] - high))
 
 
 def _find_limit(torque: Torque, u_P: float, side: float) -> float:
