@@ -80,7 +80,7 @@ class VariableAccess:
         self._initialised_from: list[Any] | None = None  # the parameters that the model last read
         self._paths_set: set[str] = set()  # places of inputs that were ever set
         self._note_set(())
-        self._tag = f"{name} {sha256(repr(table).encode()).hexdigest()[:16]}"
+        self.tag = f"{name} {sha256(repr(table).encode()).hexdigest()[:16]}"
 
     def preset(self, start: Mapping[str, Any]) -> None:
         """Start values by name in place of the model's own: those of an FMU made for one instance. Items of
@@ -213,7 +213,7 @@ class VariableAccess:
         """Everything: parameters, inputs, outputs and what the model hides. JSON-able, and exact through JSON (NaN
         and inf too)."""
         return {
-            "of": self._tag,
+            "of": self.tag,
             "build": name_running_build(),
             "values": [container[key] for container, key in self._cells],
             "model": self.model.get_state(),
@@ -253,8 +253,8 @@ class VariableAccess:
                 f"{self.name}: this state was saved by another build of shipcollision_fmu ({theirs}; this one is "
                 f"{name_running_build()}): a state can be restored only in the build that saved it"
             )
-        if of != self._tag:
-            raise InputError(f"{self.name}: this is not a saved state of it (of {of!r}, want {self._tag!r})")
+        if of != self.tag:
+            raise InputError(f"{self.name}: this is not a saved state of it (of {of!r}, want {self.tag!r})")
 
     @property
     def warning(self) -> str:
