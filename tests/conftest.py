@@ -16,6 +16,7 @@ from hypothesis.internal.conjecture import providers
 
 from shipcollision_fmu.cosim import fmu_files
 from tests import needs
+from tests.ship_engines import ENGINES, ModelOfFmu, use_engine
 from tests.ship_files import BARGE_ADDED_MASS, ship_toml
 
 # Hypothesis draws some values from the constants in the sources of this project's modules that are imported so far: an
@@ -136,3 +137,29 @@ def scenario_file(tmp_path: Path) -> Write:
         return path
 
     return write
+
+
+@pytest.fixture(
+    scope="module",
+    params=[pytest.param(name, marks=[] if name == "Python" else pytest.mark.slow) for name in ENGINES],
+)
+def engine(request: pytest.FixtureRequest) -> Iterator[str]:
+    """Which form of the ship model make_model() gives; a test that uses it runs on each."""
+    from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
+
+    name: str = request.param
+    use_engine(ShipManoeuvring if name == "Python" else request.getfixturevalue(f"make_{name.replace(' ', '_')}"))
+    yield name
+    use_engine(ShipManoeuvring)
+
+
+@pytest.fixture(scope="session")
+def make_Python_FMU(tmp_path_factory: pytest.TempPathFactory) -> Callable[[], ModelOfFmu]:
+    """Makes ships behind the Python FMU."""
+    from fmpy import extract
+
+    from shipcollision_fmu.fmi.builder.package import build_fmus
+
+    folder = tmp_path_factory.mktemp("Python FMU")
+    unpacked = Path(extract(build_fmus(folder)["ShipManoeuvring"], folder / "unpacked"))
+    return lambda: ModelOfFmu(unpacked)

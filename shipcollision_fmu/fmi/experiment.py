@@ -44,7 +44,9 @@ class Experiment:
         return warning
 
     def check_step(self, t: float, h: float) -> str:
-        """A warning about a step from t by h [s] that does not begin where the last one ended, once, or nothing.
+        """A warning about a step from t by h [s] that does not begin where the last one ended, or nothing.
+
+        It is given until such a step was made, so that a refused step takes no warning with it.
 
         Raises StepError for a step that ends after the stop.
         """
@@ -53,16 +55,16 @@ class Experiment:
                 f"a step from t = {t:g} s by {h:g} s ends after the stop time {self._stop:g} s of the experiment: end "
                 "there, or set the experiment up without a stop time"
             )
-        if self._warned or not self._begun or abs(t - self.time) <= GAP * h:
+        if self._warned or self._follows(t, h):
             return ""
-        self._warned = True
         return (
             f"a step begins at t = {t:g} s, but the last one ended at {self.time:g} s: ships and collision then lose "
             "count of the time; step from where the last step ended, or restore a state"
         )
 
     def finish_step(self, t: float, h: float) -> None:
-        """The step was made."""
+        """The step was made, and a warning about it was given."""
+        self._warned = self._warned or not self._follows(t, h)
         self.time, self._begun = t + h, True
 
     def get_state(self) -> dict[str, Any]:
@@ -79,6 +81,9 @@ class Experiment:
         """Put it back."""
         self.time, self._begun, self._warned = float(state["time"]), bool(state["begun"]), bool(state["warned"])
         self._stop, self._latest = state["stop"], float(state["latest"])
+
+    def _follows(self, t: float, h: float) -> bool:
+        return not self._begun or abs(t - self.time) <= GAP * h
 
     def _set_stop(self, stop: float | None) -> None:
         self._stop = stop

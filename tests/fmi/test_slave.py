@@ -343,6 +343,18 @@ def test_a_gap_in_time_warns_once(host: Make) -> None:
     assert b.messages[0][1].startswith("a step begins at t = 0 s, but the last one ended at 5 s")
 
 
+def test_a_refused_step_takes_no_warning_with_it(host: Make) -> None:
+    a = host()
+    a.begin()
+    a.fmu.setReal(a.reference("push.x"), [math.nan])
+    before = a.saved()
+    assert a.dll.fmi2DoStep(a.component, c_double(5.0), c_double(0.1), 1) == DISCARD
+    assert a.saved() == before
+    a.fmu.setReal(a.reference("push.x"), [0.0])
+    assert a.dll.fmi2DoStep(a.component, c_double(5.0), c_double(0.1), 1) == OK
+    assert a.messages[-1][1].startswith("a step begins at t = 5 s, but the last one ended at 0 s")
+
+
 def test_a_restored_state_takes_the_time_back(host: Make) -> None:
     a, b = host(), host("b")
     a.begin(0.0, 1.0)

@@ -8,13 +8,14 @@ from typing import Any
 import pytest
 
 from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
+from tests.ship_engines import make_model, reuse_model
 
 ZERO = (0.0, 0.0, 0.0)
 
 
 @pytest.fixture
-def start() -> Callable[..., ShipManoeuvring]:
-    """An initialised ship: start(ship=..., velocity=..., orders=...)."""
+def start(engine: str) -> Callable[..., ShipManoeuvring]:
+    """An initialised ship of each engine: start(ship=..., velocity=..., orders=...)."""
     return started
 
 
@@ -22,11 +23,11 @@ def started(
     ship: str = "kvlcc2", *, degrees_of_freedom: int = 6, hydrodynamics: bool = False,
     position: Sequence[float] = ZERO, attitude: Sequence[float] = ZERO, velocity: Sequence[float] = ZERO,
     rate: Sequence[float] = ZERO, substep: float = 0.05, coasting: str = "kirchhoff",
-    again: ShipManoeuvring | None = None, **inputs: Any,
+    again: bool = False, **inputs: Any,
 ) -> ShipManoeuvring:  # fmt: skip
-    """`again`: start this one again, which spares reading the ship file. Inputs by name; `orders` and `wind` are pairs:
-    rudder [rad] and propeller [1/s], speed [m/s] and direction [rad]."""
-    model = again or ShipManoeuvring()
+    """`again`: the same ship as in the last call with it, which keeps its inputs. Inputs by name; `orders` and `wind`
+    are pairs: rudder [rad] and propeller [1/s], speed [m/s] and direction [rad]."""
+    model: ShipManoeuvring = reuse_model() if again else make_model()
     p = model.parameters
     p.ship, p.degrees_of_freedom, p.hydrodynamics, p.substep = ship, degrees_of_freedom, hydrodynamics, substep
     p.coasting = coasting

@@ -25,7 +25,6 @@ SPEEDS = np.sqrt(M[0, 0] / np.diag(M))
 """Twist components of the energy of 1 m/s in surge: makes them comparable [m/s, rad/s]."""
 SCALE = np.diag(M) * SPEEDS
 """Impulses that cause about them [N s, N m s]."""
-REUSED = ShipManoeuvring()
 
 
 def twist(model: ShipManoeuvring) -> Array:
@@ -47,24 +46,26 @@ def test_one_component_from_rest(start: Start, component: int, degrees_of_freedo
     assert ship.outputs.impulse_applied == list(P)
 
 
+@pytest.mark.usefixtures("engine")
 @given(st.lists(st.floats(-2.0, 2.0), min_size=6, max_size=6), st.lists(st.floats(-2.0, 2.0), min_size=6, max_size=6))
 def test_any_impulse_from_any_motion(P: list[float], nu: list[float]) -> None:
     nu_before = np.array(nu) * SPEEDS
     ship = started(
         velocity=nu_before[:3], rate=nu_before[3:], attitude=[0.1, -0.05, 2.0], impulse=np.array(P) * SCALE,
-        again=REUSED,
+        again=True,
     )  # fmt: skip
     ship.step(0.0, INSTANT)
     np.testing.assert_allclose(M @ (twist(ship) - nu_before) / SCALE, P, atol=1e-12)
 
 
+@pytest.mark.usefixtures("engine")
 @given(st.lists(st.floats(-2.0, 2.0), min_size=3, max_size=3))
 def test_sailing_ship_takes_the_impulse_alike(P: list[float]) -> None:
     given_impulse = np.zeros(6)
     given_impulse[[0, 1, 5]] = np.array(P) * SCALE[[0, 1, 5]]
     ship = started(
         degrees_of_freedom=3, hydrodynamics=True, velocity=[7.0, 0.5, 0.0], rate=[0.0, 0.0, 0.005], orders=[0.3, 1.2],
-        impulse=given_impulse, again=REUSED,
+        impulse=given_impulse, again=True,
     )  # fmt: skip
     change = twist(ship)
     ship.step(0.0, INSTANT)

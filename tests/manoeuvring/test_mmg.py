@@ -17,7 +17,6 @@ from .conftest import started
 
 Start = Callable[..., ShipManoeuvring]
 MMG = {"degrees_of_freedom": 3, "hydrodynamics": True}
-REUSED = ShipManoeuvring()
 
 
 def sail(model: ShipManoeuvring, duration: float, h: float = 0.5) -> None:
@@ -127,6 +126,7 @@ def _after_a_minute(substep: float) -> np.ndarray[tuple[int], np.dtype[np.float6
     return np.array([*ship.outputs.position, *ship.outputs.attitude, *ship.outputs.velocity])
 
 
+@pytest.mark.usefixtures("engine")
 def test_converges_with_the_fourth_power_of_the_substep() -> None:
     exact = _after_a_minute(0.125)
     errors = [np.linalg.norm(_after_a_minute(s) - exact) for s in (8.0, 4.0, 2.0)]
@@ -143,10 +143,11 @@ def test_communication_step_does_not_matter(start: Start) -> None:
     assert one.outputs.velocity == many.outputs.velocity
 
 
+@pytest.mark.usefixtures("engine")
 @settings(max_examples=20, deadline=None)
 @given(st.floats(-8.0, 8.0), st.floats(-5.0, 5.0), st.floats(-0.03, 0.03))
 def test_without_propulsion_the_kinetic_energy_only_falls(u: float, v: float, r: float) -> None:
-    ship = started(**MMG, velocity=[u, v, 0.0], rate=[0.0, 0.0, r], substep=0.5, again=REUSED)
+    ship = started(**MMG, velocity=[u, v, 0.0], rate=[0.0, 0.0, r], substep=0.5, again=True)
     M = load_ship("kvlcc2").M
 
     def energy() -> float:

@@ -25,7 +25,6 @@ from .conftest import started
 Start = Callable[..., ShipManoeuvring]
 SIX = {"degrees_of_freedom": 6, "hydrodynamics": True}
 FOUR = {"degrees_of_freedom": 4, "hydrodynamics": True}
-REUSED = ShipManoeuvring()
 KVLCC2 = load_ship("kvlcc2")
 M = KVLCC2.M
 SPEEDS = np.sqrt(M[0, 0] / np.diag(M))
@@ -185,6 +184,7 @@ def test_sway_coupling_shortens_the_roll_period(start: Start) -> None:
 # -- impulses, energy, rest -----------------------------------------------------------------------------------------
 
 
+@pytest.mark.usefixtures("engine")
 @settings(max_examples=40, deadline=None)
 @given(
     st.sampled_from([4, 6]), st.lists(st.floats(-2.0, 2.0), min_size=6, max_size=6), st.floats(-8.0, 10.0),
@@ -197,7 +197,7 @@ def test_an_impulse_changes_M_nu_by_itself_at_any_speed(n: int, P: list[float], 
     nu = axes @ [u, v, 0.0, 0.002, 0.0, 0.005]
     ship = started(
         degrees_of_freedom=n, hydrodynamics=True, velocity=nu[:3], rate=nu[3:], attitude=attitude, orders=[0.0, 1.0],
-        impulse=given_impulse, again=REUSED,
+        impulse=given_impulse, again=True,
     )  # fmt: skip
     before = state(ship)[6:]
     ship.step(0.0, 1e-16)
@@ -208,6 +208,7 @@ def test_an_impulse_changes_M_nu_by_itself_at_any_speed(n: int, P: list[float], 
     np.testing.assert_allclose((change * SPEEDS)[[i for i in range(6) if i not in free]], 0.0, atol=1e-13)
 
 
+@pytest.mark.usefixtures("engine")
 @settings(max_examples=15, deadline=None)
 @given(
     st.lists(st.floats(-1.0, 1.0), min_size=6, max_size=6), st.floats(-0.3, 0.3), st.floats(-0.03, 0.03),
@@ -218,7 +219,7 @@ def test_without_input_the_energy_only_falls(nu: list[float], phi: float, theta:
     mmg = Mmg6Dof(KVLCC2, 6)
     x = np.array(nu) * [8.0, 4.0, 0.5, 0.03, 0.005, 0.02]
     ship = started(
-        **SIX, velocity=x[:3], rate=x[3:], attitude=[phi, theta, 0.4], position=[0.0, 0.0, D], again=REUSED,
+        **SIX, velocity=x[:3], rate=x[3:], attitude=[phi, theta, 0.4], position=[0.0, 0.0, D], again=True,
         orders=[0.0, 0.0], impulse=[0.0] * 6,
     )  # fmt: skip
     before = energy(ship, mmg)
@@ -365,6 +366,7 @@ def _after_a_minute(substep: float) -> Array:
     return state(ship)
 
 
+@pytest.mark.usefixtures("engine")
 def test_converges_with_the_fourth_power_of_the_substep() -> None:
     """But for the kink of |p| p, which is small: better than a factor of 8 per halving."""
     exact = _after_a_minute(0.03125)

@@ -11,6 +11,7 @@ import pytest
 
 from shipcollision_fmu.errors import ScenarioError, ShipCollisionError, ShipError, StepError
 from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
+from tests.ship_engines import OF_THE_OBJECT, make_model
 from tests.ship_files import ship_toml
 
 Start = Callable[..., ShipManoeuvring]
@@ -63,6 +64,7 @@ def test_bad_input_is_refused_and_the_state_kept(
     assert outputs(ship) == outputs(twin)
 
 
+@OF_THE_OBJECT
 @pytest.mark.parametrize(
     ("t", "h", "message"),
     [
@@ -179,7 +181,7 @@ def test_state_is_exact_to_the_bit(start: Start, mode: dict[str, Any]) -> None:
     text, at_save = json.dumps(ship.get_state()), outputs(ship)
     ship.step(0.37, 0.37)
     after = outputs(ship)
-    fresh = ShipManoeuvring()
+    fresh = make_model()
     fresh.parameters, fresh.inputs = ship.parameters, ship.inputs
     for model in (ship, fresh):
         model.set_state(json.loads(text))
@@ -188,6 +190,7 @@ def test_state_is_exact_to_the_bit(start: Start, mode: dict[str, Any]) -> None:
         assert outputs(model) == after
 
 
+@OF_THE_OBJECT
 def test_state_is_a_copy(start: Start) -> None:
     ship = start(velocity=[5.0, 0.0, 0.0])
     saved = ship.get_state()
@@ -196,6 +199,7 @@ def test_state_is_a_copy(start: Start) -> None:
     assert ship.outputs.velocity[0] == 5.0
 
 
+@OF_THE_OBJECT
 def test_state_before_initialise(start: Start) -> None:
     ship = start()
     ship.set_state(ShipManoeuvring().get_state())
@@ -203,6 +207,7 @@ def test_state_before_initialise(start: Start) -> None:
         ship.step(0.0, 0.1)
 
 
+@OF_THE_OBJECT
 def test_two_ships_do_not_share_anything(start: Start) -> None:
     one, other = start(velocity=[5.0, 0.0, 0.0]), start()
     one.step(0.0, 1.0)
@@ -211,6 +216,7 @@ def test_two_ships_do_not_share_anything(start: Start) -> None:
     assert lists[0].isdisjoint(lists[1])
 
 
+@OF_THE_OBJECT
 @pytest.mark.parametrize("mode", MODES, ids=NAMES)
 def test_lists_keep_their_identity(start: Start, mode: dict[str, Any]) -> None:
     ship = start(**mode, velocity=[5.0, 0.0, 0.0])

@@ -30,6 +30,7 @@ def test_who_sails() -> None:
     assert {"kvlcc2", "kvlcc2_l7", "kcs", "guan2014_own_manoeuvring", "guan2014_target_manoeuvring"} <= set(SAILING)
 
 
+@pytest.mark.usefixtures("engine")
 @pytest.mark.parametrize("name", [name for name in SAILING if name != "kvlcc2_l7"])
 def test_service_speed_is_near_equilibrium(name: str) -> None:
     """All but the 7 m model's, whose revolutions are those of its free-running tests, not of these equations."""
@@ -39,6 +40,7 @@ def test_service_speed_is_near_equilibrium(name: str) -> None:
     assert thrust == pytest.approx(drag, rel=0.01)
 
 
+@pytest.mark.usefixtures("engine")
 @pytest.mark.parametrize("name", SAILING)
 @pytest.mark.parametrize("degrees_of_freedom", [3, 6])
 def test_turning_circle_meets_the_imo_criteria(name: str, degrees_of_freedom: int) -> None:
@@ -59,6 +61,7 @@ def test_turning_circle_meets_the_imo_criteria(name: str, degrees_of_freedom: in
     assert 2.0 < ship.outputs.position[1] / L < 5.0
 
 
+@pytest.mark.usefixtures("engine")
 @pytest.mark.parametrize(("name", "least", "most"), [("kcs", 10.0, 20.0), ("guan2014_target_manoeuvring", 10.0, 20.0)])
 def test_container_ships_heel_far_outwards(name: str, least: float, most: float) -> None:
     """With GM_T of 0.6 m at 24 kn and the helm hard over: more than ten degrees, as masters know."""

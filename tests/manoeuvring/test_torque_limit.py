@@ -56,6 +56,7 @@ def on_the_spot(path: str) -> ShipManoeuvring:
     return started(path, degrees_of_freedom=3, hydrodynamics=True, orders=[0.0, 99.0], substep=0.2)
 
 
+@pytest.mark.usefixtures("engine")
 @pytest.mark.parametrize("text", [TUG, TANKER], ids=["tug", "tanker"])
 def test_bollard_pull_is_that_of_the_rule_of_thumb(text: str, tmp_path: Path) -> None:
     """0.9 x 1.10/100 t for each brake horsepower of an open propeller of fixed pitch (Hensen, Tug use in port, known
@@ -70,6 +71,7 @@ def test_bollard_pull_is_that_of_the_rule_of_thumb(text: str, tmp_path: Path) ->
     assert 0.67 * rule < pull < 1.33 * rule
 
 
+@pytest.mark.usefixtures("engine")
 def test_on_the_spot_the_revolutions_fall_to_three_quarters(tmp_path: Path) -> None:
     """The torque coefficient on the spot is 1.6 to 2 times that at service speed; the engine gives no more torque."""
     path = written(tmp_path, TANKER)
@@ -127,6 +129,7 @@ def test_power_goes_with_the_cube_of_the_revolutions(tmp_path: Path) -> None:
     assert slower.find_range(0.0) == pytest.approx(two.find_range(0.0), rel=1e-9)
 
 
+@pytest.mark.usefixtures("engine")
 def test_the_engine_follows_its_limit_as_the_ship_gathers_way(tmp_path: Path) -> None:
     path = written(tmp_path, TANKER)
     model, speeds = on_the_spot(path), []
@@ -140,6 +143,7 @@ def test_the_engine_follows_its_limit_as_the_ship_gathers_way(tmp_path: Path) ->
     assert speeds[-1] <= ship.engine.max_rev_per_s
 
 
+@pytest.mark.usefixtures("engine")
 @pytest.mark.parametrize("degrees_of_freedom", [4, 6])
 def test_it_is_the_same_in_all_degrees_of_freedom(degrees_of_freedom: int, tmp_path: Path) -> None:
     path = written(tmp_path, TANKER)
@@ -158,6 +162,7 @@ def test_it_is_the_same_in_all_degrees_of_freedom(degrees_of_freedom: int, tmp_p
     assert runs[1] == pytest.approx(runs[0], rel=1e-3)
 
 
+@pytest.mark.usefixtures("engine")
 def test_an_engine_of_unknown_power_has_no_limit() -> None:
     """KVLCC2 and its model sail as the free-running tests did, at constant revolutions."""
     ship = load_ship("kvlcc2")

@@ -14,8 +14,8 @@ from math import copysign, pi, radians
 
 import pytest
 
-from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
 from shipcollision_fmu.ship.loading.library import load_ship
+from tests.ship_engines import make_model
 
 TOLERANCE = 0.10
 ROWS = [
@@ -30,14 +30,14 @@ ROWS = [
 
 
 @cache
-def turning_circle(name: str, rudder_deg: float) -> tuple[float, float]:
+def turning_circle(engine: str, name: str, rudder_deg: float) -> tuple[float, float]:
     """(advance, tactical diameter) over L_pp: north at 90 deg, east at 180 deg of change of heading."""
     table = load_ship(name).propeller
     assert table is not None
     assert table.service_speed is not None
     assert table.service_rev_per_s is not None
     L = load_ship(name).L_pp
-    ship = ShipManoeuvring()
+    ship = make_model()
     ship.parameters.ship, ship.parameters.degrees_of_freedom, ship.parameters.hydrodynamics = name, 3, True
     ship.parameters.initial_velocity[0] = table.service_speed
     ship.inputs.rudder_order, ship.inputs.propeller_order = radians(rudder_deg), table.service_rev_per_s
@@ -58,20 +58,22 @@ def turning_circle(name: str, rudder_deg: float) -> tuple[float, float]:
 
 
 @pytest.mark.parametrize(("name", "source", "rudder_deg", "advance", "diameter"), ROWS)
-def test_turning_circle(name: str, source: str, rudder_deg: float, advance: float, diameter: float) -> None:
+def test_turning_circle(
+    engine: str, name: str, source: str, rudder_deg: float, advance: float, diameter: float
+) -> None:
     assert source
-    computed = turning_circle(name, rudder_deg)
+    computed = turning_circle(engine, name, rudder_deg)
     assert computed == pytest.approx((advance, diameter), rel=TOLERANCE)
 
 
-def test_full_ship_turns_wider_than_its_model() -> None:
-    assert turning_circle("kvlcc2", 35.0) > turning_circle("kvlcc2_l7", 35.0)
-    assert turning_circle("kvlcc2", 35.0)[1] > turning_circle("kvlcc2_l7", 35.0)[1]
+def test_full_ship_turns_wider_than_its_model(engine: str) -> None:
+    assert turning_circle(engine, "kvlcc2", 35.0) > turning_circle(engine, "kvlcc2_l7", 35.0)
+    assert turning_circle(engine, "kvlcc2", 35.0)[1] > turning_circle(engine, "kvlcc2_l7", 35.0)[1]
 
 
 @pytest.mark.parametrize("name", ["kvlcc2", "kvlcc2_l7"])
-def test_imo_criteria(name: str) -> None:
+def test_imo_criteria(engine: str, name: str) -> None:
     """MSC.137(76): advance at most 4.5 L, tactical diameter at most 5 L."""
-    advance, diameter = turning_circle(name, 35.0)
+    advance, diameter = turning_circle(engine, name, 35.0)
     assert advance <= 4.5
     assert diameter <= 5.0
