@@ -5,6 +5,8 @@
 
 namespace shipcollision {
 
+struct Decimal;
+
 // What is longer than the capacity is cut off between two characters of UTF-8.
 class Text {
  public:
@@ -28,9 +30,12 @@ class Text {
 
  private:
   void put(char character);
+  bool put_special(double number);
+  void put_decimal(const Decimal& decimal, int most_before, bool is_real);
 
   char characters_[CAPACITY + 1];
   size_t size_;
+  bool is_full_;
 };
 
 }  // namespace shipcollision
