@@ -33,6 +33,7 @@ FLOORS = (
     {"fmi"},
     {"manoeuvring", "collision"},
     {"ship"},
+    {"toolchain"},
     {"files"},
     {"errors"},
 )

@@ -1,0 +1,51 @@
+// Closest points of convex hulls, by Bullet: the twin of shipcollision_fmu/collision/geometry/closest_points.py.
+#pragma once
+
+namespace shipcollision {
+
+// Bullet's collision margin [m], as in the Python twin; it is taken off again. Without it Bullet returns wrong normals
+// for faces that lie flat on each other.
+constexpr double MARGIN = 0.001;
+
+// Closest points of two convex parts: on_a, on_b in n [m], normal from a to b, gap [m] (< 0: overlap).
+struct Closest {
+  double on_a[3];
+  double on_b[3];
+  double normal[3];
+  double gap;
+  int part_a;
+  int part_b;
+};
+
+// The hulls of some ships, each of convex parts, and where they are. Results depend on hulls, poses and arguments alone.
+class PlacedHulls {
+ public:
+  // parts: of each ship, how many; corners: of each part, how many; coordinates: of each corner x, y, z in b about CO [m].
+  // Bullet's own hull of a part is what counts: its vertices are those corners rounded to 1/10216 of the hull's extent.
+  // Every ship starts at the origin of n, heading north.
+  PlacedHulls(int ships, const int* parts, const int* corners, const double* coordinates);
+  ~PlacedHulls();
+  PlacedHulls(const PlacedHulls&) = delete;
+  PlacedHulls& operator=(const PlacedHulls&) = delete;
+
+  int count_parts(int ship) const;
+  // The vertices of a part as Bullet has them, in b; returns how many there are, writes at most `capacity`.
+  int get_corners(int ship, int part, double* coordinates, int capacity) const;
+
+  // CO at x in n [m], with the rows of R_nb.
+  void place(int ship, const double x[3], const double R_nb[9]);
+
+  // Whether two parts are not farther apart than `distance` [m]; then `found` is filled.
+  bool closest_of_parts(int a, int part_a, int b, int part_b, double distance, Closest& found) const;
+  // Every pair of parts not farther apart than `distance`, at most as many as count_parts(a) * count_parts(b).
+  int closest(int a, int b, double distance, Closest* found) const;
+  // Least distance [m] between two ships, negative in overlap, at most `cap`.
+  double gap(int a, int b, double cap) const;
+
+ private:
+  struct Ship;
+
+  Ship* ships_;
+};
+
+}  // namespace shipcollision
