@@ -16,11 +16,16 @@ double log(double x);
 double hypot(double x, double y);
 
 inline double sqrt(double x) { return __builtin_sqrt(x); }
-inline double floor(double x) { return __builtin_floor(x); }
-inline double ceil(double x) { return __builtin_ceil(x); }
 inline double abs(double x) { return __builtin_fabs(x); }
 inline double copysign(double x, double sign) { return __builtin_copysign(x, sign); }
 inline bool isfinite(double x) { return __builtin_isfinite(x); }
+// Without the compiler's own floor, which calls libm on processors before SSE 4.1.
+inline double floor(double x) {
+  if (!(abs(x) < 0x1p52)) return x;  // whole, infinite or not a number
+  const double whole = static_cast<double>(static_cast<long long>(x));
+  return copysign(whole > x ? whole - 1.0 : whole, x);
+}
+inline double ceil(double x) { return -floor(-x); }
 // Python's min, max and round (half to even).
 inline double min(double a, double b) { return b < a ? b : a; }
 inline double max(double a, double b) { return b > a ? b : a; }

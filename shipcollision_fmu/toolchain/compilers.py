@@ -1,0 +1,100 @@
+"""Compilers: Zig's from PyPI, which compiles for every target, or the system's own, for its machine alone.
+
+Both give the same numbers: no source depends on a library, and contraction of products and sums is off. Zig's runs on
+older systems than the one it compiles on; what the system's compiler makes may need as new a C library as there is.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cache
+from importlib.util import find_spec
+from pathlib import Path
+
+from ..errors import HostError, describe_installation
+from ..files import user_cache
+from .platforms import Target, find_own_target
+
+__all__ = ["Compiler", "find_compiler"]
+
+_SYSTEM = ("g++", "clang++", "c++")
+"""Names of C++ compilers; Windows has none of them as a rule."""
+
+
+@dataclass(frozen=True)
+class Compiler:
+    """Commands of a compiler for one target.
+
+    name     with its version, for people and for keys
+    compile  turns C++ into an object
+    link     turns objects into a library, without a run-time library of C++
+    """
+
+    name: str
+    compile: tuple[str, ...]
+    link: tuple[str, ...]
+    environment: Mapping[str, str] = field(default_factory=dict)
+
+
+def find_compiler(target: Target, *, prefer_system: bool = False) -> Compiler:
+    """A compiler for `target`. Raises HostError, with what to install.
+
+    An FMU takes Zig's where there is a choice, for older systems; a library that stays here takes the system's with
+    `prefer_system`, which need not build Zig's own libraries first.
+    """
+    system = _find_system() if target == find_own_target() else None
+    zig = _find_zig()
+    if system is not None and (prefer_system or zig is None):
+        return system
+    if zig is None:
+        raise HostError(_describe_lack(target))
+    path, version = zig
+    kept = {"ZIG_GLOBAL_CACHE_DIR": str(_ZIG_CACHE), "ZIG_LOCAL_CACHE_DIR": str(_ZIG_CACHE)}
+    # Without -target Zig would use instructions that other machines may not have.
+    return Compiler(
+        f"zig {version}", (path, "c++", "-target", target.zig), (path, "cc", "-target", target.zig), kept
+    )  # fmt: skip
+
+
+_ZIG_CACHE = user_cache().parent / "zig"
+"""Zig's own folder: the first use of a target builds its C library there, which takes up to a minute."""
+
+
+def _describe_lack(target: Target) -> str:
+    """Why nothing compiles for `target`, and what to install."""
+    remedy = describe_installation("native")
+    if target == find_own_target():
+        return f"there is no C++ compiler for native code: {remedy}, or install g++ or clang++"
+    return f"native code for {target.folder} is compiled by Zig, which is not installed: {remedy}"
+
+
+@cache
+def _find_zig() -> tuple[str, str] | None:
+    """Zig's program from the PyPI package, and its version."""
+    found = find_spec("ziglang")
+    for folder in (found.submodule_search_locations or ()) if found is not None else ():
+        program = Path(folder) / ("zig.exe" if os.name == "nt" else "zig")
+        if program.is_file():
+            return str(program), _ask(str(program), "version")
+    return None
+
+
+@cache
+def _find_system() -> Compiler | None:
+    """The system's compiler. Its C driver links, which adds no library of C++."""
+    for name in _SYSTEM:
+        path = shutil.which(name)
+        driver = shutil.which(name.replace("g++", "gcc").replace("clang++", "clang").replace("c++", "cc"))
+        if path is not None and driver is not None:
+            return Compiler(_ask(path, "--version"), (path,), (driver,))
+    return None
+
+
+def _ask(*command: str) -> str:
+    """The first line that a program says."""
+    said = subprocess.run(command, capture_output=True, text=True, check=False).stdout
+    return said.partition("\n")[0].strip()

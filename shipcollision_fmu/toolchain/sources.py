@@ -1,0 +1,64 @@
+"""What libraries are compiled from: native/ and the headers of FMI."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from importlib.util import find_spec
+from pathlib import Path
+
+from ..errors import HostError, describe_installation
+
+__all__ = ["Part", "find_fmi_headers", "find_native", "list_fmu_parts", "list_library_parts"]
+
+_WARNINGS = ("-Wall", "-Wextra", "-Werror")
+
+
+@dataclass(frozen=True)
+class Part:
+    """Sources that are compiled alike.
+
+    root      folder that they are compiled in, so that no object has a path of this machine
+    files     names of the .cpp files, below root
+    flags     beside those that all parts have
+    includes  folders with headers of others
+    """
+
+    root: Path
+    files: tuple[str, ...]
+    flags: tuple[str, ...] = _WARNINGS
+    includes: tuple[Path, ...] = ()
+
+
+def find_native() -> Path:
+    """Folder of the C++ sources: inside an installed package, beside the package in a working copy."""
+    package = Path(__file__).resolve().parents[1]
+    inside = package / "native"
+    found = inside if inside.is_dir() else package.parent / "native"
+    if not found.is_dir():
+        raise HostError(f"{found} is missing: the installation of shipcollision_fmu is not complete, install it again")
+    return found
+
+
+def find_fmi_headers() -> Path:
+    """Folder of the headers of FMI 2.0 and 3.0, which fmpy carries."""
+    found = find_spec("fmpy")
+    folder = Path(found.origin).parent / "c-code" if found is not None and found.origin is not None else None
+    if folder is None or not (folder / "fmi3Functions.h").is_file():
+        raise HostError(f"the headers of FMI, which fmpy carries, are missing: {describe_installation()}")
+    return folder
+
+
+def list_library_parts() -> list[Part]:
+    """Of the library for Python: all models, without the functions of FMI."""
+    return [Part(find_native(), _list_sources(without=("fmi", "collision")))]
+
+
+def list_fmu_parts() -> list[Part]:
+    """Of the library inside FMUs: the ship model and the functions of FMI."""
+    return [Part(find_native(), _list_sources(without=("collision",)), includes=(find_fmi_headers(),))]
+
+
+def _list_sources(without: tuple[str, ...]) -> tuple[str, ...]:
+    native = find_native()
+    found = (path.relative_to(native) for path in native.rglob("*.cpp"))
+    return tuple(sorted(path.as_posix() for path in found if path.parts[0] not in without))
