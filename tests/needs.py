@@ -15,6 +15,7 @@ from collections import defaultdict
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cache, partial
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -73,6 +74,10 @@ NEEDS = {
     "libpython": Need(
         "a shared libpython", lambda: shared_libpython() is not None,
         f"{_DEBIAN}libpython{sys.version_info.major}.{sys.version_info.minor}, or a CPython built with --enable-shared",
+    ),
+    "pybullet": Need(
+        "pybullet", lambda: find_spec("pybullet") is not None,
+        "take CPython 3.10 or 3.11 on Linux (x86-64), for which it has wheels",
     ),
     **{
         f"python{version}": Need(

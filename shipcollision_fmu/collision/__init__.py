@@ -25,6 +25,7 @@
 
 Data: ShipState -> exchange -> BodyState -> geometry -> Contact -> v, W -> solvers -> impulses P -> dynamics -> outputs.
 
-Imports: ship/ and errors; within the room, model > the other files > solvers > geometry > dynamics. `pybullet` only in
-geometry/bullet.py. Equations: docs/theory/contact.md.
+Imports: ship/, toolchain and errors; within the room, model > the other files > solvers > geometry > dynamics.
+`pybullet` only in geometry/bullet.py, our library only in geometry/closest_points.py.
+Equations: docs/theory/contact.md.
 """

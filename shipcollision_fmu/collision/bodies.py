@@ -20,7 +20,7 @@ from .dynamics.body_state import BodyState
 from .feedback import PRESCRIBED, choose_feedbacks
 from .fender import Fender, build_fender
 from .geometry.broad_phase import Rectangle
-from .geometry.bullet import BulletBody
+from .geometry.bullet import BulletBody, require_dynamics
 from .interface import CollisionParameters, ShipParameters
 from .obstacles import Obstacle, read_obstacles
 
@@ -70,6 +70,7 @@ def prepare_bodies(names: Sequence[str], parameters: CollisionParameters, direct
     feedbacks = choose_feedbacks(names, parameters)
     ships = [_load(name, p.ship, directory) for name, p in zip(names, parameters.ships, strict=True)]
     if parameters.response == "bullet":
+        require_dynamics()
         _refuse_what_bullet_lacks(names, ships, parameters.ships, feedbacks)
     bodies = [_ship(*each) for each in zip(names, ships, parameters.ships, feedbacks, strict=True)]
     for obstacle in read_obstacles(parameters.obstacles):

@@ -48,7 +48,7 @@ from .geometry.broad_phase import Pair
 from .geometry.detection import Detector
 from .interface import CollisionInputs, CollisionOutputs, CollisionParameters, ShipParameters, ShipPost, ShipState
 from .proximity import NearPair, Proximity
-from .responses import RESPONSES
+from .responses import ADAPTERS, RESPONSES
 from .ship_names import check_ship_names
 from .solvers.energy_split import split_losses
 from .totals import Totals
@@ -97,7 +97,7 @@ class ShipCollision:
         self.close()
         self._bodies = bodies
         feedbacks = [body.feedback for body in bodies[:n]]
-        self._detector = Detector([body.hull for body in bodies])
+        self._detector = Detector([body.hull for body in bodies], ADAPTERS.get(parameters.response))
         self._exchange = ShipExchange(bodies, feedbacks, self.inputs.ships, self.outputs.ships)
         self._proximity = Proximity(bodies, n, self._detector, parameters.clearance_range)
         self._collisions = Collisions(
@@ -131,7 +131,7 @@ class ShipCollision:
     def close(self) -> None:
         """Leave the Bullet world."""
         if self._detector is not None:
-            self._detector.bullet.close()
+            self._detector.narrow_phase.close()
             self._detector = None
 
     # -- a step -------------------------------------------------------------------------------------

@@ -20,6 +20,7 @@ from .contact_problem import ContactCaches, ContactProblem, ContactSolution
 from .dynamics.body_state import BodyState
 from .dynamics.contact import Contact, Impulse, make_contact
 from .dynamics.delassus import approach_velocities, delassus, held_delassus
+from .geometry.bullet import BulletAdapter
 from .solvers.gauss_seidel import solve_gauss_seidel
 from .solvers.held_motions import yield_to_friction
 from .solvers.impact_process import solve_impact_process
@@ -27,7 +28,7 @@ from .solvers.poisson_restitution import LEAST_REBOUNDING_APPROACH, solve_poisso
 from .solvers.touching_pair import TouchingPair
 from .solvers.warm_start import guess_impulses, keep_impulses
 
-__all__ = ["RESPONSES", "respond_bullet", "respond_closed_form", "respond_pgs"]
+__all__ = ["ADAPTERS", "RESPONSES", "respond_bullet", "respond_closed_form", "respond_pgs"]
 
 AT_REST = 1e-12
 """Approach [m/s] that is the rounding left by a solved contact. With zero, contacts at rest would be solved again in
@@ -133,11 +134,12 @@ def respond_bullet(problem: ContactProblem, caches: ContactCaches) -> ContactSol
     the hulls touch: one step before, Bullet would keep or lose the restitution by chance of the step.
     """
     states, impulses = list(problem.states), list[Impulse]()
-    bodies = problem.bullet_bodies
+    bodies, adapter = problem.bullet_bodies, problem.detector.narrow_phase
+    assert isinstance(adapter, BulletAdapter)  # see ADAPTERS
     for a, b in problem.pairs:
         if not problem.detector.touching(a, b, states):
             continue
-        rows = problem.detector.bullet.dynamic_step(
+        rows = adapter.dynamic_step(
             (a, b),
             (bodies[a], bodies[b]),
             ((states[a].x, states[a].R), (states[b].x, states[b].R)),
@@ -164,3 +166,5 @@ RESPONSES: dict[str, Callable[[ContactProblem, ContactCaches], ContactSolution]]
     "closed_form": respond_closed_form,
     "bullet": respond_bullet,
 }
+ADAPTERS = {"bullet": "pybullet"}
+"""Which adapter of the narrow phase a response must have (geometry/adapter.py); the others take either."""

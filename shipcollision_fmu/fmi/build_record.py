@@ -44,7 +44,10 @@ RECORD = "build.json"
 START = "start.json"
 """Name of the start values, in an FMU that has its own."""
 
-CARRIED = ("__init__.py", "errors.py", "files.py", "collision/**/*.py", "fmi/*.py", "manoeuvring/*.py", "ship/**/*.py")
+CARRIED = (
+    "__init__.py", "errors.py", "files.py", "collision/**/*.py", "fmi/*.py", "manoeuvring/*.py", "ship/**/*.py",
+    "toolchain/__init__.py", "toolchain/installed.py", "toolchain/load.py", "toolchain/platforms.py",
+)  # fmt: skip
 """Files of the package that travel in an FMU: the models with all that they import, and the slaves. What is not named
 here stays at home, as the rooms inside fmi and manoeuvring do. A module that a slave imports and that is missing here
 makes the FMU fail in a host without the package."""

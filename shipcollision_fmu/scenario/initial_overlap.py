@@ -62,5 +62,5 @@ def _overlap(hulls: tuple[HullMesh, HullMesh], states: tuple[BodyState, BodyStat
     if least_overlap(*placed)[0] <= SHALLOW:
         return 0.0
     detector = Detector(hulls)
-    with closing(detector.bullet):
+    with closing(detector.narrow_phase):
         return max(0.0, -detector.clearance(0, 1, states, 0.0))

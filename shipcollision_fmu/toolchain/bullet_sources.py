@@ -11,11 +11,10 @@ import subprocess
 import sys
 import tarfile
 import tempfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
 
 from ..errors import HostError
-from ..files import user_cache
 
 __all__ = ["BULLET", "DEFINES", "SHAPES", "find_bullet_sources"]
 
@@ -69,6 +68,7 @@ _HEADERS = (
     "LinearMath/btTransform",
     "LinearMath/btVector3",
 )
+FOLDER = "bullet-3.26"
 LICENCE = "LICENSE.txt"
 FILES = (
     LICENCE,
@@ -80,15 +80,19 @@ FILES = (
 Fetch = Callable[[Path], None]
 
 
-def find_bullet_sources(fetch: Fetch | None = None) -> Path:
+def find_bullet_sources(cache: Path, fetch: Fetch | None = None) -> Path:
     """Folder with Bullet's files, which is also the folder for `#include`; fetched on first use.
 
-    fetch: puts the archive into a folder; pip's download unless told. Raises HostError.
+    cache: folder in which that folder is kept; fetch: puts the archive into a folder, by pip unless told. Raises
+    HostError.
     """
-    folder = user_cache() / "bullet-3.26"
+    folder = cache / FOLDER
     if not is_complete(folder):
         with tempfile.TemporaryDirectory() as aside:
-            (fetch or _fetch_by_pip)(Path(aside))
+            try:
+                (fetch or _fetch_by_pip)(Path(aside))
+            except OSError as error:
+                raise HostError(_describe_failure(folder, str(error))) from None
             _unpack(Path(aside, ARCHIVE), folder)
     return folder
 
@@ -99,27 +103,21 @@ def is_complete(folder: Path) -> bool:
 
 
 def _fetch_by_pip(folder: Path) -> None:
-    """Let this Python's pip fetch the archive; its own settings for a mirror or a proxy hold."""
+    """Let this Python's pip fetch the archive; its own settings for a mirror or a proxy hold. Raises OSError."""
     command = [sys.executable, "-m", "pip", "download", "--quiet", "--no-deps", "--no-binary", "pybullet"]
-    try:
-        _run([*command, "--disable-pip-version-check", "--dest", str(folder), BULLET])
-    except OSError as error:  # a host that embeds Python may have no executable
-        raise _refusal(str(error)) from None
-
-
-def _run(command: Sequence[str]) -> None:
+    command += ["--disable-pip-version-check", "--dest", str(folder), BULLET]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode != 0:
         lines = [line for line in (done.stderr or done.stdout).splitlines() if line.strip()]
         errors = [line for line in lines if line.lower().startswith("error")] or lines[-1:]
-        raise _refusal(" ".join(" ".join(errors).split())[:300])
+        raise OSError(" ".join(" ".join(errors).split())[:300])
 
 
-def _refusal(said: str) -> HostError:
-    return HostError(
+def _describe_failure(folder: Path, said: str) -> str:
+    return (
         f"Bullet's source cannot be fetched: pip downloads it as the source distribution of {BULLET} and failed "
-        f"({said}); see that `{sys.executable or 'python'} -m pip` works and reaches its index, or copy the folder "
-        f"{user_cache() / 'bullet-3.26'} from a machine that has it"
+        f"({said}); see that `{sys.executable or 'python'} -m pip` works and reaches its index, or copy {folder} from "
+        "a machine that has it"
     )
 
 

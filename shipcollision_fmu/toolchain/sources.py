@@ -1,4 +1,4 @@
-"""What libraries are compiled from: native/ and the headers of FMI."""
+"""What libraries are compiled from: native/, Bullet's source and the headers of FMI."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from ..errors import HostError, describe_installation
+from .bullet_sources import DEFINES, SHAPES, find_bullet_sources
 
 __all__ = ["Part", "find_fmi_headers", "find_native", "list_fmu_parts", "list_library_parts"]
 
@@ -48,9 +49,16 @@ def find_fmi_headers() -> Path:
     return folder
 
 
-def list_library_parts() -> list[Part]:
-    """Of the library for Python: all models, without the functions of FMI."""
-    return [Part(find_native(), _list_sources(without=("fmi", "collision")))]
+def list_library_parts(cache: Path) -> list[Part]:
+    """Of the library for Python: all models, without the functions of FMI. Bullet's source is kept in `cache`. Raises
+    HostError when it cannot be fetched."""
+    bullet = find_bullet_sources(cache)
+    defines = tuple(f"-D{name}" for name in DEFINES)
+    return [
+        Part(find_native(), _list_sources(without=("fmi", "collision"))),
+        Part(find_native(), _list_sources(only="collision"), (*_WARNINGS, *defines), (bullet,)),
+        Part(bullet, tuple(f"{name}.cpp" for name in SHAPES), ("-w", *defines), (bullet,)),
+    ]
 
 
 def list_fmu_parts() -> list[Part]:
@@ -58,7 +66,7 @@ def list_fmu_parts() -> list[Part]:
     return [Part(find_native(), _list_sources(without=("collision",)), includes=(find_fmi_headers(),))]
 
 
-def _list_sources(without: tuple[str, ...]) -> tuple[str, ...]:
+def _list_sources(without: tuple[str, ...] = (), only: str = "") -> tuple[str, ...]:
     native = find_native()
-    found = (path.relative_to(native) for path in native.rglob("*.cpp"))
+    found = (path.relative_to(native) for path in (native / only).rglob("*.cpp"))
     return tuple(sorted(path.as_posix() for path in found if path.parts[0] not in without))

@@ -18,7 +18,7 @@ from shipcollision_fmu.collision.dynamics.body_state import BodyState
 from shipcollision_fmu.collision.dynamics.contact import Booked
 from shipcollision_fmu.collision.dynamics.impulse_ledger import ImpulseLedger, Reading
 from shipcollision_fmu.collision.geometry import detection, first_touch
-from shipcollision_fmu.collision.geometry.bullet import Closest
+from shipcollision_fmu.collision.geometry.narrow_phase import Closest
 from shipcollision_fmu.collision.solvers import gauss_seidel, touching_pair, work_limit
 from shipcollision_fmu.collision.solvers import held_motions as held_motions_solver
 from shipcollision_fmu.collision.solvers.aitken import Aitken

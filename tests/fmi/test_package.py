@@ -173,7 +173,16 @@ def test_what_is_in_an_fmu(built: dict[str, Path]) -> None:
         assert (f"binaries/win64/{name}.dll" in names) == (name == "ShipManoeuvring")  # pybullet is for Linux alone
         assert not [n for n in names if re.search(r"__pycache__|\.pyc$|/scenarios/|/fmu_src/", n)]
         carried = {n.split("/")[2] for n in names if n.startswith("resources/shipcollision_fmu/")}
-        assert carried == {"__init__.py", "collision", "errors.py", "files.py", "fmi", "manoeuvring", "ship"}
+        assert carried == {
+            "__init__.py",
+            "collision",
+            "errors.py",
+            "files.py",
+            "fmi",
+            "manoeuvring",
+            "ship",
+            "toolchain",
+        }
 
 
 def test_requirements_are_those_of_the_project_and_each_fmus_own() -> None:

@@ -16,13 +16,6 @@ from shipcollision_fmu.toolchain import bullet_sources
 from shipcollision_fmu.toolchain.bullet_sources import ARCHIVE, FILES, LICENCE, find_bullet_sources
 
 
-@pytest.fixture
-def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """The user's cache, empty."""
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    return tmp_path / "cache"
-
-
 def make_archive(folder: Path) -> None:
     """An archive with the files that are wanted, and more."""
     root = ARCHIVE.removesuffix(".tar.gz")
@@ -34,7 +27,7 @@ def make_archive(folder: Path) -> None:
             packed.addfile(member, io.BytesIO(content))
 
 
-def test_the_files_that_are_needed_are_kept(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_files_that_are_needed_are_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     fetched = []
 
     def fetch(folder: Path) -> None:
@@ -42,24 +35,24 @@ def test_the_files_that_are_needed_are_kept(cache: Path, monkeypatch: pytest.Mon
         make_archive(folder)
         monkeypatch.setattr(bullet_sources, "SHA_256", hashlib.sha256((folder / ARCHIVE).read_bytes()).hexdigest())
 
-    folder = find_bullet_sources(fetch)
-    assert find_bullet_sources(fetch) == folder
+    folder = find_bullet_sources(tmp_path, fetch)
+    assert find_bullet_sources(tmp_path, fetch) == folder
     assert len(fetched) == 1
     assert sorted(str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file()) == sorted(FILES)
     assert (folder / FILES[1]).read_text() == f"// {FILES[1]}\n"
     (folder / FILES[1]).unlink()
-    assert find_bullet_sources(fetch) == folder
+    assert find_bullet_sources(tmp_path, fetch) == folder
     assert (folder / FILES[1]).is_file()
     assert [path.name for path in folder.parent.iterdir()] == [folder.name]
 
 
-def test_another_archive_is_refused(cache: Path) -> None:
+def test_another_archive_is_refused(tmp_path: Path) -> None:
     with pytest.raises(HostError, match=r"^Bullet's source cannot be used: .* is not pybullet-3.2.7.tar.gz"):
-        find_bullet_sources(make_archive)
-    assert not any(cache.rglob("*.h"))
+        find_bullet_sources(tmp_path, make_archive)
+    assert not any(tmp_path.rglob("*.h"))
 
 
-def test_when_pip_fails_its_reason_is_given(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_when_pip_fails_its_reason_is_given(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     asked: list[list[str]] = []
 
     def fail(command: list[str], **options: object) -> SimpleNamespace:
@@ -69,10 +62,10 @@ def test_when_pip_fails_its_reason_is_given(cache: Path, monkeypatch: pytest.Mon
 
     monkeypatch.setattr(subprocess, "run", fail)
     with pytest.raises(HostError) as refused:
-        find_bullet_sources()
+        find_bullet_sources(tmp_path)
     assert asked[0][1:4] == ["-m", "pip", "download"]
     said = str(refused.value)
     assert "(ERROR: No matching distribution found for pybullet==3.2.7)" in said
     assert "-m pip` works" in said
-    assert str(cache / "shipcollision-fmu" / "bullet-3.26") in said
+    assert str(tmp_path / "bullet-3.26") in said
     assert "\n" not in said

@@ -1,8 +1,11 @@
 """Contact detection: where hulls touch, with which normal and gap.
 
     broad_phase      pairs of bodies whose rectangles in the plane overlap
-    bullet           the adapter of pybullet: closest points of convex parts, and a step of Bullet's own dynamics
-    detection        contacts of two hulls, from Bullet's closest points
+    narrow_phase     what is asked of Bullet: closest points of convex parts, whichever adapter gives them
+    bullet           the adapter of pybullet, which has a step of Bullet's own dynamics, too
+    closest_points   the adapter of this package's own library, for a Python without pybullet
+    adapter          which of both
+    detection        contacts of two hulls, from closest points
     first_touch      the time at which moving hulls touch first
     thickness        least width of a hull
     compound_hull    hulls of several convex parts: inner faces give no contact
@@ -10,6 +13,6 @@
     clipping         intersection of polygons, edges and points in a plane
     plan_overlap     normal of least overlap in plan, for hulls that overlap deeply from the start
 
-Data: poses (BodyState) in, lists of Contact out. Imports: ship/, dynamics.body_state, dynamics.contact and
-dynamics.contact_frame. pybullet is imported in bullet.py only.
+Data: poses (BodyState) in, lists of Contact out. Imports: ship/, toolchain, dynamics.body_state,
+dynamics.contact and dynamics.contact_frame. pybullet is imported in bullet.py only.
 """

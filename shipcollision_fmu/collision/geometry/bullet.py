@@ -23,16 +23,13 @@ from ...errors import HostError
 from ...ship.frames import SWAP, Array, pose_w, poses_w, swap_axes, swapped_rows
 from ...ship.hull.solid import HullMesh
 from ..dynamics.body_state import BodyState
+from .narrow_phase import MARGIN, Closest
 
-__all__ = ["MARGIN", "BulletAdapter", "BulletBody", "Closest", "bullet_module"]
+__all__ = ["BulletAdapter", "BulletBody", "bullet_module", "has_pybullet", "require_dynamics"]
 
 
 Place = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
-
-MARGIN = 0.001
-"""PyBullet's collision margin [m], which it adds to every hull and which is taken off again here. It cannot be zero:
-without it Bullet returns wrong normals for faces that lie flat on each other."""
 
 ITERATIONS = 50
 """Iterations of Bullet's own solver in a step, PyBullet's default: the bound on its work. A pair of hulls has at most
@@ -47,9 +44,28 @@ def bullet_module() -> ModuleType:
     except ImportError as error:
         raise HostError(
             f"pybullet cannot be imported ({error}): install it with `pip install pybullet`; its wheels exist for "
-            "Linux and CPython 3.10 and 3.11, on others pip needs a C++ compiler"
+            "CPython 3.10 and 3.11 on Linux (x86-64), on others pip needs a C++ compiler"
         ) from error
     return pybullet  # type: ignore[no-any-return]  # a module
+
+
+def has_pybullet() -> bool:
+    """Whether pybullet can be imported."""
+    try:
+        bullet_module()
+    except HostError:
+        return False
+    return True
+
+
+def require_dynamics() -> None:
+    """Raise HostError, with the remedy, when pybullet is missing for the response 'bullet'."""
+    try:
+        bullet_module()
+    except HostError as error:
+        raise HostError(
+            f"response 'bullet' is PyBullet's own dynamics, and {error}; or take response 'pgs' or 'closed_form'"
+        ) from error
 
 
 @contextmanager
@@ -67,18 +83,6 @@ def _without_banner() -> Iterator[None]:
         os.dup2(kept, 2)
         os.close(kept)
         os.close(nowhere)
-
-
-@dataclass(frozen=True)
-class Closest:
-    """Closest points of two convex parts: on_a, on_b (3,) in n [m], normal (3,) from a to b, gap [m] (< 0: overlap)."""
-
-    on_a: Array
-    on_b: Array
-    normal: Array
-    gap: float
-    part_a: int
-    part_b: int
 
 
 @dataclass(frozen=True)

@@ -26,9 +26,9 @@ from ...ship.hull.solid import HullMesh
 from ..dynamics.body_state import BodyState
 from ..dynamics.contact import Contact
 from ..dynamics.contact_frame import contact_axes
-from .bullet import Closest
 from .clipping import convex_polygon
 from .contact_place import FEATURE_DEPTH, contact_manifold, facing_features, spread
+from .narrow_phase import Closest
 
 __all__ = ["CompoundHull", "merge_coplanar", "select_supported"]
 

@@ -22,10 +22,11 @@ from ...ship.hull.solid import HullMesh
 from ..dynamics.body_state import BodyState
 from ..dynamics.contact import Contact, make_contact, make_contacts
 from ..dynamics.contact_frame import contact_axes
-from .bullet import MARGIN, BulletAdapter, Closest
+from .adapter import open_narrow_phase
 from .compound_hull import CompoundHull, merge_coplanar, select_supported
 from .contact_place import FEATURE_DEPTH, contact_manifold, facing_features
 from .first_touch import TOUCH, MovingHull, find_first_touch, gap_before
+from .narrow_phase import MARGIN, Closest
 from .plan_overlap import least_overlap
 from .thickness import least_width
 
@@ -68,21 +69,22 @@ LastNormals = dict[tuple[int, int], tuple[int, list[float]]]
 class Detector:
     """Contacts and clearance between hulls. What a call returns depends on its arguments alone."""
 
-    def __init__(self, hulls: Sequence[HullMesh]) -> None:
+    def __init__(self, hulls: Sequence[HullMesh], adapter: str | None = None) -> None:
+        """adapter: see open_narrow_phase."""
         self._hulls = tuple(hulls)
         self._compounds = [CompoundHull(hull) for hull in hulls]
         self._widths = [least_width(hull) for hull in hulls]
         self._scales = [min(1.0, float(np.ptp(hull.vertices, axis=0).min()) / SMALL) for hull in hulls]
-        self.bullet = BulletAdapter(hulls)
+        self.narrow_phase = open_narrow_phase(hulls, adapter)
         self._lately: tuple[int, int, Array, Array, Array, Array, list[Closest]] | None = None  # what touched where
 
     def clearance(self, a: int, b: int, states: Sequence[BodyState], cap: float) -> float:
         """Least distance [m] between two hulls, negative in overlap, at most `cap`."""
-        return self.bullet.gap(a, b, states, cap)
+        return self.narrow_phase.gap(a, b, states, cap)
 
     def touching(self, a: int, b: int, states: Sequence[BodyState]) -> bool:
         """Whether two hulls touch or overlap."""
-        return self.bullet.gap(a, b, states, MARGIN) <= 0.0
+        return self.narrow_phase.gap(a, b, states, MARGIN) <= 0.0
 
     def thickness(self, a: int, b: int) -> float:
         """Least width [m] of the thinner of two hulls (thickness.py)."""
@@ -97,7 +99,7 @@ class Detector:
         """
         growth = max(2.0 * TOUCH, FAST * self.thickness(a, b))
         one, other = (MovingHull.of(i, self._hulls[i].parts, states[i]) for i in (a, b))
-        return find_first_touch(self.bullet, one, other, h, speed, growth, last_normals.get((a, b)))
+        return find_first_touch(self.narrow_phase, one, other, h, speed, growth, last_normals.get((a, b)))
 
     def misses_first_touch(self, a: int, b: int, states: Sequence[BodyState]) -> bool:
         """Whether two hulls, apart before they were last advanced, have met along another normal than that of their
@@ -116,7 +118,7 @@ class Detector:
             one, other = states[a], states[b]
             if lately[2] is one.x and lately[3] is one.R and lately[4] is other.x and lately[5] is other.R:
                 return lately[6]
-        return [c for c in self.bullet.closest(a, b, states, 0.0) if c.gap <= 0.0]
+        return [c for c in self.narrow_phase.closest(a, b, states, 0.0) if c.gap <= 0.0]
 
     def contacts(self, a: int, b: int, states: Sequence[BodyState], last_normals: LastNormals) -> list[Contact]:
         """Contact points of two hulls, gap <= 0. Updates `last_normals` while the overlap is shallow."""
@@ -157,7 +159,7 @@ class Detector:
         self, a: int, b: int, distance: float, states: Sequence[BodyState], last_normals: LastNormals
     ) -> Contact | None:
         """One contact at the middle of what is nearer than `distance` [m], with the least gap; None: nothing."""
-        near = self.bullet.closest(a, b, states, distance)
+        near = self.narrow_phase.closest(a, b, states, distance)
         if not near:
             return None
         nearest = min(near, key=lambda c: c.gap)

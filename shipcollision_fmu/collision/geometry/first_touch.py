@@ -26,7 +26,7 @@ import numpy as np
 
 from ...ship.frames import Array
 from ..dynamics.body_state import BodyState
-from .bullet import MARGIN, BulletAdapter, Closest
+from .narrow_phase import MARGIN, Closest, NarrowPhase
 
 __all__ = ["TOUCH", "MovingHull", "find_first_touch", "gap_before"]
 
@@ -72,7 +72,7 @@ class MovingHull:
 
 
 def find_first_touch(
-    bullet: BulletAdapter, a: MovingHull, b: MovingHull, h: float, speed: float, growth: float,
+    narrow_phase: NarrowPhase, a: MovingHull, b: MovingHull, h: float, speed: float, growth: float,
     carried: tuple[int, list[float]] | None,
 ) -> float | None:  # fmt: skip
     """Time [s] at which two hulls first touch within h [s], or touch on; None: they do not.
@@ -86,7 +86,7 @@ def find_first_touch(
         first: float | None = None
         for i, part_a in enumerate(a.parts):
             for j, part_b in enumerate(b.parts):
-                pair = _Parts(bullet, a, b, i, j, part_a, part_b)
+                pair = _Parts(narrow_phase, a, b, i, j, part_a, part_b)
                 found = pair.first_touch(begin, end if first is None else first, speed, growth, carried)
                 first = found if found is not None else first
         if first is not None:
@@ -123,7 +123,7 @@ def _constant(axis: Array) -> Callable[[float], Array]:
 class _Parts:
     """A pair of convex parts in motion."""
 
-    bullet: BulletAdapter
+    narrow_phase: NarrowPhase
     a: MovingHull
     b: MovingHull
     i: int
@@ -160,7 +160,7 @@ class _Parts:
         return self._reach(begin, end, lambda tau: carrier.pose_at(tau)[1] @ normal_b, growth)
 
     def _closest(self, tau: float, distance: float) -> tuple[float, Array] | None:
-        return self.bullet.closest_of_parts(
+        return self.narrow_phase.closest_of_parts(
             (self.a.index, self.i, *self.a.pose_at(tau)), (self.b.index, self.j, *self.b.pose_at(tau)), distance
         )
 

@@ -61,10 +61,10 @@ def test_places_from_rounded_corners_would_change_no_impulse(
     the rounded ones the impulse of a tanker's bow is the same to a thousandth, so the exact ones stay."""
 
     class RoundedDetector(Detector):
-        def __init__(self, hulls: list[HullMesh]) -> None:
-            super().__init__(hulls)
+        def __init__(self, hulls: list[HullMesh], adapter: str | None = None) -> None:
+            super().__init__(hulls, adapter)
             self._hulls = tuple(
-                replace(hull, parts=rounded(self.bullet, i, hull.parts)) for i, hull in enumerate(hulls)
+                replace(hull, parts=rounded(self.narrow_phase, i, hull.parts)) for i, hull in enumerate(hulls)
             )
 
     place = [offset - 170.0 * np.cos(heading), -32.0 - 165.0 * np.sin(heading), 0.0]

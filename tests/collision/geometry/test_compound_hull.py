@@ -69,7 +69,7 @@ def pair() -> Iterator[Pair]:
 
     yield make
     for detector in made:
-        detector.bullet.close()
+        detector.narrow_phase.close()
 
 
 def touch(

@@ -26,7 +26,7 @@ def state(x: float, y: float, z: float = 0.0, heading: float = 0.0, roll: float 
 def detector() -> Iterator[Detector]:
     made = Detector([build_hull(200.0, 30.0, 10.0, table) for table in (BOX, PLUMB, RAKED, DEEP_BOX)])
     yield made
-    made.bullet.close()
+    made.narrow_phase.close()
 
 
 def place(**where: BodyState) -> list[BodyState]:

@@ -1,0 +1,41 @@
+"""The adapter that gives closest points: PyBullet where it can be imported, this package's own library elsewhere."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+
+from ...errors import HostError, InputError
+from ...ship.hull.solid import HullMesh
+from .bullet import BulletAdapter, has_pybullet
+from .closest_points import PlacedHulls
+from .narrow_phase import NarrowPhase
+
+__all__ = ["CHOICE", "open_narrow_phase"]
+
+CHOICE = "SHIPCOLLISION_NARROW_PHASE"
+"""Environment variable that forces one of both: "pybullet" or "library". Results are the same to the bit."""
+
+
+def open_narrow_phase(hulls: Sequence[HullMesh], choice: str | None = None) -> NarrowPhase:
+    """The narrow phase of these hulls, their vertices in b about CO [m].
+
+    choice: "pybullet" or "library"; None: what the environment variable says, else PyBullet if it can be imported.
+    Raises HostError when neither can be had.
+    """
+    chosen = choice or os.environ.get(CHOICE) or ""
+    if chosen not in ("", "pybullet", "library"):
+        raise InputError(f"{CHOICE} = {chosen!r} must be 'pybullet' or 'library'; leave it out for what is there")
+    if chosen == "library":
+        return PlacedHulls(hulls)
+    if chosen == "pybullet":
+        return BulletAdapter(hulls)
+    if has_pybullet():
+        return BulletAdapter(hulls)
+    try:
+        return PlacedHulls(hulls)
+    except HostError as error:
+        raise HostError(
+            "contacts cannot be detected: pybullet, with wheels for CPython 3.10 and 3.11 on Linux (x86-64), is not "
+            f"installed, and this package's own library is missing: {error}"
+        ) from error
