@@ -1,0 +1,52 @@
+// What a model must have to be an FMU: the twin of the protocol Model in shipcollision_fmu/fmi/variable_access.py.
+#pragma once
+
+#include <stddef.h>
+#include <stdlib.h>
+
+#include "../numbers/text.hpp"
+
+namespace shipcollision {
+
+enum class Kind : unsigned char { real, integer, boolean, string, enumeration };
+
+// Where a value lies in a model: a double, int, bool, char[LONGEST_STRING], or an int that counts the items from 0.
+struct Place {
+  void* address = nullptr;
+  Kind kind = Kind::real;
+  const char* const* items = nullptr;  // of an enumeration
+  size_t item_count = 0;
+};
+
+// A model in time. What can be refused answers false and says why; everything is then as it was.
+class Model {
+ public:
+  virtual ~Model() = default;
+
+  static void* operator new(size_t size) noexcept { return malloc(size); }
+  static void operator delete(void* memory) { free(memory); }
+
+  // The value at the path of a line of the table ("outputs.position"), entry `index` of the list there, or -1.
+  virtual bool find(const char* path, int index, Place& place) = 0;
+
+  // Reads parameters and start values, computes the outputs of the start. May be called again.
+  virtual bool initialise(Text& why) = 0;
+  virtual bool step(double t, double h, Text& why) = 0;
+
+  // What parameters, inputs and outputs do not hold, as bytes. They are asked for after initialise() alone.
+  virtual size_t state_size() const = 0;
+  virtual void get_state(void* bytes) const = 0;
+  virtual bool set_state(const void* bytes, size_t size, Text& why) = 0;
+
+  // What was not as it should be at the start or in the last step, in one line, or nothing.
+  virtual const Text& warning() const = 0;
+  // What happened in the last step that people should read, a line each.
+  virtual size_t event_count() const { return 0; }
+  virtual const char* event(size_t) const { return ""; }
+};
+
+// A model for the FMU of that name, which finds its files in the folder `resources`. Null for a name that is none, and
+// when there is no memory.
+Model* make_model(const char* fmu, const char* resources);
+
+}  // namespace shipcollision
