@@ -3,11 +3,11 @@
 
 #include <stddef.h>
 
+#include "../ship/coasting_law.hpp"
+
 namespace shipcollision {
 
 constexpr size_t LONGEST_STRING = 4096;  // bytes of a String variable, its end included: the longest path of Linux
-
-enum class Coasting { kirchhoff, free, straight };
 
 struct ShipParameters {
   char ship[LONGEST_STRING] = "kvlcc2";

@@ -33,6 +33,13 @@ class ShipManoeuvring {
 
  private:
   struct SetUp;
+
+  // The set-up for the parameters, this model's own while they are unchanged.
+  bool prepare(SetUp*& prepared, Text& why) const;
+  void keep(SetUp* prepared);
+  bool find_start(const SetUp& set_up, State& start, Text& warned, Text& why) const;
+  void publish(const State& state);
+
   SetUp* set_up_;
   State* state_;
 };
