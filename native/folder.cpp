@@ -22,7 +22,9 @@ class Names {
     char name[LONGEST_NAME] = {};
     memcpy(name, file, size - end);
     size_t place = count_++;
-    for (; place > 0 && strcmp(name, names_[place - 1]) < 0; --place) memcpy(names_[place], names_[place - 1], LONGEST_NAME);
+    for (; place > 0 && strcmp(name, names_[place - 1]) < 0; --place) {
+      memcpy(names_[place], names_[place - 1], LONGEST_NAME);
+    }
     memcpy(names_[place], name, LONGEST_NAME);
   }
 

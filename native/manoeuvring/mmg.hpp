@@ -13,8 +13,8 @@
 
 namespace shipcollision {
 
-// Values held over a step: velocities of water and air, towards north and east [m/s]; external force and moment [N, N m]
-// about CO in b.
+// Values held over a step: velocities of water and air, towards north and east [m/s]; external force and moment about CO
+// in b [N, N m].
 struct Surroundings {
   double current_north = 0.0, current_east = 0.0, wind_north = 0.0, wind_east = 0.0;
   Six external{};

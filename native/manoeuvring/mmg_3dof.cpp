@@ -43,7 +43,9 @@ Forces Mmg3Dof::compute_forces(const Six& eta, const Six& nu, const Machines& ma
   return forces;
 }
 
-Integrated Mmg3Dof::pack(const Six& eta, const Six& nu) const { return {{eta[0], eta[1], eta[5], nu[0], nu[1], nu[5]}}; }
+Integrated Mmg3Dof::pack(const Six& eta, const Six& nu) const {
+  return {{eta[0], eta[1], eta[5], nu[0], nu[1], nu[5]}};
+}
 
 void Mmg3Dof::unpack(const Integrated& x, Six& eta, Six& nu) const {
   eta[0] = x[0];

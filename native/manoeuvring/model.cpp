@@ -396,7 +396,8 @@ bool ShipManoeuvring::SetUp::advance(const State& before, const ShipInputs& inpu
   if (!refuse_absurd(apply_impulse(before.eta, before.nu, momentum), ship, t, why)) return false;
   after = before;
   const Surroundings around = find_surroundings(inputs);
-  mmg().advance(after.eta, after.nu, after.machines, {inputs.rudder_order, inputs.propeller_order}, around, h, substeps);
+  const Orders orders{inputs.rudder_order, inputs.propeller_order};
+  mmg().advance(after.eta, after.nu, after.machines, orders, around, h, substeps);
   if (!are_finite(after.eta.at, 6) || !are_finite(after.nu.at, 6)) {
     why << "the motion diverges in the step " << at_time(t) << ": shorten substep = " << substep
         << " s, or look at velocity ";

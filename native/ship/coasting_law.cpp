@@ -39,7 +39,9 @@ void tilt_motion(const Six& nu_l, double phi, double theta, Three& velocity, Thr
 // Rows of the product of a matrix and the one of these columns.
 Rows turn(const Rows& rows, const Three (&columns)[3]) {
   Rows turned;
-  for (int i = 0; i < 3; ++i) turned.at[i] = {{dot(rows[i], columns[0]), dot(rows[i], columns[1]), dot(rows[i], columns[2])}};
+  for (int i = 0; i < 3; ++i) {
+    turned.at[i] = {{dot(rows[i], columns[0]), dot(rows[i], columns[1]), dot(rows[i], columns[2])}};
+  }
   return turned;
 }
 

@@ -1,4 +1,4 @@
-// A ship as `shipcollision prepare` writes it: the reader of what shipcollision_fmu/manoeuvring/prepared_ship.py writes.
+// A ship as `shipcollision prepare` writes it: reads what shipcollision_fmu/manoeuvring/prepared_ship.py writes.
 #pragma once
 
 #include <stddef.h>

@@ -211,8 +211,18 @@ class ShipManoeuvring:
         if pushed:
             nu = set_up.apply_impulse(before.eta, nu, half)
         _refuse_absurd(nu, set_up.ship, t)
-        position, attitude, velocity, rate = coasting.coast(before.eta[:3], before.eta[3:], nu[:3], nu[3:], h)
-        eta, nu = _six([*position, *attitude]), _six([*velocity, *rate])
+        start = nu
+        try:
+            position, attitude, velocity, rate = coasting.coast(before.eta[:3], before.eta[3:], nu[:3], nu[3:], h)
+            eta, nu = _six([*position, *attitude]), _six([*velocity, *rate])
+            is_finite = isfinite(sum(eta) + sum(nu))
+        except (OverflowError, ValueError, ZeroDivisionError):  # the sine of infinity
+            is_finite = False
+        if not is_finite:
+            raise StepError(
+                f"the motion diverges in the step at t = {t:g} s: shorten h = {h:g} s, or look at velocity "
+                f"{list(start[:3])} m/s and force {self.inputs.force}"
+            )
         if pushed:
             nu = set_up.apply_impulse(eta, nu, half)
             _refuse_absurd(nu, set_up.ship, t)
@@ -225,15 +235,19 @@ class ShipManoeuvring:
         i = self.inputs
         _refuse_absurd(set_up.apply_impulse(before.eta, nu, [h * F for F in i.force]), set_up.ship, t)
         machines = Machines(before.rudder_angle, before.propeller_speed, before.gear)
+        start = nu
         try:
             eta, nu, machines = mmg.advance(
                 before.eta, nu, machines, Orders(i.rudder_order, i.propeller_order), self._surroundings(), h, substeps
             )  # fmt: skip
+            is_finite = isfinite(sum(eta) + sum(nu))
         except (OverflowError, ValueError, ZeroDivisionError):  # the cosine of infinity
+            is_finite = False
+        if not is_finite:
             raise StepError(
                 f"the motion diverges in the step at t = {t:g} s: shorten substep = {set_up.substep} s, or look at "
-                f"velocity {list(nu[:3])} m/s and force {i.force}"
-            ) from None
+                f"velocity {list(start[:3])} m/s and force {i.force}"
+            )
         _refuse_absurd(nu, set_up.ship, t)
         if abs(eta[4]) > STEEPEST:
             raise StepError(

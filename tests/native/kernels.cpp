@@ -26,7 +26,9 @@ Six take_six(const double* in) { return {{in[0], in[1], in[2], in[3], in[4], in[
 
 Three take_three(const double* in) { return {{in[0], in[1], in[2]}}; }
 
-Motion take_motion(const double* in) { return {take_three(in), take_three(in + 3), take_three(in + 6), take_three(in + 9)}; }
+Motion take_motion(const double* in) {
+  return {take_three(in), take_three(in + 3), take_three(in + 6), take_three(in + 9)};
+}
 
 void put(double* out, const Motion& motion) { memcpy(out, &motion, sizeof motion); }
 
@@ -118,7 +120,7 @@ void wind(const PreparedShip& ship, const double* in, double* out) {
   memcpy(out, &wrench, sizeof wrench);
 }
 
-// in: degrees of freedom, eta, nu, rudder angle, propeller speed, current and wind, external force; orders, h, substeps.
+// in: degrees of freedom, eta, nu, rudder angle, propeller speed, current and wind, external force, orders, h, substeps
 void mmg(const PreparedShip& ship, const double* in, double* out) {
   const int free = take_freedom(in[0]);
   Mmg3Dof plane;

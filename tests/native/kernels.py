@@ -12,13 +12,15 @@ from shipcollision_fmu.ship.frames import Array
 from shipcollision_fmu.toolchain.libraries import build_library, native_cache
 from shipcollision_fmu.toolchain.load import EXPORTS
 from shipcollision_fmu.toolchain.platforms import find_own_target
-from shipcollision_fmu.toolchain.sources import Part, list_library_parts
+from shipcollision_fmu.toolchain.sources import Part, find_native
 
 __all__ = ["evaluate", "load_kernels"]
 
 CACHE = native_cache()
 """Taken before the tests set another cache."""
 HERE = Path(__file__).parent
+FOLDERS = ("numbers/", "ship/", "manoeuvring/", "f", "memory", "python_ship")
+"""Of native/, what the ship model needs: without collision/ it compiles without Bullet's source."""
 
 
 @cache
@@ -26,7 +28,10 @@ def load_kernels() -> ctypes.CDLL:
     """The library with the parts of tests/native/kernels.cpp."""
     target = find_own_target()
     assert target is not None
-    parts = [*list_library_parts(), Part(HERE, ("kernels.cpp",))]
+    native = find_native()
+    files = [file for folder in FOLDERS for file in native.glob(f"{folder}*.cpp")]
+    library = Part(native, tuple(sorted(file.relative_to(native).as_posix() for file in files)))
+    parts = [library, Part(HERE, ("kernels.cpp",))]
     return ctypes.CDLL(str(build_library("kernels", parts, target, EXPORTS, cache=CACHE, prefer_system=True)))
 
 

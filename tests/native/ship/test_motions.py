@@ -70,7 +70,9 @@ def test_restoring_and_damping(name: str) -> None:
     restoring, damping = Restoring(sea), Damping(sea)
     random = np.random.default_rng(4)
     angles = random.uniform(-1.4, 1.4, (COUNT, 2)).tolist()
-    inputs = [(D, sin(a), cos(a), sin(b), cos(b)) for D, (a, b) in zip(random.uniform(-3, 3, COUNT), angles)]
+    inputs = [
+        (D, sin(a), cos(a), sin(b), cos(b)) for D, (a, b) in zip(random.uniform(-3, 3, COUNT), angles, strict=True)
+    ]
     expected = [(*restoring(*row), restoring.compute_roll_moment(*row[1:3])) for row in inputs]
     assert_close(evaluate("restoring", prepare_ship(name), np.array(inputs), 7), expected)
     motions = random.uniform(-1.0, 1.0, (COUNT, 3))
