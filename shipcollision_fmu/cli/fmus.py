@@ -29,7 +29,6 @@ def build(out: Path, fmi: str, scalar: bool, ships: str) -> None:
     that do not pass arrays, such as OMSimulator and Ecos, --scalar makes ShipCollision.fmi3-scalar.fmu and
     ShipManoeuvring.fmi3-scalar.fmu.
     """
-    from ..cosim.fmu_files import PYBULLET, has_pybullet
     from ..fmi.builder.package import build_fmus
 
     if scalar and fmi != "3":
@@ -37,8 +36,6 @@ def build(out: Path, fmi: str, scalar: bool, ships: str) -> None:
     names = tuple(name.strip() for name in ships.split(","))
     for path in build_fmus(out, ships=names, fmi=int(fmi), scalar=scalar).values():
         say(str(path))
-    if not has_pybullet():
-        say(f"note: ShipCollision runs with pybullet, which this Python has not; {PYBULLET}", err=True)
 
 
 @click.command()

@@ -2,32 +2,15 @@
 
 from __future__ import annotations
 
-from importlib.util import find_spec
 from pathlib import Path
 
-from ..errors import HostError
 from ..files import user_cache
 from ..fmi.builder.package import FMUS, are_fmus_current, build_fmus, fmu_file
 from ..fmi.interface import SHIPS
 
-__all__ = ["PYBULLET", "fmu_directory", "has_pybullet", "ready_fmus", "require_pybullet"]
+__all__ = ["fmu_directory", "ready_fmus"]
 
 _PACKAGE = Path(__file__).resolve().parent.parent
-
-
-PYBULLET = "run `python -m pip install pybullet` with CPython 3.10 or 3.11 on Linux, for which it has wheels"
-"""The remedy where it is missing."""
-
-
-def has_pybullet() -> bool:
-    """Whether pybullet is installed, which detects the contacts."""
-    return find_spec("pybullet") is not None
-
-
-def require_pybullet() -> None:
-    """Raise HostError, with the command that installs it, when pybullet is missing."""
-    if not has_pybullet():
-        raise HostError(f"pybullet, which detects the contacts, is not installed: {PYBULLET}")
 
 
 def fmu_directory(ships: tuple[str, ...] = SHIPS) -> Path:

@@ -14,6 +14,7 @@ from math import radians
 from pathlib import Path
 from time import perf_counter
 
+from ..collision.geometry.adapter import choose_adapter
 from ..errors import ScenarioError
 from ..files import check_writable
 from ..fmi.builder.package import VERSIONS
@@ -25,7 +26,7 @@ from ..scenario.scenario import Scenario, load_scenario
 from ..ship.ship import Ship
 from .earlier_run import refuse_foreign_files
 from .factories import Factories, fmu_factories, model_factories
-from .fmu_files import ready_fmus, require_pybullet
+from .fmu_files import ready_fmus
 from .interrupt import delay_interrupts
 from .master import ALGORITHMS
 from .recorder import Recorder
@@ -62,7 +63,7 @@ def simulate(
         scenario = load_scenario(scenario)
     scenario = scenario.changed(algorithm=algorithm, step=step)
     _check_fmi(fmi, in_process)
-    require_pybullet()
+    choose_adapter()  # else the FMU would refuse to initialise
     if out is not None:
         check_writable(Path(out))
         if not overwrite:

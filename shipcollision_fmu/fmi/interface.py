@@ -24,8 +24,9 @@ class Interface:
 
     Step size, stop time [s] and tolerance are those of its default experiment: a proposal to the host.
 
-    `requirements` are the packages that the host's Python must have, `pythons` the versions of CPython and `systems`
-    the systems for which they have wheels: there is no library for another system. `terminals` takes the names of the
+    `requirements` are the packages that the host's Python must have, `instead` says what it must have where they have
+    no wheels. `pythons` are the versions of CPython and `systems` the systems that it was run on: there is no library
+    for another system. `terminals` takes the names of the
     ships and says how the names of a terminal's variables begin, by the name of the terminal.
     """
 
@@ -39,6 +40,7 @@ class Interface:
     requirements: tuple[str, ...] = REQUIREMENTS
     pythons: tuple[str, str] = ("3.10", "3.13")
     systems: tuple[str, ...] = ("linux", "win")
+    instead: str = ""
     terminals: Callable[[tuple[str, ...]], Mapping[str, str]] = lambda ships: {}
 
     def make_access(

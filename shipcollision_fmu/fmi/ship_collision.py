@@ -464,8 +464,8 @@ INTERFACE = Interface(
     table=table,
     model=FramedCollision,
     tolerance=1e-9,  # residual to which contact problems are solved
-    requirements=(*REQUIREMENTS, "pybullet>=3.2.5"),
-    pythons=("3.10", "3.11"),  # pybullet 3.2.7 has wheels for no later one, and for Linux alone
+    requirements=(*REQUIREMENTS, "pybullet>=3.2.5; python_version < '3.12'"),  # it has wheels for no later one
+    instead="With CPython 3.12 and later: shipcollision_fmu, installed there, whose own library detects contacts.",
     systems=("linux",),
     terminals=lambda ships: {ship: f"{ship}." for ship in ships},
 )

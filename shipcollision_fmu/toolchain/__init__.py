@@ -8,6 +8,7 @@ objects         one source compiled, kept by what it is made from
 libraries       a shared library linked, kept by what it is made from
 mach_o, pe      what a linker leaves to do for macOS and for Windows
 installed       the library that came with the package, compiled when it was installed
+install         what puts it there
 load            the library for this machine, opened by ctypes
 
 Data flow: sources -> objects -> library -> ctypes, or bytes for the builder of FMUs. Imports from: files, errors.

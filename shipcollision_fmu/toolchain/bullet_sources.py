@@ -16,7 +16,7 @@ from pathlib import Path
 
 from ..errors import HostError
 
-__all__ = ["BULLET", "DEFINES", "SHAPES", "find_bullet_sources"]
+__all__ = ["BULLET", "DEFINES", "SHAPES", "find_bullet_sources", "has_bullet_sources"]
 
 BULLET = "pybullet==3.2.7"
 """Bullet 3.26. Another version may round otherwise, and then the library's bits are no longer PyBullet's."""
@@ -95,6 +95,11 @@ def find_bullet_sources(cache: Path, fetch: Fetch | None = None) -> Path:
                 raise HostError(_describe_failure(folder, str(error))) from None
             _unpack(Path(aside, ARCHIVE), folder)
     return folder
+
+
+def has_bullet_sources(cache: Path) -> bool:
+    """Whether they are kept there already."""
+    return is_complete(cache / FOLDER)
 
 
 def is_complete(folder: Path) -> bool:

@@ -14,9 +14,17 @@ from collections.abc import Iterator
 from hashlib import sha256
 from pathlib import Path
 
-from .platforms import Target, find_own_target
+from .platforms import find_own_target
 
-__all__ = ["COMPILED", "LIBRARY", "STAMP", "digest_native", "find_installed_library", "has_pybullet_wheels"]
+__all__ = [
+    "COMPILED",
+    "LIBRARY",
+    "STAMP",
+    "digest_native",
+    "find_installed_library",
+    "find_library_of",
+    "has_pybullet_wheels",
+]
 
 LIBRARY = "shipcollision"
 """Name of the library, without the end that a system gives it."""
@@ -33,10 +41,7 @@ def has_pybullet_wheels() -> bool:
 
 def find_installed_library() -> Path | None:
     """The library of this package, or of an installed one of the same name; None without one made from its sources."""
-    target = find_own_target()
-    if target is None:
-        return None
-    return next(filter(None, (_find_current(package, target) for package in _packages())), None)
+    return next(filter(None, map(find_library_of, _packages())), None)
 
 
 def digest_native(native: Path) -> str:
@@ -57,8 +62,11 @@ def _packages() -> Iterator[Path]:
             yield found
 
 
-def _find_current(package: Path, target: Target) -> Path | None:
-    """The library in a package's folder, unless its sources, where they are there, have changed since."""
+def find_library_of(package: Path) -> Path | None:
+    """The library in a package's folder; None when its sources, where they are there, have changed since."""
+    target = find_own_target()
+    if target is None:
+        return None
     folder = package / COMPILED / target.folder
     library, stamp = folder / f"{LIBRARY}{target.suffix}", folder / STAMP
     if not (library.is_file() and stamp.is_file()):

@@ -24,7 +24,9 @@ INTERFACE = 1
 def build_own_library(cache: Path | None = None) -> Path:
     """The library for this machine, in the user's cache or in `cache`. Raises HostError when it cannot be built."""
     try:
-        from .libraries import build_library, native_cache  # opening a library needs neither of them
+        from .bullet_sources import has_bullet_sources  # opening a library needs none of these
+        from .compilers import find_compiler
+        from .libraries import build_library, native_cache
         from .sources import list_library_parts
     except ImportError:
         raise HostError(
@@ -34,8 +36,10 @@ def build_own_library(cache: Path | None = None) -> Path:
     target = find_own_target()
     if target is None:
         raise HostError("native code is for Linux and macOS on x86-64 and ARM, and for Windows on x86-64")
-    parts = list_library_parts(native_cache() if cache is None else cache)
-    return build_library(LIBRARY, parts, target, EXPORTS, cache=cache, prefer_system=True)
+    home = native_cache() if cache is None else cache
+    if not has_bullet_sources(home):
+        find_compiler(target, prefer_system=True)  # else 80 MB would be fetched before it is missed
+    return build_library(LIBRARY, list_library_parts(home), target, EXPORTS, cache=home, prefer_system=True)
 
 
 @lru_cache

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
-from collections.abc import Callable
+import sys
 from importlib.resources import files
 from math import hypot
 from pathlib import Path
@@ -14,6 +14,7 @@ import pytest
 from jsonschema import validate
 
 from shipcollision_fmu import load_scenario, load_ship, simulate
+from shipcollision_fmu.collision.geometry import adapter
 from shipcollision_fmu.cosim import simulate as module
 from shipcollision_fmu.cosim.run import Run
 from shipcollision_fmu.errors import HostError, ScenarioError, StepError
@@ -259,10 +260,13 @@ def test_a_run_that_fails_writes_nothing_and_leaves_nothing(
     assert list(temporary.iterdir()) == []
 
 
-def test_without_pybullet_it_says_how_to_get_it(scenario_file: Write, monkeypatch: pytest.MonkeyPatch) -> None:
-    real: Callable[[str], object] = module.require_pybullet.__globals__["find_spec"]
-    monkeypatch.setitem(
-        module.require_pybullet.__globals__, "find_spec", lambda name: None if name == "pybullet" else real(name)
-    )
-    with pytest.raises(HostError, match=r"pybullet.* not installed: run `python -m pip .* 3.10 or 3.11"):
+def test_without_pybullet_and_library_it_says_how_to_get_one(
+    scenario_file: Write, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def missing() -> None:
+        raise HostError("there is no C++ compiler for native code: install g++")
+
+    monkeypatch.setitem(sys.modules, "pybullet", None)
+    monkeypatch.setattr(adapter, "open_library", missing)
+    with pytest.raises(HostError, match=r"^contacts cannot be detected: pybullet, .* 3.10 and 3.11 .*: install g\+\+$"):
         ran(scenario_file())

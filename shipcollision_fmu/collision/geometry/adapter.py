@@ -7,11 +7,11 @@ from collections.abc import Sequence
 
 from ...errors import HostError, InputError
 from ...ship.hull.solid import HullMesh
-from .bullet import BulletAdapter, has_pybullet
-from .closest_points import PlacedHulls
+from .bullet import BulletAdapter, bullet_module, has_pybullet
+from .closest_points import PlacedHulls, open_library
 from .narrow_phase import NarrowPhase
 
-__all__ = ["CHOICE", "open_narrow_phase"]
+__all__ = ["CHOICE", "choose_adapter", "open_narrow_phase"]
 
 CHOICE = "SHIPCOLLISION_NARROW_PHASE"
 """Environment variable that forces one of both: "pybullet" or "library". Results are the same to the bit."""
@@ -23,17 +23,26 @@ def open_narrow_phase(hulls: Sequence[HullMesh], choice: str | None = None) -> N
     choice: "pybullet" or "library"; None: what the environment variable says, else PyBullet if it can be imported.
     Raises HostError when neither can be had.
     """
-    chosen = choice or os.environ.get(CHOICE) or ""
-    if chosen not in ("", "pybullet", "library"):
-        raise InputError(f"{CHOICE} = {chosen!r} must be 'pybullet' or 'library'; leave it out for what is there")
-    if chosen == "library":
-        return PlacedHulls(hulls)
+    return BulletAdapter(hulls) if choose_adapter(choice) == "pybullet" else PlacedHulls(hulls)
+
+
+def choose_adapter(choice: str | None = None) -> str:
+    """Which adapter open_narrow_phase takes, "pybullet" or "library". Raises HostError when it cannot be had."""
+    chosen = choice or os.environ.get(CHOICE) or ("pybullet" if has_pybullet() else "")
     if chosen == "pybullet":
-        return BulletAdapter(hulls)
-    if has_pybullet():
-        return BulletAdapter(hulls)
+        bullet_module()
+    elif chosen == "library":
+        open_library()
+    elif chosen:
+        raise InputError(f"{CHOICE} = {chosen!r} must be 'pybullet' or 'library'; leave it out for what is there")
+    else:
+        _open_in_its_place()
+    return chosen or "library"
+
+
+def _open_in_its_place() -> None:
     try:
-        return PlacedHulls(hulls)
+        open_library()
     except HostError as error:
         raise HostError(
             "contacts cannot be detected: pybullet, with wheels for CPython 3.10 and 3.11 on Linux (x86-64), is not "

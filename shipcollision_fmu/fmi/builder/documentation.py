@@ -27,6 +27,7 @@ def describe_dependencies(interface: Interface) -> str:
     first, last = interface.pythons
     systems = " or ".join({"linux": "Linux", "win": "Windows"}[system] for system in interface.systems)
     packages = "".join(f"    {line}\n" for line in interface.requirements)
+    instead = f"\n{interface.instead}\n" if interface.instead else ""
     return f"""{interface.name} runs Python and needs of the host:
 
 - {systems}, x86-64
@@ -34,7 +35,7 @@ def describe_dependencies(interface: Interface) -> str:
   on Linux with LD_PRELOAD=libpython{last}.so.1.0; on Windows python3.dll must be on PATH.
 - the packages of resources/requirements.txt, which PYTHONPATH leads to where the host is no Python process:
 
-{packages}"""
+{packages}{instead}"""
 
 
 def describe_licences(wrapper: str) -> str:
@@ -65,7 +66,8 @@ def make_page(interface: Interface, ships: tuple[str, ...], fmi: int = 2, scalar
 Frame n is north, east, down at the scenario's origin; frame b is forward, starboard, down at CO: midship, centreline,
 design waterline.</p>
 <p>It runs Python {" to ".join(interface.pythons)} in the process of the host, with the packages of
-<code>resources/requirements.txt</code>: {escape(", ".join(interface.requirements))}. A host that is not itself Python
+<code>resources/requirements.txt</code>: {escape(", ".join(interface.requirements))}. {interface.instead}
+A host that is not itself Python
 finds the interpreter through <code>LD_PRELOAD</code> and the packages through <code>PYTHONPATH</code>:
 <a href="externalDependencies.txt">externalDependencies.txt</a>.</p>
 <p>A step that cannot be made answers fmi{fmi}Discard and leaves the state before it; the reason is logged. So does the
