@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+from collections.abc import Callable
 from dataclasses import asdict, dataclass, field, fields
 from functools import cache
 from pathlib import Path
@@ -56,10 +57,14 @@ def prepare(source: str) -> str:
 
 @dataclass
 class NativeShip:
-    """ShipManoeuvring of native/: fill parameters and inputs, initialise(), then step(t, h), as of the model."""
+    """ShipManoeuvring of native/: fill parameters and inputs, initialise(), then step(t, h), as of the model.
+
+    directory: resources, in which the model looks for ships. find_ship: the text for its parameter `ship`.
+    """
 
     library: ctypes.CDLL
     directory: str = ""
+    find_ship: Callable[[str], str] = prepare
     parameters: ShipParameters = field(default_factory=ShipParameters)
     inputs: ShipInputs = field(default_factory=ShipInputs)
     outputs: ShipOutputs = field(default_factory=ShipOutputs)
@@ -100,12 +105,13 @@ class NativeShip:
         return {"bytes": data.raw[:size].hex()} if size else {}
 
     def set_state(self, state: dict[str, Any]) -> None:
-        data = bytes.fromhex(state.get("bytes", "") if state else "")
+        data = bytes.fromhex(state.get("bytes", ""))
+        self._fill_parameters()
         self._call("set_ship_state", data, ctypes.c_size_t(len(data)))
 
     def _fill_parameters(self) -> None:
         p = asdict(self.parameters)
-        p["ship"], p["coasting"] = prepare(p["ship"]).encode(), COASTING.index(p["coasting"])
+        p["ship"], p["coasting"] = self.find_ship(p["ship"]).encode(), COASTING.index(p["coasting"])
         for name, value in p.items():
             if isinstance(value, list):
                 getattr(self._parameters, name)[:] = value

@@ -2,61 +2,26 @@
 
 from __future__ import annotations
 
-import struct
 from collections.abc import Callable
+from math import inf, nan
 from pathlib import Path
 from random import Random
 from typing import Any
 
-import numpy as np
 import pytest
 
 from shipcollision_fmu.errors import ShipCollisionError
 from shipcollision_fmu.manoeuvring import model
 from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
 from shipcollision_fmu.manoeuvring.prepared_ship import prepare_ship
-from shipcollision_fmu.ship.frames import Array
-from shipcollision_fmu.ship.loading.library import load_ship
+from shipcollision_fmu.ship.loading.library import load_ship, read_ship_tables
 from tests.native.kernels import load_kernels
-from tests.native.native_ship import NativeShip
+from tests.native.manoeuvring.state import RUN, STEP, compare, flatten, give_state, take_state
+from tests.native.native_ship import NativeShip, RefusedError
 from tests.native.random_ships import COASTING, SAILING, draw_sailing_ship
+from tests.ship_files import ship_tables
 
-STEP, RUN = 1e-11, 1e-9
-"""Largest difference over the scale of the state: of a step, and of a run of a thousand steps."""
 LAWS = ("kirchhoff", "free", "straight")
-
-
-def flatten(state: dict[str, Any]) -> list[float]:
-    """The state in the order of the native one."""
-    return [x for value in state.values() for x in (value if isinstance(value, list | tuple) else [value])]
-
-
-def give_state(native: NativeShip, state: dict[str, Any]) -> None:
-    native.set_state({"bytes": struct.pack("<46d", *flatten(state)).hex()})
-
-
-def take_state(native: NativeShip) -> list[float]:
-    return list(struct.unpack("<46d", bytes.fromhex(native.get_state()["bytes"])))
-
-
-def find_scales(state: list[float], length: float) -> Array:
-    """What a difference of each number is judged by: the place by the ship's length or its distance, velocities by the
-    fastest of all, forces by the largest of all."""
-    x = np.abs(state)
-    speed = max(x[6:9].max(), length * x[9:12].max(), 0.1)
-    impulse = max(x[12:15].max(), x[15:18].max() / length, 1.0)
-    force = max(max(x[k : k + 3].max(), x[k + 3 : k + 6].max() / length) for k in (22, 28, 34, 40)) or 1.0
-    wrench = [*[force] * 3, *[force * length] * 3]
-    return np.array([
-        *[max(length, *x[:3])] * 3, *[max(1.0, *x[3:6])] * 3, *[speed] * 3, *[speed / length] * 3,
-        *[impulse] * 3, *[impulse * length] * 3, 1.0, 1.0, 1.0, max(1.0, x[21]), *wrench * 4,
-    ])  # fmt: skip
-
-
-def compare(native: list[float], state: dict[str, Any], length: float) -> float:
-    """The largest difference over its scale."""
-    expected = flatten(state)
-    return float(np.max(np.abs(np.array(native) - expected) / find_scales(expected, length)))
 
 
 class Pair:
@@ -169,3 +134,221 @@ def test_random_steps(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.slow
 def test_a_thousand_random_steps(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     check_random_steps(2, 125, 8, tmp_path, monkeypatch)
+
+
+def make_pair(tmp_path: Path, ship: Any = "kvlcc2") -> Pair:
+    return Pair(ship, tmp_path)
+
+
+REFUSED_STARTS: dict[str, Callable[[Any], None]] = {
+    "place": lambda m: set_list(m.parameters.initial_position, nan),
+    "attitude": lambda m: set_list(m.parameters.initial_attitude, inf),
+    "order": lambda m: setattr(m.inputs, "rudder_order", nan),
+    "wind": lambda m: setattr(m.inputs, "wind_direction", -inf),
+    "current": lambda m: set_list(m.inputs.current, nan),
+    "force": lambda m: set_list(m.inputs.force, nan),
+    "substep": lambda m: setattr(m.parameters, "substep", -0.5),
+    "long substep": lambda m: setattr(m.parameters, "substep", 10.0),
+    "freedom": lambda m: setattr(m.parameters, "degrees_of_freedom", 5),
+    "fast": lambda m: set_list(m.parameters.initial_velocity, 1234.5678901234567),
+    "spinning": lambda m: set_list(m.parameters.initial_rate, 1e2),
+    "steep": lambda m: set_list(m.parameters.initial_attitude, 1.5, 1),
+    "heeled": lambda m: (set_list(m.parameters.initial_attitude, 0.1), setattr(m.parameters, "degrees_of_freedom", 3)),
+    "trimmed": lambda m: (
+        set_list(m.parameters.initial_attitude, -0.01, 1), setattr(m.parameters, "degrees_of_freedom", 4)
+    ),
+    "heaving": lambda m: (
+        set_list(m.parameters.initial_velocity, 0.5, 2), setattr(m.parameters, "degrees_of_freedom", 4)
+    ),
+    "pitching": lambda m: (
+        set_list(m.parameters.initial_rate, -1e-5, 1), setattr(m.parameters, "degrees_of_freedom", 3)
+    ),
+}  # fmt: skip
+REFUSED_STEPS: dict[str, Callable[[Any], None]] = {
+    "order": lambda m: setattr(m.inputs, "propeller_order", nan),
+    "impulse": lambda m: set_list(m.inputs.impulse, inf, 5),
+    "fast current": lambda m: set_list(m.inputs.current, -1e3),
+    "storm": lambda m: setattr(m.inputs, "wind_speed", 1000.5),
+    "large impulse": lambda m: set_list(m.inputs.impulse, 1e13),
+    "large force": lambda m: set_list(m.inputs.force, -1e14),
+    "capsizing": lambda m: set_list(m.inputs.impulse, 9e12, 4),
+    "large moment": lambda m: set_list(m.inputs.force, 5e12, 3),
+}
+
+
+def set_list(values: list[float], value: float, place: int = 0) -> None:
+    values[place] = value
+
+
+@pytest.mark.parametrize("name", REFUSED_STARTS)
+def test_a_start_is_refused_in_the_same_words(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """And the model is then as it was."""
+    pair = make_pair(tmp_path)
+    for of in pair.each():
+        of.parameters.hydrodynamics, of.parameters.initial_velocity[:] = True, [5.0, 0.0, 0.0]
+    assert pair.initialise(monkeypatch) == ("", "")
+    before = take_state(pair.native)
+    for of in pair.each():
+        REFUSED_STARTS[name](of)
+    python, native = pair.initialise(monkeypatch)
+    assert python == native != ""
+    assert take_state(pair.native) == before
+
+
+@pytest.mark.parametrize("hydrodynamics", [True, False])
+@pytest.mark.parametrize("name", REFUSED_STEPS)
+def test_a_step_is_refused_in_the_same_words(
+    name: str, hydrodynamics: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pair = make_pair(tmp_path)
+    for of in pair.each():
+        of.parameters.hydrodynamics, of.parameters.initial_velocity[:] = hydrodynamics, [5.0, 0.0, 0.0]
+    assert pair.initialise(monkeypatch) == ("", "")
+    assert step_both(pair, 0.0, 0.5) <= STEP
+    for of in pair.each():
+        REFUSED_STEPS[name](of)
+    assert step_both(pair, 0.5, 5.0) <= STEP
+
+
+@pytest.mark.parametrize(("t", "h"), [(0.0, 0.0), (0.0, -1.0), (nan, 0.1), (inf, 0.1), (0.0, nan), (123.25, 1e5)])
+def test_a_time_is_refused_in_the_same_words(
+    t: float, h: float, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pair = make_pair(tmp_path)
+    assert [refusal_of(of.step, t, h) for of in pair.each()] == ["step before initialise: call initialise() first"] * 2
+    assert pair.initialise(monkeypatch) == ("", "")
+    python, native = (refusal_of(of.step, t, h) for of in pair.each())
+    assert python == native != ""
+
+
+DRIFTING: dict[str, Any] = {**read_ship_tables("kvlcc2"), "added_mass": {"z_y": 0.0}}
+for machine in ("propeller", "rudder", "engine"):
+    del DRIFTING[machine]
+LOPSIDED = {**DRIFTING, "particulars": {**DRIFTING["particulars"], "r_bg": [0, 0.5, 0]}}
+NEVER_IDLE = {**ship_tables(manoeuvring={"estimate": True}), "propeller": {"k_1": 0.3, "k_2": 0.1}}
+
+
+@pytest.mark.parametrize(
+    ("ship", "hydrodynamics", "degrees_of_freedom"),
+    [
+        (ship_tables(), True, 3), (LOPSIDED, True, 3),
+        (DRIFTING, True, 3), ("guan2014_target", False, 6), ("guan2014_target", False, 4),
+        (NEVER_IDLE, True, 3),
+        (ship_tables(particulars={"GM_T": 0.01}, manoeuvring={"estimate": True}), True, 6),
+    ],
+    ids=["only coasts", "lopsided", "drifts", "no C_b", "no C_b in 4", "never idle", "lolls"],
+)  # fmt: skip
+def test_a_ship_is_refused_in_the_same_words(
+    ship: Any, hydrodynamics: bool, degrees_of_freedom: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pair = make_pair(tmp_path, ship)
+    for of in pair.each():
+        of.parameters.hydrodynamics, of.parameters.degrees_of_freedom = hydrodynamics, degrees_of_freedom
+        of.inputs.rudder_order = 0.1
+    python, native = pair.initialise(monkeypatch)
+    assert python == native != ""
+
+
+def test_warnings_are_the_same(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of a motion that is held, and of what is suspicious in the ship's file; until the first step."""
+    pair = make_pair(tmp_path, ship_tables(
+        ship={"kind": "tankr"}, particulars={"r_bg": [0.02, 0.0, 0.0]}, manoeuvring={"estimate": True}
+    ))  # fmt: skip
+    for of in pair.each():
+        p = of.parameters
+        p.hydrodynamics, p.degrees_of_freedom = True, 4
+        p.initial_attitude[:], p.initial_velocity[:], p.initial_rate[:] = [0.2, 0, 0], [5.0, 1.0, 0.0], [0, 0.01, 0]
+    assert pair.initialise(monkeypatch) == ("", "")
+    assert pair.python.warning == pair.native.warning
+    assert pair.native.warning.startswith("initial heave velocity = 0.198669 and pitch rate = 0.00980067 in level axes")
+    assert "looks like x_G/L_pp" in pair.native.warning
+    assert compare(take_state(pair.native), pair.python.get_state(), 100.0) <= STEP
+    pair.native.step(0.0, 0.1)
+    assert pair.native.warning == ""
+
+
+RUNS: list[tuple[bool, int, str]] = [(True, free, "kirchhoff") for free in (3, 4, 6)]
+RUNS += [(False, free, law) for free in (4, 6) for law in LAWS]
+
+
+@pytest.mark.parametrize(("hydrodynamics", "degrees_of_freedom", "law"), RUNS)
+def test_a_run_ends_at_the_same_place(
+    hydrodynamics: bool, degrees_of_freedom: int, law: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """In wind and current, hit twice, helm and engine moved; each model from its own states."""
+    pair, random = make_pair(tmp_path, "kvlcc2"), Random(3)
+    for of in pair.each():
+        p = of.parameters
+        p.hydrodynamics, p.degrees_of_freedom, p.coasting = hydrodynamics, degrees_of_freedom, law
+        p.initial_velocity[:], p.substep = [7.0, 0.0, 0.0], 0.5
+    assert pair.initialise(monkeypatch) == ("", "")
+    for k in range(150):
+        if k % 30 == 0:
+            orders, wind = (
+                (random.uniform(-0.6, 0.6), random.uniform(-1.0, 2.0)),
+                (random.uniform(0, 20), random.random()),
+            )
+            hit = 0.1 * pair.ship.mass * (k in (60, 120))
+            for of in pair.each():
+                i = of.inputs
+                (i.rudder_order, i.propeller_order), (i.wind_speed, i.wind_direction) = orders, wind
+                i.current[:] = [0.5, -0.3]
+                i.impulse[:] = [a + b for a, b in zip(i.impulse, (-hit, hit, 0, 5 * hit, 0, 50 * hit), strict=True)]
+        for of in pair.each():
+            of.step(2.0 * k, 2.0)
+    assert compare(take_state(pair.native), pair.python.get_state(), pair.ship.L_pp) <= RUN
+
+
+@pytest.mark.parametrize(("hydrodynamics", "degrees_of_freedom"), [(True, 3), (True, 4), (True, 6), (False, 6)])
+def test_a_state_is_restored_to_the_bit(
+    hydrodynamics: bool, degrees_of_freedom: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """In the same ship and in another, whose outputs then are the same too."""
+    pair, random = make_pair(tmp_path), Random(4)
+    for of in pair.each():
+        of.parameters.hydrodynamics, of.parameters.degrees_of_freedom = hydrodynamics, degrees_of_freedom
+        of.parameters.initial_velocity[:] = [5.0, 0.0, 0.0]
+    assert pair.initialise(monkeypatch) == ("", "")
+    draw_inputs(pair, random)
+    native = pair.native
+    native.step(0.0, 0.5)
+    kept = native.get_state()
+    outputs = repr(native.outputs)
+    native.step(0.5, 0.5)
+    after = native.get_state()
+    other = NativeShip(load_kernels(), parameters=native.parameters, inputs=native.inputs)
+    for of in (native, other):
+        of.set_state(kept)
+        assert repr(of.outputs) == outputs
+        of.step(0.5, 0.5)
+        assert of.get_state() == after
+    other.set_state({})
+    assert other.get_state() == {}
+    assert refusal_of(other.step, 0.0, 0.1) == "step before initialise: call initialise() first"
+    with pytest.raises(RefusedError, match="the state is not of ShipManoeuvring"):
+        other.set_state({"bytes": kept["bytes"][2:]})
+
+
+@pytest.mark.parametrize(
+    ("law", "hydrodynamics", "degrees_of_freedom", "h", "why"),
+    [
+        ("kirchhoff", True, 3, 4e5, "the motion diverges in the step"),
+        ("straight", False, 6, 1e300, "the motion diverges in the step"),
+        ("straight", False, 3, 1e308, "the motion diverges in the step"),
+        ("kirchhoff", False, 4, 1e5, "substeps of a ship that coasts"),
+        ("free", False, 6, 1e300, "substeps of a ship that coasts"),
+    ],
+)
+def test_a_step_that_is_too_long_is_refused_in_the_same_words(
+    law: str, hydrodynamics: bool, degrees_of_freedom: int, h: float, why: str, tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:  # fmt: skip
+    pair = make_pair(tmp_path)
+    for of in pair.each():
+        p = of.parameters
+        p.hydrodynamics, p.degrees_of_freedom, p.coasting, p.substep = hydrodynamics, degrees_of_freedom, law, h / 4
+        p.initial_velocity[:], p.initial_rate[:] = [8.0, 1.0, 0.0], [0.0, 0.0, 0.01]
+    assert pair.initialise(monkeypatch) == ("", "")
+    python, native = (refusal_of(of.step, 0.0, h) for of in pair.each())
+    assert python == native
+    assert why in native

@@ -1,0 +1,94 @@
+"""Numbers and texts of native/ beside Python's repr, format and zlib."""
+
+from __future__ import annotations
+
+import ctypes
+import struct
+import zlib
+from random import Random
+
+import pytest
+
+from tests.native.kernels import load_kernels
+
+SPECIAL = [
+    0.0, -0.0, float("inf"), -float("inf"), float("nan"), 5e-324, 2.2250738585072014e-308, 1.7976931348623157e308, 9.5,
+    99.5, 0.5, 2.5, 1e-5, 1e-4, 9.999995, 1e15, 1e16, 1e22, 1e23, 123456789012345680.0, 1234565.0, 9007199254740993.0,
+]  # fmt: skip
+COUNT = 3000
+
+
+def draw_double(random: Random) -> float:
+    """Of any size: random bits, small and round numbers, powers of two and subnormals."""
+    match random.randrange(6):
+        case 0:
+            return float(struct.unpack("d", random.randbytes(8))[0])
+        case 1:
+            return random.uniform(-1000.0, 1000.0)
+        case 2:
+            return float(struct.unpack("d", struct.pack("Q", random.getrandbits(random.randrange(1, 53))))[0])
+        case 3:
+            return float(random.randrange(10 ** random.randrange(1, 20))) * 10.0 ** random.randrange(-20, 20)
+        case 4:
+            return 2.0 ** random.randrange(-1074, 1024)
+        case _:
+            return round(random.uniform(0.0, 10.0), random.randrange(6))
+
+
+def numbers() -> list[float]:
+    random = Random(1)
+    return SPECIAL + [draw_double(random) for _ in range(COUNT)]
+
+
+def test_numbers_are_written_as_by_python() -> None:
+    exact, rounded = ctypes.create_string_buffer(100), ctypes.create_string_buffer(100)
+    for k, number in enumerate(numbers()):
+        digits = (1, 2, 3, 6, 10, 17)[k % 6]
+        load_kernels().shipcollision_write_number(ctypes.c_double(number), digits, exact, rounded)
+        assert (exact.value.decode(), rounded.value.decode()) == (repr(number), f"{number:.{digits}g}")
+
+
+def read_hexadecimal(text: str) -> tuple[int, float]:
+    number = ctypes.c_double(7.0)
+    read = load_kernels().shipcollision_read_hexadecimal(text.encode(), ctypes.byref(number))
+    return read, number.value
+
+
+def test_hexadecimal_numbers_are_read_exactly() -> None:
+    for number in numbers():
+        if number - number == 0.0:
+            text = number.hex()
+            read, found = read_hexadecimal(f"{text} 0x1.0p+0")
+            assert (read, struct.pack("d", found)) == (len(text), struct.pack("d", number))
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["", "0x", "0x2.0p+0", "0x1.00000000000000p+0", "0x1.0p", "0x1.0p+", "0x1.0p+1024", "0x1.0p-1023", "0x1.p+0",
+     "0x0.8p+0", "0x1.0p+99999", "inf", "nan", "1.0", "-", " 0x1.0p+0"],
+)  # fmt: skip
+def test_other_text_is_no_hexadecimal_number(text: str) -> None:
+    assert read_hexadecimal(text) == (0, 7.0)
+
+
+@pytest.mark.parametrize("text", ["plain", "it's", 'say "no"', "both ' and \"", "\n\t\r\x01\x7f\\", "Ærøskøbing", ""])
+def test_text_is_quoted_as_by_python(text: str) -> None:
+    quoted = ctypes.create_string_buffer(200)
+    load_kernels().shipcollision_quote(text.encode(), quoted)
+    assert quoted.value.decode() == repr(text)
+
+
+@pytest.mark.parametrize("size", [1995, 1997, 1998, 1999, 2000, 2001, 5000])
+def test_text_that_is_too_long_is_cut_between_two_characters(size: int) -> None:
+    text = ("x" * (size % 2) + "ø" * (size // 2)).encode()
+    written = ctypes.create_string_buffer(6000)
+    load_kernels().shipcollision_write_text(text, written)
+    assert written.value.decode() == (text + b"xy")[:2000].decode(errors="ignore")[: len(text.decode()) + 2]
+    assert len(written.value) >= min(size + 2, 1999)
+
+
+def test_checksum() -> None:
+    function = load_kernels().shipcollision_crc32
+    function.restype = ctypes.c_uint32
+    for data in (b"", b"a", bytes(range(256)) * 5):
+        assert function(data, ctypes.c_size_t(len(data))) == zlib.crc32(data)
