@@ -24,6 +24,22 @@ bool are_finite(const double* numbers, size_t count) {
   return true;
 }
 
+// The start, or a time [s], for messages: it becomes text in a refusal alone, which costs more than a step.
+struct When {
+  bool is_start;
+  double t;
+};
+
+constexpr When AT_THE_START = {true, 0.0};
+
+When at_time(double t) { return {false, t}; }
+
+Text& operator<<(Text& text, const When& when) {
+  if (when.is_start) return text << "at the start";
+  text << "at t = ";
+  return text.short_number(when.t) << " s";
+}
+
 // A real or a vector by name, for messages.
 struct Named {
   const char* name;
@@ -32,8 +48,8 @@ struct Named {
   bool is_list;
 };
 
-// False, and why, for the first of these that is not finite.
-bool check_finite(const Named* named, size_t count, const Text& rule, Text& why) {
+// False, and why, for the first of these that is not finite; `when` may be null.
+bool check_finite(const Named* named, size_t count, const When* when, Text& why) {
   for (const Named* of = named; of != named + count; ++of) {
     if (are_finite(of->numbers, of->count)) continue;
     why << of->name << " = ";
@@ -42,7 +58,9 @@ bool check_finite(const Named* named, size_t count, const Text& rule, Text& why)
     } else {
       why << *of->numbers;
     }
-    why << " " << rule << NOT_FINITE;
+    why << " ";
+    if (when != nullptr) why << *when << " ";
+    why << "must be finite" << NOT_FINITE;
     return false;
   }
   return true;
@@ -53,12 +71,10 @@ bool check_start(const ShipParameters& p, Text& why) {
                          {"initial_attitude", p.initial_attitude, 3, true},
                          {"initial_velocity", p.initial_velocity, 3, true},
                          {"initial_rate", p.initial_rate, 3, true}};
-  Text rule;
-  rule << "must be finite";
-  return check_finite(named, sizeof named / sizeof *named, rule, why);
+  return check_finite(named, sizeof named / sizeof *named, nullptr, why);
 }
 
-bool check_inputs(const ShipInputs& i, const Text& when, Text& why) {
+bool check_inputs(const ShipInputs& i, const When& when, Text& why) {
   const Named named[] = {{"rudder_order", &i.rudder_order, 1, false},
                          {"propeller_order", &i.propeller_order, 1, false},
                          {"current", i.current, 2, true},
@@ -66,9 +82,7 @@ bool check_inputs(const ShipInputs& i, const Text& when, Text& why) {
                          {"wind_direction", &i.wind_direction, 1, false},
                          {"impulse", i.impulse, 6, true},
                          {"force", i.force, 6, true}};
-  Text rule;
-  rule << when << " must be finite";
-  return check_finite(named, sizeof named / sizeof *named, rule, why);
+  return check_finite(named, sizeof named / sizeof *named, &when, why);
 }
 
 bool is_absurd(const Six& nu, const PreparedShip& ship) {
@@ -83,13 +97,6 @@ void put_too_fast(const Six& nu, Text& why) {
   why.list(nu.at, 3) << " m/s, rate ";
   why.list(nu.at + 3, 3) << " rad/s: the speed of midship and of the ship's ends must be below ";
   why.short_number(ABSURD_SPEED) << " m/s";
-}
-
-Text at_time(double t) {
-  Text when;
-  when << "at t = ";
-  when.short_number(t) << " s";
-  return when;
 }
 
 bool refuse_absurd(const Six& nu, const PreparedShip& ship, double t, Text& why) {
@@ -154,7 +161,7 @@ struct ShipManoeuvring::SetUp {
   }
 
   // Refuses orders to a ship without propeller, rudder and engine.
-  bool check_orders(const ShipInputs& inputs, const Text& when, Text& why) const {
+  bool check_orders(const ShipInputs& inputs, const When& when, Text& why) const {
     if (is_coasting || mmg().propelled) return true;
     const char* const names[] = {"rudder", "propeller"};
     const double orders[] = {inputs.rudder_order, inputs.propeller_order};
@@ -266,9 +273,7 @@ bool ShipManoeuvring::find_start(const SetUp& set_up, State& start, Text& warned
         << " rad with hydrodynamics = true";
     return false;
   }
-  Text when;
-  when << "at the start";
-  if (!set_up.check_orders(inputs, when, why)) return false;
+  if (!set_up.check_orders(inputs, AT_THE_START, why)) return false;
   const Mmg& mmg = set_up.mmg();
   const Surroundings around = find_surroundings(inputs);
   const double limited = mmg.engine.limit(inputs.propeller_order);
@@ -280,9 +285,8 @@ bool ShipManoeuvring::find_start(const SetUp& set_up, State& start, Text& warned
 
 bool ShipManoeuvring::initialise(Text& why) {
   why.clear();
-  Text when, warned;
-  when << "at the start";
-  if (!check_start(parameters, why) || !check_inputs(inputs, when, why)) return false;
+  Text warned;
+  if (!check_start(parameters, why) || !check_inputs(inputs, AT_THE_START, why)) return false;
   SetUp* prepared;
   if (!prepare(prepared, why)) return false;
   State start;
@@ -329,7 +333,7 @@ bool ShipManoeuvring::SetUp::check(const ShipInputs& i, double t, double h, int&
     why << "step from t = " << t << " s over h = " << h << " s: t must be finite and h greater than 0";
     return false;
   }
-  const Text when = at_time(t);
+  const When when = at_time(t);
   if (!check_inputs(i, when, why)) return false;
   if (max(abs(i.current[0]), abs(i.current[1])) >= ABSURD_SPEED) {
     why << "current = ";
