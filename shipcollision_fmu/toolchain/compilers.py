@@ -21,6 +21,10 @@ from .platforms import Target, find_own_target
 
 __all__ = ["Compiler", "find_compiler"]
 
+_ZIG_FLAGS = (
+    "-Wglobal-constructors",  # nothing would run them on Windows (native/windows.cpp)
+    "-fvisibility-global-new-delete=force-hidden",  # of a host's own operator new
+)
 _SYSTEM = ("g++", "clang++", "c++")
 """Names of C++ compilers; Windows has none of them as a rule."""
 
@@ -31,12 +35,14 @@ class Compiler:
 
     name     with its version, for people and for keys
     compile  turns C++ into an object
+    flags    for this compiler only
     link     turns objects into a library, without a run-time library of C++
     """
 
     name: str
     compile: tuple[str, ...]
     link: tuple[str, ...]
+    flags: tuple[str, ...] = ()
     environment: Mapping[str, str] = field(default_factory=dict)
 
 
@@ -46,7 +52,7 @@ def find_compiler(target: Target, *, prefer_system: bool = False) -> Compiler:
     An FMU takes Zig's where there is a choice, for older systems; a library that stays here takes the system's with
     `prefer_system`, which need not build Zig's own libraries first.
     """
-    system = _find_system() if target == find_own_target() else None
+    system = _find_system() if target == find_own_target() and not target.is_windows else None
     zig = _find_zig()
     if system is not None and (prefer_system or zig is None):
         return system
@@ -55,9 +61,8 @@ def find_compiler(target: Target, *, prefer_system: bool = False) -> Compiler:
     path, version = zig
     kept = {"ZIG_GLOBAL_CACHE_DIR": str(_ZIG_CACHE), "ZIG_LOCAL_CACHE_DIR": str(_ZIG_CACHE)}
     # Without -target Zig would use instructions that other machines may not have.
-    return Compiler(
-        f"zig {version}", (path, "c++", "-target", target.zig), (path, "cc", "-target", target.zig), kept
-    )  # fmt: skip
+    aim = ("-target", target.zig)
+    return Compiler(f"zig {version}", (path, "c++", *aim), (path, "cc", *aim), _ZIG_FLAGS, kept)
 
 
 _ZIG_CACHE = user_cache().parent / "zig"
@@ -67,7 +72,7 @@ _ZIG_CACHE = user_cache().parent / "zig"
 def _describe_lack(target: Target) -> str:
     """Why nothing compiles for `target`, and what to install."""
     remedy = describe_installation("native")
-    if target == find_own_target():
+    if target == find_own_target() and not target.is_windows:
         return f"there is no C++ compiler for native code: {remedy}, or install g++ or clang++"
     return f"native code for {target.folder} is compiled by Zig, which is not installed: {remedy}"
 

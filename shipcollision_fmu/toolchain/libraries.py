@@ -77,15 +77,16 @@ def _link(name: str, objects: Sequence[Path], target: Target, compiler: Compiler
     """The bytes of the library, which depend on objects and target alone."""
     with tempfile.TemporaryDirectory(prefix="shipcollision-") as aside:
         made = Path(aside, f"{name}{target.suffix}")
-        command = [*compiler.link, "-shared", *_list_link_flags(target, Path(aside), exports)]
-        run([*command, "-o", made.name, *map(str, objects)], compiler, f"cannot link for {target.folder}", Path(aside))
+        flags = _list_link_flags(target, Path(aside), exports)
+        command = [*compiler.link, "-O2", "-shared", "-o", made.name, *map(str, objects), *flags]
+        run(command, compiler, f"cannot link for {target.folder}", Path(aside))
         data = made.read_bytes()
     return clear_time_stamps(data) if target.is_windows else data
 
 
 def _list_link_flags(target: Target, folder: Path, exports: Sequence[str]) -> list[str]:
     if target.is_windows:
-        return ["-s"]
+        return ["-s", "-nostdlib", "-lucrtbase", "-lkernel32"]  # native/windows.cpp is the start-up code
     if target.is_macos:
         return ["-Wl,-x", "-Wl,-dead_strip"]
     script = folder / "exports.map"

@@ -44,7 +44,7 @@ def digest_source(part: Part, file: str, target: Target) -> str:
 
 def compile_object(part: Part, file: str, target: Target, compiler: Compiler, cache: Path) -> Path:
     """The object of a source, compiled if it is not in the folder `cache`. Raises HostError with the first error."""
-    key = sha256(f"{compiler.name}\0{digest_source(part, file, target)}".encode()).hexdigest()
+    key = sha256(repr((compiler.name, compiler.flags, digest_source(part, file, target))).encode()).hexdigest()
     kept = cache / f"{Path(file).stem}-{key[:32]}.o"
     if kept.is_file():
         os.utime(kept)
@@ -54,7 +54,7 @@ def compile_object(part: Part, file: str, target: Target, compiler: Compiler, ca
     names = [f"-ffile-prefix-map={folder}=." for folder in part.includes]
     with tempfile.TemporaryDirectory(prefix="shipcollision-") as aside:
         made = Path(aside, "object.o")
-        command = [*compiler.compile, *FLAGS, *positions, *part.flags, *folders, *names, "-c", file, "-o", str(made)]
+        command = [*compiler.compile, *FLAGS, *compiler.flags, *positions, *part.flags, *folders, *names, "-c", file, "-o", str(made)]
         run(command, compiler, f"cannot compile {file} for {target.folder}", part.root)
         return write_file(kept, made.read_bytes(), IN_PLACE)
 
