@@ -17,12 +17,15 @@ from .pe import clear_time_stamps
 from .platforms import Target
 from .sources import Part
 
-__all__ = ["Report", "build_library", "native_cache"]
+__all__ = ["Report", "build_libraries", "build_library", "ignore_progress", "native_cache"]
 
 Report = Callable[[int, int], None]
-"""Is told how many sources of how many are compiled."""
+"""Called with how many steps of how many are done; a step compiles a source or links a library."""
 
-_SAY_NOTHING: Report = lambda done, total: None  # noqa: E731
+
+def ignore_progress(done: int, total: int) -> None:
+    """The Report of a caller without a display."""
+
 
 KEPT_DAYS = 30
 """Days after which what no build used is removed from the cache."""
@@ -41,57 +44,100 @@ def build_library(
     *,
     cache: Path | None = None,
     prefer_system: bool = False,
-    report: Report = _SAY_NOTHING,
 ) -> Path:
-    """The library of that name for `target`, compiled and linked if it is not in the cache.
+    """The library of that name for one target: see build_libraries."""
+    return build_libraries(name, parts, [target], exports, cache=cache, prefer_system=prefer_system)[target]
 
-    `exports` are patterns of the names that a host may call. Raises HostError when nothing here compiles for the
-    target, or when a source does not compile.
+
+def build_libraries(
+    name: str,
+    parts: Sequence[Part],
+    targets: Sequence[Target],
+    exports: Sequence[str],
+    *,
+    cache: Path | None = None,
+    prefer_system: bool = False,
+    report: Report = ignore_progress,
+) -> dict[Target, Path]:
+    """The libraries of that name by target. Those that are not in the cache are compiled and linked, side by side.
+
+    `exports` are patterns of the names that a host may call. Raises HostError when nothing here compiles for a target,
+    before anything is compiled, or when a source does not compile.
     """
     home = native_cache() if cache is None else cache
-    sources = [(part, file) for part in parts for file in part.files]
-    digests = [digest_source(part, file, target) for part, file in sources]
     kind = "here" if prefer_system else "fmu"  # these may come from different compilers
-    key = sha256(repr((name, target.zig, tuple(exports), kind, digests)).encode()).hexdigest()
-    kept = home / key[:32] / f"{name}{target.suffix}"
-    if kept.is_file():
-        os.utime(kept)
-        return kept
-    compiler = find_compiler(target, prefer_system=prefer_system)
-
-    def compile_one(source: tuple[Part, str]) -> Path:
-        part, file = source
-        return compile_object(part, file, target, compiler, home / "objects")
-
-    objects: list[Path] = []
+    kept = {target: _find_place(home, name, parts, target, exports, kind) for target in targets}
+    missing = [target for target, path in kept.items() if not _is_kept(path)]
+    compilers = {target: find_compiler(target, prefer_system=prefer_system) for target in missing}
+    sources = [(part, file) for part in parts for file in part.files]
+    done, total = 0, len(missing) * (len(sources) + 1)
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        for made in pool.map(compile_one, sources):
-            objects.append(made)
-            report(len(objects), len(sources))
-    library = _link(name, objects, target, compiler, exports)
-    _remove_unused(home)
-    return write_file(kept, library, IN_PLACE)
+        compiling = {
+            target: [
+                pool.submit(compile_object, part, file, target, compiler, home / "objects") for part, file in sources
+            ]
+            for target, compiler in compilers.items()
+        }
+        linking = {}
+        try:
+            for target, futures in compiling.items():
+                objects = []
+                for future in futures:
+                    objects.append(future.result())
+                    done += 1
+                    report(done, total)
+                linking[target] = pool.submit(_link, objects, target, compilers[target], exports, kept[target])
+            for one in linking.values():
+                one.result()
+                done += 1
+                report(done, total)
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+    if missing:
+        _remove_unused(home)
+    return kept
 
 
-def _link(name: str, objects: Sequence[Path], target: Target, compiler: Compiler, exports: Sequence[str]) -> bytes:
-    """The bytes of the library, which depend on objects and target alone."""
+def _find_place(
+    home: Path, name: str, parts: Sequence[Part], target: Target, exports: Sequence[str], kind: str
+) -> Path:
+    """Where the library is kept."""
+    digests = [digest_source(part, file, target) for part in parts for file in part.files]
+    key = sha256(repr((name, target.zig, tuple(exports), kind, digests)).encode()).hexdigest()
+    return home / key[:32] / f"{name}{target.suffix}"
+
+
+def _is_kept(path: Path) -> bool:
+    """Whether the file is there; then it counts as used."""
+    try:
+        os.utime(path)
+    except OSError:
+        return False
+    return True
+
+
+def _link(objects: Sequence[Path], target: Target, compiler: Compiler, exports: Sequence[str], kept: Path) -> None:
+    """Write the library to its place; its bytes depend on objects and target alone."""
     with tempfile.TemporaryDirectory(prefix="shipcollision-") as aside:
-        made = Path(aside, f"{name}{target.suffix}")
+        made = Path(aside, kept.name)
         flags = _list_link_flags(target, Path(aside), exports)
         command = [*compiler.link, "-O2", "-shared", "-o", made.name, *map(str, objects), *flags]
         run(command, compiler, f"cannot link for {target.folder}", Path(aside))
         data = made.read_bytes()
-    return clear_time_stamps(data) if target.is_windows else data
+    write_file(kept, clear_time_stamps(data) if target.is_windows else data, IN_PLACE)
 
 
 def _list_link_flags(target: Target, folder: Path, exports: Sequence[str]) -> list[str]:
+    """Without start-up code and run-time libraries, which Zig would compile first: only the system's C library."""
     if target.is_windows:
         return ["-s", "-nostdlib", "-lucrtbase", "-lkernel32"]  # native/windows.cpp is the start-up code
     if target.is_macos:
-        return ["-Wl,-x", "-Wl,-dead_strip"]
+        return ["-Wl,-x", "-Wl,-dead_strip", "-nostdlib", "-lc"]
     script = folder / "exports.map"
     script.write_text(f"{{ global: {' '.join(f'{pattern};' for pattern in exports)} local: *; }};\n", encoding="ascii")
-    return ["-s", "-Wl,--no-undefined", "-Wl,--build-id=none", f"-Wl,--version-script={script.name}"]
+    own = ["-Wl,--no-undefined", "-Wl,--build-id=none", f"-Wl,--version-script={script.name}"]
+    return ["-s", *own, "-nostdlib", "-lc"]
 
 
 def _remove_unused(home: Path) -> None:

@@ -54,7 +54,8 @@ def compile_object(part: Part, file: str, target: Target, compiler: Compiler, ca
     names = [f"-ffile-prefix-map={folder}=." for folder in part.includes]
     with tempfile.TemporaryDirectory(prefix="shipcollision-") as aside:
         made = Path(aside, "object.o")
-        command = [*compiler.compile, *FLAGS, *compiler.flags, *positions, *part.flags, *folders, *names, "-c", file, "-o", str(made)]
+        flags = [*FLAGS, *compiler.flags, *positions, *part.flags, *folders, *names]
+        command = [*compiler.compile, *flags, "-c", file, "-o", str(made)]
         run(command, compiler, f"cannot compile {file} for {target.folder}", part.root)
         return write_file(kept, made.read_bytes(), IN_PLACE)
 

@@ -1,0 +1,53 @@
+"""The libraries inside native FMUs, as files below binaries/. One library serves every FMU, version and flavour."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from ..errors import InputError
+from .libraries import Report, build_libraries, ignore_progress
+from .mach_o import join_libraries
+from .platforms import PLATFORMS, Platform
+from .sources import list_fmu_parts
+
+__all__ = ["Binary", "build_binaries", "choose_platforms"]
+
+_EXPORTS = ("fmi2*", "fmi3*")
+"""What a host calls."""
+
+
+@dataclass(frozen=True)
+class Binary:
+    """A library of an FMU: its folder below binaries/, the end of its name, and the file."""
+
+    folder: str
+    suffix: str
+    content: bytes
+
+
+def choose_platforms(names: Sequence[str]) -> tuple[Platform, ...]:
+    """The platforms of these names, without repetitions. Raises InputError for an unknown name, and without any."""
+    for name in names:
+        if name not in PLATFORMS:
+            raise InputError(f"platform {name!r} is unknown: give some of {', '.join(PLATFORMS)}")
+    if not names:
+        raise InputError(f"an FMU needs a platform: give some of {', '.join(PLATFORMS)}")
+    return tuple(PLATFORMS[name] for name in dict.fromkeys(names))
+
+
+def build_binaries(platforms: Sequence[Platform], report: Report = ignore_progress) -> dict[int, list[Binary]]:
+    """The libraries by version of FMI.
+
+    The folders of FMI 2.0 hold the universal file of all targets of a platform, those of FMI 3.0 the targets one by
+    one. Raises HostError when nothing here compiles for a target.
+    """
+    targets = [target for platform in platforms for target in platform.targets]
+    built = build_libraries("shipcollision", list_fmu_parts(), targets, _EXPORTS, report=report)
+    contents = {target: path.read_bytes() for target, path in built.items()}
+    joined = []
+    for platform in platforms:
+        libraries = [contents[target] for target in platform.targets]
+        whole = libraries[0] if len(libraries) == 1 else join_libraries(libraries)
+        joined.append(Binary(platform.name, platform.targets[0].suffix, whole))
+    return {2: joined, 3: [Binary(target.folder, target.suffix, data) for target, data in contents.items()]}
