@@ -71,7 +71,9 @@ void Logger::log_failure(const char* line) const {
 }
 
 void Logger::print(const char* prefix, const char* line) const {
-  if (is_on_stderr_) fprintf(stderr, "%s %s: %s%s\n", fmu_, instance_, prefix, line);
+  if (!is_on_stderr_) return;
+  const char* const parts[] = {fmu_, " ", instance_, ": ", prefix, line, "\n"};  // printf is not in Windows' library
+  for (const char* part : parts) fputs(part, stderr);
 }
 
 }  // namespace shipcollision
