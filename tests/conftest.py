@@ -15,6 +15,9 @@ from hypothesis import HealthCheck, settings
 from hypothesis.internal.conjecture import providers
 
 from shipcollision_fmu.cosim import fmu_files
+from shipcollision_fmu.fmi.builder.native_fmus import build_native_fmus
+from shipcollision_fmu.toolchain import libraries
+from shipcollision_fmu.toolchain.platforms import PLATFORMS, find_own_target
 from tests import needs
 from tests.ship_engines import ENGINES, ModelOfFmu, use_engine
 from tests.ship_files import BARGE_ADDED_MASS, ship_toml
@@ -66,6 +69,9 @@ friction = 0.3
 if TYPE_CHECKING:
     from selenium.webdriver import Chrome
 
+NATIVE_CACHE = libraries.native_cache()
+"""What is compiled stays in the user's cache, taken here before the tests set another: the next run is fast."""
+
 Write = Callable[..., Path]
 LEFT_OUT = pytest.StashKey[list[tuple[str, list[str]]]]()
 """Tests left out of this run, each with its needs that are not met."""
@@ -111,6 +117,20 @@ def _fmus_of_the_tests(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Non
         patch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
         patch.setattr(fmu_files, "fmu_directory", lambda ships=(): home / "-".join(ships))
         yield
+
+
+@pytest.fixture(scope="session")
+def native_fmus(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    """ShipManoeuvring without Python for this machine, by flavour: "2", "3" and "3-scalar"."""
+    own = find_own_target()
+    platform = next(one.name for one in PLATFORMS.values() if own in one.targets)
+    home = tmp_path_factory.mktemp("native-fmus")
+    built = {}
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(libraries, "native_cache", lambda: NATIVE_CACHE)
+        for flavour, fmi, scalar in (("2", 2, False), ("3", 3, False), ("3-scalar", 3, True)):
+            built[flavour] = build_native_fmus(home, fmi=fmi, scalar=scalar, platforms=[platform])["ShipManoeuvring"]
+    return built
 
 
 @pytest.fixture(scope="session")

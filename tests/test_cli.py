@@ -15,6 +15,8 @@ from shipcollision_fmu import __version__
 from shipcollision_fmu.cli import main
 from shipcollision_fmu.cosim import fmu_files
 from shipcollision_fmu.errors import HostError
+from shipcollision_fmu.fmi.builder import native_fmus
+from shipcollision_fmu.toolchain.fmu_binaries import Binary
 from tests.conftest import ENCOUNTER
 from tests.ship_files import ship_toml
 
@@ -163,6 +165,17 @@ def test_build_names_the_ships_and_takes_arrays_apart(folder: Path) -> None:
     assert b'name="own.' not in description
 
 
+def test_build_without_python(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    library = Binary("win64", ".dll", b"MZ")
+    monkeypatch.setattr(native_fmus, "build_binaries", lambda platforms, report: {2: [library]})
+    built = called("build", "--native", "--platforms", "win64", "--out", "fmus", "--sources")
+    assert (built.exit_code, built.stdout) == (0, "fmus/ShipManoeuvring.native.fmu\n")
+    assert built.stderr == "note: ShipCollision has no native form yet; `shipcollision build` makes it with Python\n"
+    with zipfile.ZipFile(folder / "fmus" / "ShipManoeuvring.native.fmu") as archive:
+        names = archive.namelist()
+    assert {"binaries/win64/ShipManoeuvring.dll", "sources/fmi/fmi2.cpp"} <= set(names)
+
+
 def test_ships_and_scenarios_are_listed() -> None:
     ships, scenarios = called("ships"), called("scenarios")
     assert (ships.exit_code, scenarios.exit_code) == (0, 0)
@@ -264,6 +277,15 @@ def test_a_mistake_is_one_line_and_writes_nothing(
         (["build", "--scalar"], 2, "--scalar is for FMI 3.0: FMI 2.0 has no arrays; add --fmi 3 or leave it out"),
         (["build", "--ships", "own,contact"], 2, "ships: 'contact' is no name for a ship"),
         (["build", "--ships", "own,own"], 2, "ships: 'own' is there twice"),
+        (
+            ["build", "--native", "--ships", "own"],
+            2,
+            "--ships is for ShipCollision, which --native does not build",
+        ),
+        (["build", "--platforms", "win64"], 2, "--platforms is for native code: add --native or leave it out (see"),
+        (["build", "--sources"], 2, "--sources is for native code: add --native or leave it out (see"),
+        (["build", "--native", "--platforms", "amiga"], 2, "platform 'amiga' is unknown: give some of linux64, win64,"),
+        (["build", "--native", "--out", "barge.toml"], 1, "cannot write to barge.toml: "),
         (["package", "guan2014", "--osp", "--inputs"], 2, "--inputs is for --ssp: an OSP system has all variables"),
         (["validate", "absent.fmu"], 2, "absent.fmu does not exist: build the FMUs with `shipcollision build`"),
         (["validate", "other.fmu", "--ignore", "unit"], 2, "--ignore 'unit' is not a check: did you mean units? (see"),

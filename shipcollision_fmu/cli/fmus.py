@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from .console import say
+from .console import progress, say
 from .mistakes import fail
 from .options import FMI, PATH, SCENARIO, SHIP
 
@@ -18,24 +18,67 @@ __all__ = ["build", "package", "prepare", "validate"]
 @click.option("--fmi", type=FMI, default="2", show_default=True, help="Version of FMI.")
 @click.option("--scalar", is_flag=True, help="With --fmi 3: the variables of FMI 2.0, without arrays.")
 @click.option(
-    "--ships", metavar="NAME,...", default="own,target", show_default=True,
-    help="Ships of ShipCollision; one is enough where it meets obstacles.",
+    "--ships", metavar="NAME,...",
+    help="Ships of ShipCollision; one is enough where it meets obstacles.  [default: own,target]",
 )  # fmt: skip
-def build(out: Path, fmi: str, scalar: bool, ships: str) -> None:
+@click.option("--native", is_flag=True, help="ShipManoeuvring in C++, for hosts without Python.")
+@click.option(
+    "--platforms", metavar="NAME,...",
+    help="With --native: some of linux64, win64, darwin64 and aarch64-linux.  [default: all]",
+)  # fmt: skip
+@click.option("--sources", is_flag=True, help="With --native: the FMU brings its C++ sources, too.")
+def build(
+    out: Path, fmi: str, scalar: bool, ships: str | None, native: bool, platforms: str | None, sources: bool
+) -> None:
     """Build the FMUs.
 
     They are ShipCollision.fmu and ShipManoeuvring.fmu. With --fmi 3 they are called ShipCollision.fmi3.fmu and
     ShipManoeuvring.fmi3.fmu, so that both versions may lie in one folder. FMI 3.0 needs the extra `fmi3`. For hosts
     that do not pass arrays, such as OMSimulator and Ecos, --scalar makes ShipCollision.fmi3-scalar.fmu and
     ShipManoeuvring.fmi3-scalar.fmu.
-    """
-    from ..fmi.builder.package import build_fmus
 
+    With --native it is ShipManoeuvring.native.fmu, one file for all platforms, which needs no Python in the host. It
+    is compiled by Zig, from the extra `native`; a C++ compiler of the system does for its own platform.
+    """
     if scalar and fmi != "3":
         raise click.UsageError("--scalar is for FMI 3.0: FMI 2.0 has no arrays; add --fmi 3 or leave it out")
-    names = tuple(name.strip() for name in ships.split(","))
-    for path in build_fmus(out, ships=names, fmi=int(fmi), scalar=scalar).values():
+    if native:
+        if ships is not None:
+            raise click.UsageError("--ships is for ShipCollision, which --native does not build: leave one of them out")
+        _build_native(out, int(fmi), scalar, platforms, sources)
+        return
+    if platforms is not None or sources:
+        option = "--sources" if platforms is None else "--platforms"
+        raise click.UsageError(f"{option} is for native code: add --native or leave it out")
+    _build_python(out, int(fmi), scalar, "own,target" if ships is None else ships)
+
+
+def _build_python(out: Path, fmi: int, scalar: bool, ships: str) -> None:
+    """The FMUs that run Python."""
+    from ..fmi.builder.package import build_fmus
+
+    for path in build_fmus(out, ships=_split(ships), fmi=fmi, scalar=scalar).values():
         say(str(path))
+
+
+def _build_native(out: Path, fmi: int, scalar: bool, platforms: str | None, sources: bool) -> None:
+    """The FMUs that have a native form."""
+    from ..files import check_writable
+    from ..fmi.builder.native_fmus import build_native_fmus
+    from ..toolchain.platforms import PLATFORMS
+
+    check_writable(out)
+    chosen = tuple(PLATFORMS) if platforms is None else _split(platforms)
+    with progress("native code") as report:
+        built = build_native_fmus(out, fmi=fmi, scalar=scalar, platforms=chosen, sources=sources, report=report)
+    for path in built.values():
+        say(str(path))
+    say("note: ShipCollision has no native form yet; `shipcollision build` makes it with Python", err=True)
+
+
+def _split(names: str) -> tuple[str, ...]:
+    """Names that commas part."""
+    return tuple(name.strip() for name in names.split(","))
 
 
 @click.command()

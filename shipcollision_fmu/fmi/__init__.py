@@ -17,7 +17,7 @@ Build time
     builder/            modelDescription.xml, documentation and the .fmu file; no FMU carries it
 
 Imports: errors, manoeuvring and collision (the two tables alone), pythonfmu and pythonfmu3 (the slaves alone);
-builder/ imports files, too. Nothing here imports a scenario or a master.
+builder/ imports files, ship and toolchain, too. Nothing here imports a scenario or a master.
 
 Data flow: Interface -> VariableAccess (table bound to a model's attributes) -> slave -> host
            Interface -> builder: XML, HTML, sources -> bytes of the .fmu file

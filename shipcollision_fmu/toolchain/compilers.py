@@ -17,7 +17,7 @@ from pathlib import Path
 
 from ..errors import HostError, describe_installation
 from ..files import user_cache
-from .platforms import Target, find_own_target
+from .platforms import PLATFORMS, Target, find_own_target
 
 __all__ = ["Compiler", "find_compiler"]
 
@@ -71,10 +71,14 @@ _ZIG_CACHE = user_cache().parent / "zig"
 
 def _describe_lack(target: Target) -> str:
     """Why nothing compiles for `target`, and what to install."""
-    remedy = describe_installation("native")
-    if target == find_own_target() and not target.is_windows:
+    own, remedy = find_own_target(), describe_installation("native")
+    if target == own and not target.is_windows:
         return f"there is no C++ compiler for native code: {remedy}, or install g++ or clang++"
-    return f"native code for {target.folder} is compiled by Zig, which is not installed: {remedy}"
+    lack = f"native code for {target.folder} is compiled by Zig, which is not installed: {remedy}"
+    alone = next((one.name for one in PLATFORMS.values() if own in one.targets), None)
+    if _find_system() is None or alone is None:
+        return lack
+    return f"{lack}; or build for this machine alone, with --platforms {alone}"
 
 
 @cache

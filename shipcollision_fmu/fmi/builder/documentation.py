@@ -9,7 +9,7 @@ from ..arrays import TYPES, ArrayVariable, gather_arrays
 from ..interface import Interface
 from ..variables import Variable
 
-__all__ = ["describe_dependencies", "describe_licences", "make_page"]
+__all__ = ["describe_dependencies", "describe_licences", "describe_native_licences", "make_page"]
 
 _STYLE = (
     "body{font:16px/1.5 sans-serif;max-width:60em;margin:2em auto;padding:0 1em}"
@@ -51,11 +51,28 @@ shipcollision_fmu {__version__}    MIT    shipcollision_fmu.txt
 """
 
 
-def make_page(interface: Interface, ships: tuple[str, ...], fmi: int = 2, scalar: bool = False) -> str:
-    """What the FMU does, what it needs, and its variables."""
+def describe_native_licences() -> str:
+    """Which licence is for what in a native FMU."""
+    return f"""SPDX-License-Identifier: MIT
+
+shipcollision_fmu {__version__}    MIT    shipcollision_fmu.txt
+    binaries, sources, documentation, modelDescription.xml; resources/ships, where the ship files that they are made
+    from name the sources of their numbers
+headers of FMI 2.0 and 3.0    BSD-2-Clause    fmi_headers.txt
+    declarations in binaries, and fmi2*.h and fmi3*.h in sources
+
+Nothing of a compiler's or a system's library is linked into the binaries.
+"""
+
+
+def make_page(
+    interface: Interface, ships: tuple[str, ...], fmi: int = 2, scalar: bool = False, native: tuple[str, ...] = ()
+) -> str:
+    """What the FMU does, what it needs, and its variables. `native` are the platforms of an FMU without Python."""
     table = interface.table(ships)
     lines = map(_row, table) if fmi == 2 else map(_array_row, gather_arrays(table, scalar))
     rows = "\n".join(lines)
+    about = _describe_native(fmi, native) if native else _describe_python(interface, fmi)
     return f"""<!DOCTYPE html>
 <html lang="en">
 <head><meta charset="utf-8"><title>{escape(interface.name)}</title><style>{_STYLE}</style></head>
@@ -65,7 +82,18 @@ def make_page(interface: Interface, ships: tuple[str, ...], fmi: int = 2, scalar
 <p>FMI {fmi}.0 for co-simulation, made by shipcollision_fmu {escape(__version__)}. SI units and radians throughout.
 Frame n is north, east, down at the scenario's origin; frame b is forward, starboard, down at CO: midship, centreline,
 design waterline.</p>
-<p>It runs Python {" to ".join(interface.pythons)} in the process of the host, with the packages of
+{about}<h2>Variables</h2>
+<table>
+<tr><th>Name</th><th>Causality</th><th>Type</th><th>Unit</th><th>Description</th></tr>
+{rows}
+</table>
+</body>
+</html>
+"""
+
+
+def _describe_python(interface: Interface, fmi: int) -> str:
+    return f"""<p>It runs Python {" to ".join(interface.pythons)} in the process of the host, with the packages of
 <code>resources/requirements.txt</code>: {escape(", ".join(interface.requirements))}. {interface.instead}
 A host that is not itself Python
 finds the interpreter through <code>LD_PRELOAD</code> and the packages through <code>PYTHONPATH</code>:
@@ -73,13 +101,18 @@ finds the interpreter through <code>LD_PRELOAD</code> and the packages through <
 <p>A step that cannot be made answers fmi{fmi}Discard and leaves the state before it; the reason is logged. So does the
 step after a call that was refused, such as setting an output. Initialisation that fails answers fmi{fmi}Fatal, the only
 failure that the Python wrapper can report there; the instance may still be reset or freed.</p>
-{_FMI3 if fmi == 3 else ""}<h2>Variables</h2>
-<table>
-<tr><th>Name</th><th>Causality</th><th>Type</th><th>Unit</th><th>Description</th></tr>
-{rows}
-</table>
-</body>
-</html>
+{_FMI3 if fmi == 3 else ""}"""
+
+
+def _describe_native(fmi: int, platforms: tuple[str, ...]) -> str:
+    return f"""<p>It is native code for {escape(", ".join(platforms))}.
+It needs the system's C library alone: glibc 2.17 or later on Linux, Windows 10 or later, macOS 11 or later.</p>
+<p>Ships are read from <code>resources/ships</code>. A ship of your own is a prepared file, which
+<code>shipcollision prepare SHIP</code> writes: give its path as the parameter <code>ship</code>, or put it there and
+give its name.</p>
+<p>A call that is refused answers fmi{fmi}Error and changes nothing; the reason is logged. A step that the model cannot
+make answers fmi{fmi}Discard and leaves the state before it. With the environment variable
+<code>SHIPCOLLISION_LOG=stderr</code> the log is printed as well.</p>
 """
 
 

@@ -8,6 +8,7 @@ InitialUnknowns. They are named by their position among the variables, counted f
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 from xml.etree.ElementTree import Element, SubElement
 
@@ -31,11 +32,22 @@ _CAPABILITIES = {
 
 
 def model_description(
-    interface: Interface, ships: tuple[str, ...], guid: str, starts: Mapping[str, Any] | None = None
+    interface: Interface,
+    ships: tuple[str, ...],
+    guid: str,
+    starts: Mapping[str, Any] | None = None,
+    *,
+    native: bool = False,
+    sources: tuple[str, ...] = (),
 ) -> Element:
-    """The whole document. `starts` are start values in place of the model's own."""
+    """The whole document. `starts` are start values in place of the model's own; `native`: the FMU runs no Python, and
+    may bring the files `sources` below its folder sources/."""
     access = interface.make_access(ships, starts)
-    root, variables = open_document(_VERSION, interface, guid, access)
+    root, variables = open_document(_NATIVE if native else _VERSION, interface, guid, access)
+    if sources:
+        node = SubElement(next(root.iter("CoSimulation")), "SourceFiles")
+        for name in sources:
+            SubElement(node, "File", {"name": name})
     for reference, variable in enumerate(access.table):
         _variable(variables, reference, variable, access)
     _structure(root, access.table)
@@ -50,6 +62,7 @@ def _declare_type(
 
 
 _VERSION = Version("2.0", "guid", _CAPABILITIES, _declare_type)
+_NATIVE = replace(_VERSION, capabilities=_CAPABILITIES | {"needsExecutionTool": False})
 
 
 def _variable(variables: Element, reference: int, variable: Variable, access: VariableAccess) -> None:

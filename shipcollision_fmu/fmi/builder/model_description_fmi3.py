@@ -11,6 +11,7 @@ a host that keeps to this description has no reason to make one.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 from xml.etree.ElementTree import Element, SubElement
 
@@ -47,11 +48,14 @@ def model_description(
     token: str,
     starts: Mapping[str, Any] | None = None,
     scalar: bool = False,
+    *,
+    native: bool = False,
 ) -> Element:
-    """The whole document. `starts` are start values in place of the model's own; `scalar`: without arrays."""
+    """The whole document. `starts` are start values in place of the model's own; `scalar`: without arrays; `native`:
+    the FMU runs no Python."""
     access = interface.make_access(ships, starts)
     table, gathered = access.table, gather_arrays(access.table, scalar)
-    root, variables = open_document(_VERSION, interface, token, access)
+    root, variables = open_document(_NATIVE if native else _VERSION, interface, token, access)
     SubElement(variables, "Float64", {
         "name": "time",
         "valueReference": str(TIME),
@@ -77,6 +81,7 @@ def _declare_type(
 _VERSION = Version(
     "3.0", "instantiationToken", _CAPABILITIES, _declare_type, (_SECOND,), fixed_step="fixedInternalStepSize"
 )
+_NATIVE = replace(_VERSION, capabilities=_CAPABILITIES | {"needsExecutionTool": False})
 
 
 def _variable(variables: Element, reference: int, array: ArrayVariable, access: VariableAccess) -> None:

@@ -51,9 +51,12 @@ __all__ = [
     "VERSIONS",
     "are_fmus_current",
     "build_fmus",
+    "choose_version",
     "fmu_bytes",
     "fmu_file",
     "instance_fmu",
+    "list_icons",
+    "read_own_licence",
     "slave_directory",
 ]  # fmt: skip
 
@@ -86,7 +89,7 @@ _SCALAR = replace(
 
 def fmu_file(name: str, fmi: int = 2, scalar: bool = False) -> str:
     """File name of an FMU; all versions may lie in one folder."""
-    return f"{name}{_version(fmi, scalar).suffix}"
+    return f"{name}{choose_version(fmi, scalar).suffix}"
 
 
 def build_fmus(
@@ -99,7 +102,7 @@ def build_fmus(
     .fmi3-scalar.fmu and have the variables of FMI 2.0, for hosts that do not pass arrays. Both files are written, or
     neither. Raises HostError, and InputError for another version and for names that ships cannot have.
     """
-    version, ships = _version(fmi, scalar), check_ship_names(ships)
+    version, ships = choose_version(fmi, scalar), check_ship_names(ships)
     built = {
         name: fmu_bytes(_interface(name), _slave(name, version).read_bytes(), ships, fmi, scalar=scalar)
         for name in FMUS
@@ -128,7 +131,7 @@ def instance_fmu(
     Some hosts ignore a system's parameter values; an FMU's own start values are honoured by all. `files` go into its
     resources, where ship files are looked for first. Raises HostError, and InputError for what cannot be set.
     """
-    slave = _slave(interface.name, _version(fmi, scalar)).read_bytes()
+    slave = _slave(interface.name, choose_version(fmi, scalar)).read_bytes()
     return fmu_bytes(interface, slave, ships, fmi, start=start, resources=files, scalar=scalar)
 
 
@@ -147,7 +150,7 @@ def fmu_bytes(
 
     `start` and `resources`: see instance_fmu; `scalar`: see build_fmus.
     """
-    version, name = _version(fmi, scalar), interface.name
+    version, name = choose_version(fmi, scalar), interface.name
     own = {f"resources/{inside}": data for inside, data in (resources or {}).items()}
     if start:
         own[f"resources/{START}"] = (json.dumps(dict(start), indent=1) + "\n").encode()
@@ -164,7 +167,7 @@ def fmu_bytes(
         "documentation/index.html": make_page(interface, ships, fmi, scalar).encode(),
         "documentation/externalDependencies.txt": describe_dependencies(interface).encode(),
         **_licences(version),
-        **_icons(version, interface, ships),
+        **list_icons(interface, ships, fmi, scalar),
     }
     anonymous = to_bytes(version.description(interface, ships, "", start))
     guid = str(UUID(build_record.digest({**files, "modelDescription.xml": anonymous})[:32]))
@@ -186,7 +189,8 @@ def _interface(name: str) -> Interface:
     return found
 
 
-def _version(fmi: int, scalar: bool) -> _Version:
+def choose_version(fmi: int, scalar: bool) -> _Version:
+    """What a version of FMI changes in the file. Raises InputError for another one."""
     if fmi not in VERSIONS:
         raise InputError(f"fmi = {fmi!r} is not a version that FMUs can be built for: give one of 2, 3")
     if scalar and fmi != 3:
@@ -241,29 +245,34 @@ def _wrapper(wrapper: str, interface: Interface) -> dict[str, bytes]:
 def _licences(version: _Version) -> dict[str, bytes]:
     """Of this project and of the wrapper, as their distributions carry them; a checkout has its own at its root.
     license.txt, where FMI has readers begin, says which is for what."""
-    root = package_directory().parent / "LICENSE"
-    ours = root.read_text(encoding="utf-8") if root.is_file() else _distributed("shipcollision-fmu")
     texts = {
         "license": describe_licences(_identity(version)),
-        "shipcollision_fmu": ours,
-        version.wrapper: _distributed(version.wrapper),
+        "shipcollision_fmu": read_own_licence(),
+        version.wrapper: read_licence(version.wrapper),
     }
     return {f"documentation/licenses/{name}.txt": text.encode() for name, text in texts.items() if text}
 
 
-def _icons(version: _Version, interface: Interface, ships: tuple[str, ...]) -> dict[str, bytes]:
+def list_icons(interface: Interface, ships: tuple[str, ...], fmi: int, scalar: bool) -> dict[str, bytes]:
     """The icon where this version of FMI has it, and the terminals of FMI 3.0; nothing for an FMU without an icon."""
     drawn = {kind: slave_directory() / "icons" / f"{interface.name}.{kind}" for kind in ("png", "svg")}
     if not drawn["png"].is_file():
         return {}
-    if version.fmi == 2:
+    if fmi == 2:
         return {"model.png": drawn["png"].read_bytes()}
-    terminals = describe_terminals(interface.table(ships), interface.terminals(ships), version.scalar)
+    terminals = describe_terminals(interface.table(ships), interface.terminals(ships), scalar)
     icons = {f"terminalsAndIcons/icon.{kind}": path.read_bytes() for kind, path in drawn.items()}
     return {"terminalsAndIcons/terminalsAndIcons.xml": to_bytes(terminals), **icons}
 
 
-def _distributed(distribution: str) -> str | None:
+def read_own_licence() -> str | None:
+    """The text of this project's licence."""
+    root = package_directory().parent / "LICENSE"
+    return root.read_text(encoding="utf-8") if root.is_file() else read_licence("shipcollision-fmu")
+
+
+def read_licence(distribution: str) -> str | None:
+    """The text of a distribution's licence, as it carries it."""
     try:
         found = metadata.distribution(distribution)
     except metadata.PackageNotFoundError:

@@ -1,0 +1,190 @@
+"""The .fmu files without Python: contents, description, start values, ships of one instance, sources."""
+
+from __future__ import annotations
+
+import zipfile
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+from xml.etree import ElementTree
+
+import fmpy
+import pytest
+from fmpy.validation import validate_fmu
+
+from shipcollision_fmu.compliance.report import validate
+from shipcollision_fmu.errors import HostError, InputError
+from shipcollision_fmu.fmi.builder import native_fmus as builder
+from shipcollision_fmu.fmi.builder.native_fmus import (
+    NATIVE_FMUS,
+    build_native_fmus,
+    native_fmu_bytes,
+    native_fmu_file,
+    native_instance_fmu,
+)
+from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
+from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE
+from shipcollision_fmu.manoeuvring.prepared_ship import prepare_ship
+from shipcollision_fmu.ship.loading.library import list_ship_names
+from shipcollision_fmu.toolchain.fmu_binaries import Binary, choose_platforms
+from tests.ship_files import ship_toml
+
+BINARIES = [Binary("linux64", ".so", b"ELF"), Binary("darwin64", ".dylib", b"MACH")]
+"""In place of libraries, where none is called."""
+FLAVOURS = ("2", "3", "3-scalar")
+
+
+def contents(fmu: bytes | Path, tmp_path: Path) -> dict[str, bytes]:
+    """The files of an FMU by name."""
+    path = fmu if isinstance(fmu, Path) else tmp_path / "ShipManoeuvring.fmu"
+    if isinstance(fmu, bytes):
+        path.write_bytes(fmu)
+    with zipfile.ZipFile(path) as archive:
+        return {name: archive.read(name) for name in archive.namelist()}
+
+
+def test_what_is_in_an_fmu(tmp_path: Path) -> None:
+    files = contents(native_fmu_bytes(NATIVE_FMUS["ShipManoeuvring"], BINARIES), tmp_path)
+    assert sorted(files) == sorted([
+        "binaries/darwin64/ShipManoeuvring.dylib", "binaries/linux64/ShipManoeuvring.so",
+        "documentation/index.html", "documentation/licenses/fmi_headers.txt", "documentation/licenses/license.txt",
+        "documentation/licenses/shipcollision_fmu.txt", "model.png", "modelDescription.xml", "resources/variables.txt",
+        *(f"resources/ships/{name}.ship" for name in list_ship_names()),
+    ])  # fmt: skip
+    assert files["binaries/linux64/ShipManoeuvring.so"] == b"ELF"
+    assert files["resources/ships/kvlcc2.ship"] == prepare_ship("kvlcc2")
+    assert b"Python" not in files["modelDescription.xml"]
+    assert b"linux64, darwin64" in files["documentation/index.html"]
+    licence = files["documentation/licenses/license.txt"].decode()
+    assert all(
+        name.rpartition("/")[2] in licence for name in files if "licenses/" in name and "license.txt" not in name
+    )
+    assert files["documentation/licenses/fmi_headers.txt"].startswith(b"Copyright (C)")
+
+
+@pytest.mark.parametrize(("fmi", "scalar"), [(2, False), (3, False), (3, True)])
+def test_the_description_and_the_table_have_one_token(tmp_path: Path, fmi: int, scalar: bool) -> None:
+    interface = NATIVE_FMUS["ShipManoeuvring"]
+    files = contents(native_fmu_bytes(interface, BINARIES, fmi, scalar), tmp_path)
+    root = ElementTree.fromstring(files["modelDescription.xml"])
+    token = root.get("guid" if fmi == 2 else "instantiationToken")
+    assert token is not None
+    assert f'token "{token}"\n' in files["resources/variables.txt"].decode()
+    other = contents(native_fmu_bytes(interface, BINARIES, fmi, scalar, start={"substep": 0.01}), tmp_path)
+    assert f'token "{token}"\n' not in other["resources/variables.txt"].decode()
+    assert native_fmu_bytes(interface, BINARIES, fmi, scalar) == native_fmu_bytes(interface, BINARIES, fmi, scalar)
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_what_the_description_promises(tmp_path: Path, fmi: int) -> None:
+    files = contents(native_fmu_bytes(NATIVE_FMUS["ShipManoeuvring"], BINARIES, fmi), tmp_path)
+    root = ElementTree.fromstring(files["modelDescription.xml"])
+    able = root.find("CoSimulation")
+    assert able is not None
+    assert able.get("needsExecutionTool") == "false"
+    assert able.get("canBeInstantiatedOnlyOncePerProcess") == "false"
+    state = "state" if fmi == 2 else "State"
+    assert able.get(f"canGetAndSetFMU{state}") == able.get(f"canSerializeFMU{state}") == "true"
+    said = next(one.get("description") for one in root.iter() if one.get("name") == "ship")
+    assert said == "Name of a ship in the FMU's resources, or path of a prepared ship"
+
+
+@pytest.mark.parametrize("flavour", FLAVOURS)
+def test_fmpy_has_no_finding(native_fmus: dict[str, Path], flavour: str) -> None:
+    assert validate_fmu(str(native_fmus[flavour])) == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("flavour", FLAVOURS)
+def test_our_validator_has_no_finding(native_fmus: dict[str, Path], flavour: str) -> None:
+    assert [str(one) for one in validate(native_fmus[flavour])] == []
+
+
+def simulate(fmu: Path, **start: Any) -> Any:
+    """Last row of two seconds."""
+    return fmpy.simulate_fmu(str(fmu), stop_time=2.0, step_size=0.5, start_values=start, validate=False)[-1]
+
+
+def test_a_run_needs_no_python_and_gives_the_python_models_numbers(native_fmus: dict[str, Path]) -> None:
+    start = {"initial.velocity.surge": 5.0, "rudder_order": 0.2, "propeller_order": 1.5, "hydrodynamics": True}
+    access = INTERFACE.make_access((), start)
+    access.model.initialise()
+    for k in range(4):
+        access.model.step(0.5 * k, 0.5)
+    north, east, _ = access.model.outputs.position
+    found = simulate(native_fmus["2"], **start)
+    assert (found["position.north"], found["position.east"]) == pytest.approx((north, east), rel=1e-11, abs=1e-11)
+
+
+def for_this_machine(native_fmus: dict[str, Path], monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let the builder take the library that is built already."""
+    with zipfile.ZipFile(native_fmus["2"]) as archive:
+        name = next(name for name in archive.namelist() if name.startswith("binaries/"))
+        folder, suffix = name.split("/")[1], Path(name).suffix
+        library = Binary(folder, suffix, archive.read(name))
+    monkeypatch.setattr(builder, "build_binaries", lambda platforms: {2: [library], 3: [library]})
+
+
+def test_the_fmu_of_an_instance_starts_from_its_values_with_its_own_ship(
+    native_fmus: dict[str, Path], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    for_this_machine(native_fmus, monkeypatch)
+    start = {"ship": "ships/tug.toml", "initial.position.north": 7.0, "initial.velocity.surge": 2.0}
+    tug = ship_toml().encode()
+    fmu = tmp_path / "tug.fmu"
+    fmu.write_bytes(native_instance_fmu(INTERFACE, ("tug",), start, {"ships/tug.toml": tug}))
+    files = contents(fmu, tmp_path)
+    (tmp_path / "tug.toml").write_bytes(tug)
+    assert files["resources/ships/tug.ship"] == prepare_ship(str(tmp_path / "tug.toml"))
+    assert "resources/ships/tug.toml" not in files
+    found = simulate(fmu)
+    assert found["position.north"] == pytest.approx(11.0, abs=1e-3)
+    description = fmpy.read_model_description(str(fmu))
+    assert {one.name: one.start for one in description.modelVariables}["ship"] == "ships/tug.ship"
+
+
+def test_the_collision_has_no_native_form() -> None:
+    with pytest.raises(InputError, match="ShipCollision has no native form: of our models ShipManoeuvring has one"):
+        native_instance_fmu(COLLISION, ("own",), {})
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_sources_travel_and_are_listed(tmp_path: Path, fmi: int) -> None:
+    files = contents(native_fmu_bytes(NATIVE_FMUS["ShipManoeuvring"], BINARIES, fmi, sources=True), tmp_path)
+    listing = files["modelDescription.xml" if fmi == 2 else "sources/buildDescription.xml"]
+    listed = [one.get("name") for one in ElementTree.fromstring(listing).iter("File" if fmi == 2 else "SourceFile")]
+    there = sorted(name.removeprefix("sources/") for name in files if name.endswith(".cpp"))
+    assert sorted(map(str, listed)) == there
+    assert {"fmi/fmi2.cpp", "fmi/fmi3.cpp", "manoeuvring/rudder.cpp"} <= set(there)
+    assert not any("python" in name or name.startswith("collision") for name in there)
+    assert {"sources/fmi2Functions.h", "sources/fmi3Functions.h", "sources/README.txt"} <= set(files)
+
+
+def test_names_of_files() -> None:
+    assert native_fmu_file("X") == "X.native.fmu"
+    assert native_fmu_file("X", 3) == "X.native.fmi3.fmu"
+    assert native_fmu_file("X", 3, scalar=True) == "X.native.fmi3-scalar.fmu"
+
+
+def test_mistakes_are_told_before_anything_is_compiled(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="'amiga' is unknown: give some of linux64, win64, darwin64, aarch64-linux"):
+        build_native_fmus(tmp_path, platforms=["linux64", "amiga"])
+    with pytest.raises(InputError, match="an FMU needs a platform: give some of linux64"):
+        build_native_fmus(tmp_path, platforms=[])
+    with pytest.raises(InputError, match="fmi = 1 is not a version that FMUs can be built for"):
+        build_native_fmus(tmp_path, fmi=1)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_platform_that_is_named_twice_is_built_once() -> None:
+    assert [one.name for one in choose_platforms(["win64", "linux64", "win64"])] == ["win64", "linux64"]
+
+
+def test_nothing_is_written_when_nothing_compiles(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*arguments: object) -> SimpleNamespace:
+        raise HostError("no compiler")
+
+    monkeypatch.setattr(builder, "build_binaries", refuse)
+    with pytest.raises(HostError, match="no compiler"):
+        build_native_fmus(tmp_path / "out")
+    assert list(tmp_path.iterdir()) == []

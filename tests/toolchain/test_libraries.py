@@ -1,0 +1,161 @@
+"""Libraries: what is compiled again, same bytes everywhere, files of macOS and Windows, and what is missing."""
+
+from __future__ import annotations
+
+import ctypes
+import shutil
+import struct
+from pathlib import Path
+
+import pytest
+
+from shipcollision_fmu.errors import HostError
+from shipcollision_fmu.toolchain import compilers, libraries
+from shipcollision_fmu.toolchain.compilers import find_compiler
+from shipcollision_fmu.toolchain.libraries import build_libraries, build_library
+from shipcollision_fmu.toolchain.mach_o import join_libraries
+from shipcollision_fmu.toolchain.pe import clear_time_stamps
+from shipcollision_fmu.toolchain.platforms import PLATFORMS, Target, find_own_target
+from shipcollision_fmu.toolchain.sources import Part, find_native
+
+TARGETS = [target for platform in PLATFORMS.values() for target in platform.targets]
+EXPORTS = ("shipcollision_*",)
+
+
+def own() -> Target:
+    """The target of this machine."""
+    target = find_own_target()
+    assert target is not None
+    return target
+
+
+def small(folder: Path, number: int = 3, text: str = "") -> Part:
+    """Two sources and a header in a folder of their own."""
+    folder.mkdir(exist_ok=True)
+    (folder / "number.hpp").write_text(f"constexpr int NUMBER = {number};\n", encoding="ascii")
+    export = 'extern "C" __attribute__((visibility("default"))) int'
+    (folder / "a.cpp").write_text(
+        f'#include "number.hpp"\n{export} shipcollision_a() {{ return NUMBER; }}\n{text}', "ascii"
+    )
+    (folder / "b.cpp").write_text(f"{export} other() {{ return 1; }}\n", "ascii")
+    return Part(folder, ("a.cpp", "b.cpp"))
+
+
+def build(part: Part, cache: Path) -> ctypes.CDLL:
+    """The library of a part, opened."""
+    return ctypes.CDLL(str(build_library("small", [part], own(), EXPORTS, cache=cache, prefer_system=True)))
+
+
+def test_what_includes_an_edited_file_is_compiled_again(tmp_path: Path) -> None:
+    assert build(small(tmp_path / "src"), tmp_path / "cache").shipcollision_a() == 3
+    before = {path.name for path in tmp_path.glob("cache/objects/*.o")}
+    assert build(small(tmp_path / "src", 5), tmp_path / "cache").shipcollision_a() == 5
+    new = {path.name for path in tmp_path.glob("cache/objects/*.o")} - before
+    assert [name.partition("-")[0] for name in new] == ["a"]
+
+
+def test_other_names_are_not_exported(tmp_path: Path) -> None:
+    library = build(small(tmp_path / "src"), tmp_path / "cache")
+    with pytest.raises(AttributeError):
+        library.other  # noqa: B018
+
+
+def test_a_library_in_the_cache_needs_no_compiler(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    build(small(tmp_path / "src"), tmp_path / "cache")
+    monkeypatch.setattr(libraries, "find_compiler", None)
+    assert build(small(tmp_path / "src"), tmp_path / "cache").shipcollision_a() == 3
+
+
+def test_progress_ends_at_the_last_step(tmp_path: Path) -> None:
+    said: list[tuple[int, int]] = []
+    part = small(tmp_path / "src")
+    build_libraries(
+        "small", [part], [own()], EXPORTS, cache=tmp_path / "cache", prefer_system=True,
+        report=lambda done, total: said.append((done, total)),
+    )  # fmt: skip
+    assert said == [(1, 3), (2, 3), (3, 3)]
+
+
+def test_a_source_that_does_not_compile_is_told_in_one_line(tmp_path: Path) -> None:
+    with pytest.raises(HostError, match=r"^cannot compile a\.cpp for .* by .*: a\.cpp:3:.*error: .*[^\n]$"):
+        build(small(tmp_path / "src", text="nonsense;\n"), tmp_path / "cache")
+    assert not list(tmp_path.glob("cache/*/small.*"))
+
+
+def test_a_warning_is_an_error(tmp_path: Path) -> None:
+    with pytest.raises(HostError, match=r"unused"):
+        build(small(tmp_path / "src", text="static int unused(int argument) { return 1; }\n"), tmp_path / "cache")
+
+
+def lack(monkeypatch: pytest.MonkeyPatch, *names: str) -> None:
+    """Let the compilers of these functions be missing."""
+    for name in names:
+        monkeypatch.setattr(compilers, name, lambda: None)
+
+
+def test_without_zig_other_platforms_are_refused_with_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+    lack(monkeypatch, "_find_zig", "_find_system")
+    other = next(target for target in TARGETS if target.is_macos)
+    with pytest.raises(HostError, match=r"for x86_64-darwin is compiled by Zig, which is not .*\[native\]'.*\)$"):
+        find_compiler(other)
+
+
+def test_without_any_compiler_the_line_names_both(monkeypatch: pytest.MonkeyPatch) -> None:
+    lack(monkeypatch, "_find_zig", "_find_system")
+    with pytest.raises(HostError, match=r"no C\+\+ compiler .*-fmu\[native\].*, or install g\+\+ or clang"):
+        find_compiler(own())
+
+
+def test_the_systems_compiler_does_where_zig_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
+    system = compilers.Compiler("c++ 1", ("c++",), ("cc",))
+    lack(monkeypatch, "_find_zig")
+    monkeypatch.setattr(compilers, "_find_system", lambda: system)
+    assert find_compiler(own()) is system
+    with pytest.raises(HostError, match=f"or build for this machine alone, with --platforms {own_platform()}$"):
+        find_compiler(next(target for target in TARGETS if target.is_windows))
+
+
+def own_platform() -> str:
+    """Its name on this machine."""
+    return next(one.name for one in PLATFORMS.values() if own() in one.targets)
+
+
+def numbers(folder: Path) -> Part:
+    """The part of native/ that links alone, copied."""
+    shutil.copytree(find_native(), folder)
+    found = [*(folder / "numbers").glob("*.cpp"), folder / "windows.cpp"]
+    return Part(folder, tuple(sorted(path.relative_to(folder).as_posix() for path in found)))
+
+
+@pytest.mark.slow
+def test_another_folder_gives_the_same_bytes_for_every_platform(tmp_path: Path) -> None:
+    built = []
+    for name in ("here", "there/and/deeper"):
+        part = numbers(tmp_path / name / "native")
+        made = build_libraries("shipcollision", [part], TARGETS, EXPORTS, cache=tmp_path / name / "cache")
+        built.append({target.folder: path.read_bytes() for target, path in made.items()})
+    assert built[0] == built[1]
+    assert all(str(tmp_path).encode() not in data for data in built[0].values())
+
+
+def test_a_windows_library_without_time_stamp() -> None:
+    plain = bytearray(b"MZ" + bytes(62) + b"PE\0\0" + bytes(200))
+    struct.pack_into("<I", plain, 0x3C, 64)
+    stamped = bytearray(plain)
+    struct.pack_into("<I", stamped, 64 + 8, 123456)
+    struct.pack_into("<I", stamped, 64 + 88, 99)
+    assert clear_time_stamps(bytes(stamped)) == bytes(plain)
+    with pytest.raises(ValueError, match="this is no PE file"):
+        clear_time_stamps(b"\x7fELF")
+
+
+def test_a_universal_file_holds_each_library_at_a_page() -> None:
+    slices = [struct.pack("<III", 0xFEEDFACF, 0x01000007 + k, 3) + bytes([k]) * 20000 for k in range(2)]
+    whole = join_libraries(slices)
+    assert struct.unpack_from(">II", whole) == (0xCAFEBABE, 2)
+    for k, one in enumerate(slices):
+        processor, variant, start, size, alignment = struct.unpack_from(">IIIII", whole, 8 + 20 * k)
+        assert (processor, variant, start % 2**alignment, alignment) == (0x01000007 + k, 3, 0, 14)
+        assert whole[start : start + size] == one
+    with pytest.raises(ValueError, match="this is no 64-bit Mach-O file"):
+        join_libraries([b"\x7fELF"])
