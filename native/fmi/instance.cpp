@@ -127,6 +127,7 @@ void Instance::pass_on(const Text& warning) {
 // In time. ------------------------------------------------------------------------------------------------------------
 
 Status Instance::set_up_experiment(double start, bool has_stop, double stop) {
+  FloatingPoint standard;
   Text why;
   if (phase_ != Phase::instantiated) {
     why << "the experiment cannot be set up: the instance is " << name_of(phase_) << "; reset it";
