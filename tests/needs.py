@@ -79,6 +79,7 @@ NEEDS = {
         "pybullet", lambda: find_spec("pybullet") is not None,
         "take CPython 3.10 or 3.11 on Linux (x86-64), for which it has wheels",
     ),
+    "g++": Need("g++ with its sanitizers", lambda: are_programs("gcc", "g++"), f"{_DEBIAN}g++"),
     **{
         f"python{version}": Need(
             f"CPython {version}", partial(has_python, version), f"put python{version} on the path"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from dataclasses import replace
 from pathlib import Path
 from typing import Literal
 
@@ -11,11 +12,14 @@ from shipcollision_fmu.fmi.builder.model_description_fmi2 import model_descripti
 from shipcollision_fmu.fmi.builder.model_description_fmi3 import model_description as model_description_fmi3
 from shipcollision_fmu.fmi.builder.native_variables import VARIABLES, native_variables
 from shipcollision_fmu.fmi.interface import Interface
+from shipcollision_fmu.toolchain.compilers import find_compiler
 from shipcollision_fmu.toolchain.libraries import build_library
+from shipcollision_fmu.toolchain.objects import compile_object
 from shipcollision_fmu.toolchain.platforms import find_own_target
 from shipcollision_fmu.toolchain.sources import Part, find_fmi_headers, find_native
+from tests.compiler import compile_c
 
-__all__ = ["BUILD", "TOKEN", "build_test_library", "list_test_sources", "write_fmu"]
+__all__ = ["BUILD", "TOKEN", "build_exercise", "build_test_library", "list_test_sources", "write_fmu"]
 
 HERE = Path(__file__).resolve().parent
 TOKEN = "{00000000-1111-2222-3333-444444444444}"
@@ -60,3 +64,19 @@ def write_fmu(
         binaries.mkdir(parents=True)
         shutil.copy(library, binaries / f"{interface.name}.so")
     return folder
+
+
+def build_exercise(cache: Path, folder: Path, *flags: str) -> Path:
+    """The program exercise.c, linked with the FMI layer by g++, with flags for both, such as of a sanitizer."""
+    target, headers = find_own_target(), find_fmi_headers()
+    assert target is not None
+    compiler = find_compiler(target, prefer_system=True)
+    objects = [
+        compile_object(replace(part, flags=(*part.flags, *flags)), file, target, compiler, cache / "objects")
+        for part in list_test_sources()
+        for file in part.files
+    ]
+    program = folder / "exercise"
+    compile_c("-std=c11", "-D_GNU_SOURCE", "-O2", *flags, f"-I{headers}", HERE / "exercise.c", *objects, "-o", program,
+              "-lm", "-lpthread")  # fmt: skip
+    return program

@@ -1,0 +1,81 @@
+"""The FMI layer under a host in C that misuses it (exercise.c): sanitizers, threads, growth, rounding."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from shipcollision_fmu.toolchain.libraries import native_cache
+
+from .native_fmus import build_exercise
+
+CACHE = native_cache()
+pytestmark = pytest.mark.needs("g++")
+ADDRESS = ("-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
+THREAD = ("-g", "-fsanitize=thread")
+
+
+@pytest.fixture(scope="session")
+def watched(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The program under the sanitizers of addresses and undefined behaviour; leaks are found as well."""
+    return build_exercise(CACHE, tmp_path_factory.mktemp("watched"), *ADDRESS)
+
+
+@pytest.fixture(scope="session")
+def plain(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return build_exercise(CACHE, tmp_path_factory.mktemp("plain"))
+
+
+def run(program: Path, command: str, folders: dict[str, Path], *numbers: int, second: Path | None = None) -> str:
+    """What it printed; it must end well and write nothing else."""
+    first = folders["3" if command == "locations" else "2"] / "resources"
+    second = second or folders["3"] / "resources"
+    done = subprocess.run(
+        [program, command, first, second, *map(str, numbers)],
+        capture_output=True, text=True, errors="replace", check=False, timeout=3600, env={},
+    )  # fmt: skip
+    assert (done.returncode, done.stderr[-3000:]) == (0, ""), done.stdout
+    return done.stdout
+
+
+@pytest.mark.slow
+def test_random_calls(watched: Path, native_dummies: dict[str, Path]) -> None:
+    """10 000 sequences take 2 s."""
+    said = run(watched, "calls", native_dummies, 0, 10_000)
+    assert re.match(r"10000 sequences, [1-9]\d{4} lines", said)
+
+
+@pytest.mark.soak
+def test_a_million_random_sequences(watched: Path, native_dummies: dict[str, Path]) -> None:
+    run(watched, "calls", native_dummies, 10_000, 1_000_000)
+
+
+@pytest.mark.slow
+def test_random_locations_and_damaged_tables(watched: Path, native_dummies: dict[str, Path], tmp_path: Path) -> None:
+    said = run(watched, "locations", native_dummies, 0, 2000, second=tmp_path)
+    made, read = map(int, re.findall(r"(\d+) with", said))
+    assert 10 < made < 200  # both happens
+    assert 1 < read < 200
+
+
+@pytest.mark.slow
+def test_two_threads(native_dummies: dict[str, Path], tmp_path: Path) -> None:
+    program = build_exercise(CACHE, tmp_path, *THREAD)
+    assert run(program, "threads", native_dummies, 7, 100) == "2 threads, 100 instances each\n"
+
+
+@pytest.mark.slow
+def test_nothing_grows(plain: Path, native_dummies: dict[str, Path]) -> None:
+    said = run(plain, "growth", native_dummies, 1_000_000, 10_000)
+    sizes = [int(size) for size in re.findall(r"(\d+) (?:to|kB)", said)]
+    assert len(sizes) == 4
+    assert sizes[1] - sizes[0] < 200  # kB: the C library's own
+    assert sizes[3] - sizes[2] < 200
+
+
+@pytest.mark.slow
+def test_a_host_that_rounds_otherwise_gets_the_same_bits(plain: Path, native_dummies: dict[str, Path]) -> None:
+    assert run(plain, "rounding", native_dummies) == "4 control words\n"
