@@ -402,7 +402,7 @@ def test_without_pybullet_both_fmus_are_built(folder: Path) -> None:
 
 
 def test_without_pybullet_and_library_a_run_is_refused_in_one_line(folder: Path) -> None:
-    result = fresh("run", cwd=folder, prelude=f"{WITHOUT_PYBULLET}\n{NOTHING_COMPILES}")
+    result = fresh("run", "encounter.toml", cwd=folder, prelude=f"{WITHOUT_PYBULLET}\n{NOTHING_COMPILES}")
     assert result.returncode == 1
     assert result.stdout == ""
     assert result.stderr.startswith(

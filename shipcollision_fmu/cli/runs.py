@@ -38,7 +38,7 @@ def run(
     SCENARIO is a name that `shipcollision scenarios` lists, or the path of a TOML file. Without one it is guan2014, the
     published collision. The FMUs are built first when they are missing or older than the sources.
     """
-    from ..collision.geometry.adapter import choose_adapter
+    from ..collision.responses import require_adapter
     from ..cosim.earlier_run import refuse_foreign_files
     from ..cosim.run import RUN_FILES
     from ..cosim.simulate import simulate
@@ -48,8 +48,8 @@ def run(
 
     if in_process and fmi != "2":
         raise click.UsageError("--in-process runs without FMI: leave out --fmi")
-    choose_adapter()
     loaded = load_scenario(scenario)
+    require_adapter(loaded.collision.response)
     folder = out if out is not None else Path("runs") / loaded.name
     if not overwrite:
         refuse_foreign_files(folder, (*RUN_FILES, *PICTURES))

@@ -70,8 +70,8 @@ def prepare_bodies(names: Sequence[str], parameters: CollisionParameters, direct
     feedbacks = choose_feedbacks(names, parameters)
     ships = [_load(name, p.ship, directory) for name, p in zip(names, parameters.ships, strict=True)]
     if parameters.response == "bullet":
-        require_dynamics()
         _refuse_what_bullet_lacks(names, ships, parameters.ships, feedbacks)
+        require_dynamics()
     bodies = [_ship(*each) for each in zip(names, ships, parameters.ships, feedbacks, strict=True)]
     for obstacle in read_obstacles(parameters.obstacles):
         if obstacle.name in names:

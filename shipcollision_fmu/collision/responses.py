@@ -20,7 +20,8 @@ from .contact_problem import ContactCaches, ContactProblem, ContactSolution
 from .dynamics.body_state import BodyState
 from .dynamics.contact import Contact, Impulse, make_contact
 from .dynamics.delassus import approach_velocities, delassus, held_delassus
-from .geometry.bullet import BulletAdapter
+from .geometry.adapter import choose_adapter
+from .geometry.bullet import BulletAdapter, require_dynamics
 from .solvers.gauss_seidel import solve_gauss_seidel
 from .solvers.held_motions import yield_to_friction
 from .solvers.impact_process import solve_impact_process
@@ -28,7 +29,7 @@ from .solvers.poisson_restitution import LEAST_REBOUNDING_APPROACH, solve_poisso
 from .solvers.touching_pair import TouchingPair
 from .solvers.warm_start import guess_impulses, keep_impulses
 
-__all__ = ["ADAPTERS", "RESPONSES", "respond_bullet", "respond_closed_form", "respond_pgs"]
+__all__ = ["ADAPTERS", "RESPONSES", "require_adapter", "respond_bullet", "respond_closed_form", "respond_pgs"]
 
 AT_REST = 1e-12
 """Approach [m/s] that is the rounding left by a solved contact. With zero, contacts at rest would be solved again in
@@ -168,3 +169,11 @@ RESPONSES: dict[str, Callable[[ContactProblem, ContactCaches], ContactSolution]]
 }
 ADAPTERS = {"bullet": "pybullet"}
 """Which adapter of the narrow phase a response must have (geometry/adapter.py); the others take either."""
+
+
+def require_adapter(response: str | None) -> None:
+    """Raise HostError, with the remedy, when this Python lacks what a response needs for contact; None: the default."""
+    if response in ADAPTERS:
+        require_dynamics()
+    else:
+        choose_adapter()

@@ -14,7 +14,7 @@ from math import radians
 from pathlib import Path
 from time import perf_counter
 
-from ..collision.geometry.adapter import choose_adapter
+from ..collision.responses import require_adapter
 from ..errors import ScenarioError
 from ..files import check_writable
 from ..fmi.builder.package import VERSIONS
@@ -63,7 +63,7 @@ def simulate(
         scenario = load_scenario(scenario)
     scenario = scenario.changed(algorithm=algorithm, step=step)
     _check_fmi(fmi, in_process)
-    choose_adapter()  # else the FMU would refuse to initialise
+    require_adapter(scenario.collision.response)  # else the FMU refuses to initialise, and the wrapper answers fatal
     if out is not None:
         check_writable(Path(out))
         if not overwrite:

@@ -114,7 +114,7 @@ def read_foreign_ship(file: Path) -> ForeignShip:
 def _list_variables(root: ElementTree.Element) -> dict[str, _Known]:
     """Scalar variables of FMI 2.0 and 3.0 by name."""
     found: dict[str, _Known] = {}
-    for node in root.find("ModelVariables") or ():
+    for node in root.iterfind("ModelVariables/*"):
         typed = node[0] if node.tag == "ScalarVariable" else node
         kind = _KINDS.get(typed.tag)
         if kind is not None and typed.find("Dimension") is None:

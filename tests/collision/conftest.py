@@ -16,6 +16,8 @@ from shipcollision_fmu.ship.frames import attitude_from_rotation, rotation, rota
 from shipcollision_fmu.ship.loading.library import load_ship
 from tests.ship_files import ship_toml
 
+BULLET = pytest.param("bullet", marks=pytest.mark.needs("pybullet"))
+"""The response that only PyBullet gives."""
 BOX = 'shape = "box"\ndepth = 20.0'
 SHIP = 'shape = "parametric"\ndepth = 20.0\nbow_length = 40.0\nstern_length = 50.0'
 NO_ADDED_MASS = "m_x = 0.0\nm_y = 0.0\nm_z = 0.0\nj_x = 0.0\nj_y = 0.0\nj_z = 0.0\nz_y = 0.0"

@@ -21,6 +21,7 @@ RAKED = 'shape = "parametric"\ndepth = 20.0\nbow_length = 40.0\nstern_length = 5
 HIGHER = SHIP.replace("depth = 20.0", "depth = 26.0")
 
 
+@pytest.mark.needs("pybullet")
 @pytest.mark.parametrize(
     ("north", "heading", "friction"),
     [
@@ -59,6 +60,7 @@ def boxed(W: np.ndarray, v: np.ndarray, mu: float) -> np.ndarray:
     return P
 
 
+@pytest.mark.needs("pybullet")
 @pytest.mark.slow
 @pytest.mark.parametrize("friction", [0.1, 0.3])
 @pytest.mark.parametrize(("north", "heading"), [(0.0, pi / 3), (-20.0, 2 * pi / 3)])
@@ -124,6 +126,7 @@ def answers(
     return impulse, off[:, :3].max() / np.hypot(*speed), off[:, 5].max() / np.abs(later[0][:, 5]).max()
 
 
+@pytest.mark.needs("pybullet")
 @pytest.mark.parametrize("case", LINES, ids=[case[0] for case in LINES])
 def test_bullet_meets_a_line_at_one_end_first(make_ship: Make, world: MakeWorld, case: tuple) -> None:
     """Bullet gives one point of a line of contact, and its dynamics meet the line at that end: the first impulse is a
@@ -135,6 +138,7 @@ def test_bullet_meets_a_line_at_one_end_first(make_ship: Make, world: MakeWorld,
     assert 0.08 <= yaw <= 0.13
 
 
+@pytest.mark.needs("pybullet")
 def test_bullet_meets_flush_sides_at_one_place(make_ship: Make, world: MakeWorld) -> None:
     """Two equal sides meet flush. Of the area Bullet gives one point, here a corner: its first impulse is less than a
     third of that of the whole side. The substeps that follow meet the rest, and a second later the speeds agree."""

@@ -12,7 +12,7 @@ import pytest
 from shipcollision_fmu.collision import totals
 from shipcollision_fmu.collision.model import ShipCollision
 from shipcollision_fmu.errors import InputError, StepError
-from tests.collision.conftest import BOX, NO_ADDED_MASS, World
+from tests.collision.conftest import BOX, BULLET, NO_ADDED_MASS, World
 
 Make = Callable[..., str]
 MakeWorld = Callable[..., World]
@@ -70,7 +70,7 @@ def test_head_on_restitution(make_ship: Make, world: MakeWorld, e: float) -> Non
 
 
 @pytest.mark.parametrize("algorithm", ALGORITHMS)
-@pytest.mark.parametrize("response", ["pgs", "bullet"])
+@pytest.mark.parametrize("response", ["pgs", BULLET])
 def test_oblique_impact_balances_and_loses_energy(
     make_ship: Make, world: MakeWorld, algorithm: str, response: str
 ) -> None:
@@ -321,6 +321,7 @@ def test_a_ship_held_upright_that_adopts_the_state_is_stopped_once(make_ship: Ma
     assert max(seen[-5:]) <= 1e-9
 
 
+@pytest.mark.needs("pybullet")
 def test_bullet_answers_a_wall_of_two_parts_as_one(make_ship: Make, world: MakeWorld) -> None:
     """Two pairs that touch at once are not solved together, but the second sees what the first did: no rebound of
     more than half the speed."""
@@ -340,7 +341,7 @@ def test_bullet_answers_a_wall_of_two_parts_as_one(make_ship: Make, world: MakeW
 # -- the whole state --------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("response", ["pgs", "bullet"])
+@pytest.mark.parametrize("response", ["pgs", BULLET])
 def test_saved_state_repeats_every_bit_in_the_middle_of_a_contact(
     make_ship: Make, world: MakeWorld, response: str
 ) -> None:

@@ -22,7 +22,7 @@ from shipcollision_fmu.collision.obstacles import (
 from shipcollision_fmu.errors import InputError, StepError
 from shipcollision_fmu.ship.frames import attitude_from_rotation
 from shipcollision_fmu.ship.hull.solid import HullMesh
-from tests.collision.conftest import BOX, NO_ADDED_MASS, World
+from tests.collision.conftest import BOX, BULLET, NO_ADDED_MASS, World
 
 Make = Callable[..., str]
 MakeWorld = Callable[..., World]
@@ -156,7 +156,7 @@ def test_an_obstacle_named_like_a_ship_is_refused(make_ship: Make) -> None:
 
 
 @pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
-@pytest.mark.parametrize("response", ["pgs", "bullet"])
+@pytest.mark.parametrize("response", ["pgs", BULLET])
 def test_head_on_a_wall_takes_all_momentum_and_all_energy(
     make_ship: Make, world: MakeWorld, response: str, algorithm: str
 ) -> None:

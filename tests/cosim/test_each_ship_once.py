@@ -14,5 +14,6 @@ __all__ = ["counts"]
 
 @pytest.mark.parametrize("in_process", [True, False])
 def test_each_ship_file_is_read_once(counts: Counter[str], in_process: bool) -> None:
-    simulate(load_scenario("guan2014").changed(step=0.5), in_process=in_process)
-    assert counts == {"guan2014_own.toml": 1, "guan2014_target.toml": 1, "hulls": 2}
+    simulate(load_scenario("guan2014_added_mass").changed(step=0.5), in_process=in_process)
+    names = ("own", "target", "own_added_mass", "target_added_mass")
+    assert counts == {**{f"guan2014_{name}.toml": 1 for name in names}, "hulls": 2}

@@ -23,7 +23,7 @@ from fmpy import extract, read_model_description
 from fmpy.fmi2 import FMU2Slave
 from shipcollision_fmu import load_scenario, simulate
 
-simulate(load_scenario("guan2014"))
+simulate(load_scenario("guan2014_added_mass"))
 gc.collect()
 folder = extract(sys.argv[1])
 description = read_model_description(folder)

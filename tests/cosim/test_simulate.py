@@ -51,6 +51,7 @@ def test_a_scenario_may_be_a_path(scenario_file: Write) -> None:
     assert [run.summary["scenario"] for run in runs] == ["encounter"] * 3
 
 
+@pytest.mark.needs("pybullet")
 def test_the_published_collision_is_the_same_to_the_bit_through_fmi_2_and_3(tmp_path: Path) -> None:
     """All states, contacts, events and figures of guan2014."""
     for fmi in (2, 3):

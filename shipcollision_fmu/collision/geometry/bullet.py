@@ -164,6 +164,12 @@ class BulletAdapter:
         row = min(rows, key=lambda r: float(r[8]))
         return row[8] + 2 * MARGIN, -np.array(swap_axes(row[7]))
 
+    def corners(self, ship: int, part: int) -> Array:
+        """The corners (n, 3) of a part as Bullet rounded them, in b about CO [m]."""
+        _, corners = self._p.getMeshData(self._parts[ship][part], physicsClientId=self._client)
+        found: Array = np.array(corners) @ SWAP
+        return found
+
     def gap(self, a: int, b: int, states: Sequence[BodyState], cap: float) -> float:
         """Least distance [m] between ships a and b, negative in overlap, at most `cap`."""
         self._place((a, states[a].x, states[a].R), (b, states[b].x, states[b].R))

@@ -49,5 +49,8 @@ class NarrowPhase(Protocol):
         one, other: ship, its part, and its pose: CO in n [m], R_nb.
         """
 
+    def corners(self, ship: int, part: int) -> Array:
+        """The corners (n, 3) of a part as Bullet rounded them to 1/10216 of the hull's extent, in b about CO [m]."""
+
     def gap(self, a: int, b: int, states: Sequence[BodyState], cap: float) -> float:
         """Least distance [m] between ships a and b, negative in overlap, at most `cap`."""

@@ -11,8 +11,9 @@ from hypothesis import strategies as st
 
 from shipcollision_fmu.collision.dynamics.body_state import BodyState
 from shipcollision_fmu.collision.geometry import broad_phase
+from shipcollision_fmu.collision.geometry.adapter import open_narrow_phase
 from shipcollision_fmu.collision.geometry.broad_phase import Rectangle, near_pairs
-from shipcollision_fmu.collision.geometry.bullet import BulletAdapter
+from shipcollision_fmu.collision.geometry.narrow_phase import NarrowPhase
 from tests.collision.conftest import BOX, World
 
 Make = Callable[..., str]
@@ -84,18 +85,19 @@ def test_far_ships_are_never_given_to_the_narrow_phase(
     make_ship: Make, world: MakeWorld, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     asked: list[tuple[int, int]] = []
-    closest, gap = BulletAdapter.closest, BulletAdapter.gap
+    adapter = type(open_narrow_phase([]))
+    closest, gap = adapter.closest, adapter.gap
 
-    def counted(self: BulletAdapter, a: int, b: int, states: list[BodyState], distance: float) -> list:
+    def counted(self: NarrowPhase, a: int, b: int, states: list[BodyState], distance: float) -> list:
         asked.append((a, b))
         return closest(self, a, b, states, distance)
 
-    def measured(self: BulletAdapter, a: int, b: int, states: list[BodyState], cap: float) -> float:
+    def measured(self: NarrowPhase, a: int, b: int, states: list[BodyState], cap: float) -> float:
         asked.append((a, b))
         return gap(self, a, b, states, cap)
 
-    monkeypatch.setattr(BulletAdapter, "closest", counted)
-    monkeypatch.setattr(BulletAdapter, "gap", measured)
+    monkeypatch.setattr(adapter, "closest", counted)
+    monkeypatch.setattr(adapter, "gap", measured)
     box = make_ship("box", BOX)
     grid = [{"position": [1000.0 * (k % 10), 1000.0 * (k // 10), 0.0], "nu": [5.0, 0, 0, 0, 0, 0]} for k in range(99)]
     near = [*grid, {"position": [150.0, 200.0, 0.0], "nu": [0.0] * 6}]

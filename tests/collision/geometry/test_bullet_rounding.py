@@ -1,4 +1,4 @@
-"""PyBullet rounds the corners of every hull: by how much, and what it does to an impact."""
+"""Bullet rounds the corners of every hull: by how much, and what it does to an impact."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from shipcollision_fmu.collision.geometry.bullet import BulletAdapter, bullet_module
+from shipcollision_fmu.collision.geometry.adapter import open_narrow_phase
 from shipcollision_fmu.collision.geometry.detection import Detector
-from shipcollision_fmu.ship.frames import SWAP
+from shipcollision_fmu.collision.geometry.narrow_phase import NarrowPhase
 from shipcollision_fmu.ship.hull.hull import build_hull
 from shipcollision_fmu.ship.hull.solid import HullMesh
 from shipcollision_fmu.ship.loading.library import load_ship
@@ -25,12 +25,11 @@ def hull_of(name: str) -> HullMesh:
     return build_hull(ship.L_oa, ship.B, ship.T, ship.hull)
 
 
-def rounded(adapter: BulletAdapter, ship: int, parts: tuple[np.ndarray, ...]) -> tuple[np.ndarray, ...]:
+def rounded(adapter: NarrowPhase, ship: int, parts: tuple[np.ndarray, ...]) -> tuple[np.ndarray, ...]:
     """The parts with the corners that Bullet has, in the order of ours."""
     found = []
-    for part, body in zip(parts, adapter._parts[ship], strict=True):
-        _, corners = bullet_module().getMeshData(body, physicsClientId=adapter._client)
-        there = np.array(corners) @ SWAP
+    for i, part in enumerate(parts):
+        there = adapter.corners(ship, i)
         found.append(np.array([there[np.argmin(np.linalg.norm(there - corner, axis=1))] for corner in part]))
     return tuple(found)
 
@@ -41,7 +40,7 @@ def rounded(adapter: BulletAdapter, ship: int, parts: tuple[np.ndarray, ...]) ->
 def test_corners_are_rounded_to_1_10216_of_the_extent(name: str, largest: float) -> None:
     """Each coordinate by at most one step; the planes that bound the hull stay within 1 mm. A box keeps its corners."""
     hull = hull_of(name)
-    adapter = BulletAdapter([hull])
+    adapter = open_narrow_phase([hull])
     moved = []
     for part, there in zip(hull.parts, rounded(adapter, 0, hull.parts), strict=True):
         step = np.ptp(part, axis=0) / STEPS
