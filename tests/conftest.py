@@ -88,7 +88,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> Iterator[None]:
     """Before pytest selects by -m, fixtures give their tests the mark `needs`; afterwards tests are left out."""
     for item in items:
-        for name in needs.BY_FIXTURE.keys() & set(getattr(item, "fixturenames", ())):
+        for name in sorted(needs.BY_FIXTURE.keys() & set(getattr(item, "fixturenames", ()))):
             item.add_marker(pytest.mark.needs(needs.BY_FIXTURE[name]))
     yield
     is_met = cache(lambda name: needs.NEEDS[name].is_met())
@@ -183,24 +183,3 @@ def make_Python_FMU(tmp_path_factory: pytest.TempPathFactory) -> Callable[[], Mo
     folder = tmp_path_factory.mktemp("Python FMU")
     unpacked = Path(extract(build_fmus(folder)["ShipManoeuvring"], folder / "unpacked"))
     return lambda: ModelOfFmu(unpacked)
-
-
-@pytest.fixture(scope="session")
-def make_native_FMU(native_fmus: dict[str, Path], tmp_path_factory: pytest.TempPathFactory) -> Callable[[], ModelOfFmu]:
-    """Makes ships behind the native FMU, which takes ship files prepared."""
-    from fmpy import extract
-
-    from shipcollision_fmu.manoeuvring.prepared_ship import prepare_ship
-
-    folder = tmp_path_factory.mktemp("native FMU")
-    unpacked = Path(extract(native_fmus["2"], folder / "unpacked"))
-
-    @cache
-    def find_ship(ship: str) -> str:
-        if not ship.endswith(".toml"):
-            return ship
-        prepared = tmp_path_factory.mktemp("prepared") / "own.ship"
-        prepared.write_bytes(prepare_ship(ship))
-        return str(prepared)
-
-    return lambda: ModelOfFmu(unpacked, find_ship)

@@ -84,6 +84,7 @@ def unpacked(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.slow
+@pytest.mark.needs("pybullet")
 def test_libcosim_steps_the_folder_as_our_parallel_master_does(unpacked: Path) -> None:
     """And the guide shows the example's code."""
     text = said(sys.executable, EXAMPLES / "osp_folder.py", unpacked.parent / "osp")
@@ -103,7 +104,7 @@ def host(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return program
 
 
-@pytest.mark.needs("libpython")
+@pytest.mark.needs("libpython", "pybullet")
 def test_a_host_in_c_gives_our_bits(host: Path, unpacked: Path) -> None:
     """In the environment in which a native host finds Python and the packages."""
     scenario = load_scenario("guan2014").changed(algorithm="jacobi")

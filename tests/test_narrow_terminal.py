@@ -66,6 +66,7 @@ def test_the_lists_stay_whole() -> None:
     assert "Not shown" not in shown(_list_ships(), 80)
 
 
+@pytest.mark.needs("pybullet")
 def test_the_published_numbers_stay_whole(published: Run) -> None:
     (table,) = make_run_tables(published)
     assert_whole(table)

@@ -17,10 +17,22 @@ from shipcollision_fmu.scenario.scenario import Scenario, list_scenario_names
 from shipcollision_fmu.ship.degrees_of_freedom import FREE
 from shipcollision_fmu.ship.frames import rotation
 from shipcollision_fmu.ship.loading.library import load_ship
+from tests.needs import NEEDS
 
 ALGORITHMS = ("gauss-seidel", "jacobi")
+OWN_RESPONSE = "guan2014"
+"""The scenario whose response is PyBullet's own."""
+
+
+def scenario_param(name: str, *more: str, marks: tuple[Any, ...] = ()) -> Any:
+    """A scenario, and more, as parameters of a test."""
+    needs = (pytest.mark.needs("pybullet"),) if name == OWN_RESPONSE else ()
+    return pytest.param(name, *more, marks=(*needs, *marks))
+
+
 SCENARIOS_IN_FMUS = [
-    pytest.param(name, marks=pytest.mark.slow if name == "kvlcc2_crossing" else ()) for name in list_scenario_names()
+    scenario_param(name, marks=(pytest.mark.slow,) if name == "kvlcc2_crossing" else ())
+    for name in list_scenario_names()
 ]
 """kvlcc2_crossing is the longest run: seconds through FMUs."""
 
@@ -61,6 +73,8 @@ def runs() -> dict[tuple[str, str], Watched]:
     """Every scenario in process, with step 0.05 s, watched."""
     found = {}
     for name in list_scenario_names():
+        if name == OWN_RESPONSE and not NEEDS["pybullet"].is_met():
+            continue
         scenario = load_scenario(name)
         for algorithm in ALGORITHMS:
             watch = Watch()
@@ -76,7 +90,9 @@ def runs() -> dict[tuple[str, str], Watched]:
 
 
 def each() -> Any:
-    return pytest.mark.parametrize(("name", "algorithm"), [(n, a) for n in list_scenario_names() for a in ALGORITHMS])
+    return pytest.mark.parametrize(
+        ("name", "algorithm"), [scenario_param(n, a) for n in list_scenario_names() for a in ALGORITHMS]
+    )
 
 
 Runs = dict[tuple[str, str], Watched]
@@ -170,7 +186,7 @@ def test_contact_never_gives_kinetic_energy(runs: Runs, name: str, algorithm: st
     assert -sum(work) == pytest.approx(dissipated[-1], rel=0.02)
 
 
-@pytest.mark.parametrize("name", list_scenario_names())
+@pytest.mark.parametrize("name", [scenario_param(name) for name in list_scenario_names()])
 def test_both_masters_end_at_the_same_velocities(runs: Runs, name: str) -> None:
     """Within 2 % of the change that the collision made, at 0.05 s: the velocity of CO, and the whole twist in the norm
     of the kinetic energy, which is the one that may add metres and radians."""
@@ -205,6 +221,7 @@ def load_ship_M(name: str) -> np.ndarray:
     return _M[name]
 
 
+@pytest.mark.needs("pybullet")
 @pytest.mark.parametrize("algorithm", ALGORITHMS)
 def test_linear_momentum_without_added_mass_is_the_same_after_as_before(runs: Runs, algorithm: str) -> None:
     momentum = runs["guan2014", algorithm].run.summary["momentum"]

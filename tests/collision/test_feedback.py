@@ -136,6 +136,7 @@ def test_a_feedback_that_is_unknown_or_given_twice_is_refused(word: str, name: s
         feedbacks("ledger", (word, name), ("common", ""))
 
 
+@pytest.mark.needs("pybullet")
 def test_the_response_bullet_refuses_a_prescribed_ship(make_ship: Make) -> None:
     model = ShipCollision()
     for ship in model.parameters.ships:

@@ -120,7 +120,7 @@ def gltf_root(tmp_path_factory: pytest.TempPathFactory) -> Array:
     from shipcollision_fmu.show.scene.scene import load_scene
 
     run = tmp_path_factory.mktemp("run")
-    simulate(load_scenario("guan2014"), in_process=True, out=run)
+    simulate(load_scenario("guan2014_added_mass"), in_process=True, out=run)
     data = build_glb(load_scene(run))
     content = json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")])
     root = content["nodes"][content["scenes"][content["scene"]]["nodes"][0]]

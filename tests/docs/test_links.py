@@ -78,6 +78,7 @@ def test_the_documents_are_found() -> None:
     )
 
 
+@pytest.mark.needs("pybullet")
 @pytest.mark.parametrize("document", DOCUMENTS, ids=str)
 def test_every_link_leads_to_a_file_and_a_heading(document: Path) -> None:
     wrong = []

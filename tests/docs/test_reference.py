@@ -101,6 +101,7 @@ def test_the_start_values_of_the_fmu_are_the_defaults_of_its_parameters() -> Non
     assert found["collision.response"][4] == '`"pgs"` (of the FMU)'
 
 
+@pytest.mark.needs("pybullet")
 @pytest.mark.parametrize("part", [part for part in PARTS if part != "api"])
 def test_braces_of_the_text_are_escaped(part: str) -> None:
     """attr_list takes `{...}` at the end of a cell or a paragraph for attributes, and the reader misses it."""
@@ -115,6 +116,7 @@ def test_every_key_has_a_meaning(name: str) -> None:
     assert silent == []
 
 
+@pytest.mark.needs("pybullet")
 def test_every_key_of_events_json_is_on_its_page() -> None:
     """Those of a real run, and those that the schema requires anywhere."""
     text = page("reference/run-folder.md")
@@ -185,6 +187,7 @@ def test_every_option_of_every_command_is_on_its_page() -> None:
                 assert all(option in sections[name] for option in (*parameter.opts, *parameter.secondary_opts))
 
 
+@pytest.mark.needs("pybullet")
 def test_every_column_and_key_of_a_run_is_on_its_page() -> None:
     run = simulate(load_scenario("guan2014"), in_process=True)
     text = page("reference/run-folder.md")

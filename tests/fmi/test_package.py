@@ -230,7 +230,9 @@ def test_same_bytes_from_files_found_in_another_order(
 ) -> None:
     for search in ("glob", "rglob"):
         walk = getattr(Path, search)
-        monkeypatch.setattr(Path, search, lambda self, pattern, walk=walk: reversed(list(walk(self, pattern))))
+        monkeypatch.setattr(
+            Path, search, lambda self, pattern, walk=walk, **how: reversed(list(walk(self, pattern, **how)))
+        )
     for name, path in build_fmus(tmp_path).items():
         assert path.read_bytes() == built[name].read_bytes()
 

@@ -29,6 +29,9 @@ position = [0.0, 60.0]
 
 MakeRun = Callable[..., Path]
 
+GUAN2014 = pytest.param("guan2014", marks=pytest.mark.needs("pybullet"))
+"""The run whose response is PyBullet's own, as a parameter."""
+
 
 @pytest.fixture(scope="session")
 def guan2014(tmp_path_factory: pytest.TempPathFactory) -> Path:

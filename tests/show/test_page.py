@@ -20,6 +20,7 @@ from shipcollision_fmu.show.gltf.ribbons import lay_ribbon
 from shipcollision_fmu.show.page import build_page, write_page
 from shipcollision_fmu.show.scene.run_folder import STATE
 from shipcollision_fmu.show.scene.scene import Scene, load_scene
+from tests.show.conftest import GUAN2014
 
 from .browser import Page
 from .conftest import MakeRun
@@ -31,7 +32,13 @@ SMALL = (500, 440)
 TIMES = ("before", "during", "after")
 
 
-@pytest.fixture(scope="module", params=["guan2014", pytest.param("kvlcc2_crossing", marks=pytest.mark.slow)])
+@pytest.fixture(
+    scope="module",
+    params=[
+        GUAN2014,
+        pytest.param("kvlcc2_crossing", marks=pytest.mark.slow),
+    ],
+)
 def folder(request: pytest.FixtureRequest) -> Path:
     """The shipped runs, with their pages written."""
     run = Path(request.getfixturevalue(request.param))

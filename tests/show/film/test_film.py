@@ -16,6 +16,7 @@ from shipcollision_fmu.show.film.raster import NOTHING, Eye, find_nearest
 from shipcollision_fmu.show.scene.camera import ANGLE, place_camera
 from shipcollision_fmu.show.scene.palette import convert_to_display, find_paint
 from shipcollision_fmu.show.scene.scene import Scene, load_scene
+from tests.show.conftest import GUAN2014
 
 EYE = Eye(np.array([-120.0, -60.0, -45.0]), np.array([3.0, 7.0, -2.0]), 32.0, 160, 90)
 
@@ -86,7 +87,13 @@ def test_water_hides_by_beer_and_lambert() -> None:
     assert sea.find_clarity(np.zeros(1))[0] == 1.0
 
 
-@pytest.mark.parametrize("run", ["guan2014", pytest.param("kvlcc2_crossing", marks=pytest.mark.slow)])
+@pytest.mark.parametrize(
+    "run",
+    [
+        GUAN2014,
+        pytest.param("kvlcc2_crossing", marks=pytest.mark.slow),
+    ],
+)
 def test_the_camera_sees_the_first_contact(run: str, request: pytest.FixtureRequest) -> None:
     """In the middle of the picture, and no hull between: what is seen there is no nearer than a ship's breadth."""
     scene = load_scene(request.getfixturevalue(run))

@@ -22,7 +22,7 @@ from shipcollision_fmu.show.gltf.gltf import build_glb
 from shipcollision_fmu.show.gltf.ribbons import LIFT
 from shipcollision_fmu.show.scene.run_folder import STATE
 from shipcollision_fmu.show.scene.scene import Scene, load_scene
-from tests.show.conftest import MakeRun
+from tests.show.conftest import GUAN2014, MakeRun
 
 from .gltf_reader import Glb
 
@@ -30,7 +30,7 @@ HERE = Path(__file__).parent
 CENTIMETRE = 0.01
 
 
-@pytest.fixture(scope="module", params=["guan2014", "kvlcc2_crossing"])
+@pytest.fixture(scope="module", params=[GUAN2014, "kvlcc2_crossing"])
 def folder(request: pytest.FixtureRequest) -> Path:
     """The two shipped runs."""
     return Path(request.getfixturevalue(request.param))

@@ -12,7 +12,7 @@ import pytest
 from shipcollision_fmu.show.osg.osg import FIRST_CONTACT, build_osg_files, format_viewer_command, write_osg
 from shipcollision_fmu.show.scene.scene import Scene, load_scene
 from shipcollision_fmu.show.scene.surface import find_nearest_points
-from tests.show.conftest import MakeRun
+from tests.show.conftest import GUAN2014, MakeRun
 from tests.show.foreign import with_many_collisions, with_names
 
 from . import osgt_reader as osgt
@@ -71,7 +71,7 @@ def hull(transform: Node) -> np.ndarray:
     return np.vstack([osgt.vertices(geometry["VertexArray"]) for geometry in geode["Drawables"]])
 
 
-@pytest.mark.parametrize("run", ["guan2014", "kvlcc2_crossing"])
+@pytest.mark.parametrize("run", [GUAN2014, "kvlcc2_crossing"])
 def test_outlines_agree_with_states_csv_to_a_centimetre(
     run: str, request: pytest.FixtureRequest, tmp_path: Path
 ) -> None:

@@ -17,10 +17,10 @@ from shipcollision_fmu.show.scene.run_folder import STATE
 from shipcollision_fmu.show.scene.scene import POSE_ERROR, Scene, Ship, load_scene
 from shipcollision_fmu.show.scene.scratches import LINE_ERROR
 from shipcollision_fmu.show.scene.surface import Surface, compute_corner_normals, cut_into_bands, drop_flat_triangles
-from tests.show.conftest import MakeRun
+from tests.show.conftest import GUAN2014, MakeRun
 
 
-@pytest.fixture(scope="module", params=["guan2014", "kvlcc2_crossing"])
+@pytest.fixture(scope="module", params=[GUAN2014, "kvlcc2_crossing"])
 def folder(request: pytest.FixtureRequest) -> Path:
     """The two shipped runs."""
     return Path(request.getfixturevalue(request.param))
