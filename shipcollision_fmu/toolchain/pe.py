@@ -13,7 +13,8 @@ _OFFSET = 0x3C
 def clear_time_stamps(library: bytes) -> bytes:
     """The same library with time stamp and checksum 0, so that the same sources give the same bytes.
 
-    Windows checks the checksum of drivers only. Raises ValueError for another file.
+    Zig 0.17 writes a digest in place of the time; other linkers do not. Windows checks the checksum of drivers only.
+    Raises ValueError for another file.
     """
     data = bytearray(library)
     header = struct.unpack_from("<I", data, _OFFSET)[0] if data[:2] == b"MZ" else 0

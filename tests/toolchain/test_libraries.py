@@ -121,10 +121,15 @@ def own_platform() -> str:
 
 
 def numbers(folder: Path) -> Part:
-    """The part of native/ that links alone, copied."""
+    """A part of native/ that links alone, copied."""
     shutil.copytree(find_native(), folder)
-    found = [*(folder / "numbers").glob("*.cpp"), folder / "windows.cpp"]
-    return Part(folder, tuple(sorted(path.relative_to(folder).as_posix() for path in found)))
+    exported = folder / "exported.cpp"  # Zig's linker for macOS fails on a library without exports
+    exported.write_text(
+        '#include "export.hpp"\n#include "numbers/elementary.hpp"\n'
+        "SHIPCOLLISION_EXPORT double shipcollision_sin(double x) { return shipcollision::sin(x); }\n",
+        encoding="ascii",
+    )
+    return Part(folder, ("exported.cpp", "numbers/elementary.cpp", "windows.cpp"))
 
 
 @pytest.mark.slow
