@@ -6,8 +6,10 @@
 // Says to the linker that floating-point numbers are used.
 extern "C" int _fltused = 0;
 
-// Called at loading and at the start and end of threads: nothing to do. One is success.
+// Called at loading and at the start and end of threads: nothing to do. One is success. Zig before 0.15 asks for the
+// second name.
 extern "C" int __stdcall DllMainCRTStartup(void*, unsigned long, void*) { return 1; }
+extern "C" int __stdcall _DllMainCRTStartup(void*, unsigned long, void*) { return 1; }
 
 // Called by functions with more than a page of local variables, with their size in rax. It touches every page below the
 // stack pointer once, in order, since Windows extends a stack by the next page only. No register may change.
