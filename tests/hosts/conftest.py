@@ -7,15 +7,19 @@ import pytest
 
 from shipcollision_fmu.encounters.encounter import encounter
 from shipcollision_fmu.scenario.scenario import load_scenario, parse_scenario
+from shipcollision_fmu.toolchain import libraries
+from tests.conftest import NATIVE_CACHE
 
 from .encounter import Encounter, Rows
 
-NAMES = ("guan2014", "under_way")
+NATIVE = "under_way, native"
+NAMES = ("guan2014", "under_way", NATIVE)
 
 
 @pytest.fixture(scope="session")
 def encounters(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Encounter]:
-    """guan2014 coasts, answered by Bullet; under_way sails two VLCCs into each other, answered by pgs, and they part.
+    """guan2014 coasts, answered by Bullet; under_way sails two VLCCs into each other, answered by pgs, and they part;
+    NATIVE is the same with ships that run without Python.
 
     Not at a right angle amidships: there both corners of the stem touch at once, and the last bit decides which first.
     """
@@ -24,7 +28,12 @@ def encounters(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Encounter]
     assert "restitution = 0.0" in text
     text = text.replace("restitution = 0.0", "restitution = 0.3")
     scenarios = {"guan2014": load_scenario("guan2014"), "under_way": parse_scenario(text, "under_way.toml")}
-    return {name: Encounter.packaged(scenarios[name], tmp_path_factory.mktemp(name)) for name in NAMES}
+    made = {name: Encounter.packaged(told, tmp_path_factory.mktemp(name)) for name, told in scenarios.items()}
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(libraries, "native_cache", lambda: NATIVE_CACHE)
+        folder = tmp_path_factory.mktemp("native ships")
+        made[NATIVE] = Encounter.packaged(scenarios["under_way"], folder, native=("linux64",))
+    return made
 
 
 @pytest.fixture(scope="session")

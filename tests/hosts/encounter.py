@@ -37,11 +37,12 @@ class Encounter:
     folder: Path
 
     @classmethod
-    def packaged(cls, scenario: Scenario, folder: Path) -> Encounter:
-        write_osp(scenario, folder / "osp")
+    def packaged(cls, scenario: Scenario, folder: Path, native: tuple[str, ...] = ()) -> Encounter:
+        """native: platforms for which the ships run without Python."""
+        write_osp(scenario, folder / "osp", native=native)
         if not build_system_structure(scenario).orders:
-            write_ssp(scenario, folder / "package.ssp")
-            write_ssp(scenario, folder / "package3.ssp", fmi=3)
+            write_ssp(scenario, folder / "package.ssp", native=native)
+            write_ssp(scenario, folder / "package3.ssp", fmi=3, native=native)
         return cls(scenario, folder)
 
     @property

@@ -16,7 +16,7 @@ import pytest
 from shipcollision_fmu.fmi.names import APPLIED, IMPULSE, STATE, named
 from shipcollision_fmu.ship.frames import rotation
 
-from .conftest import NAMES
+from .conftest import NAMES, NATIVE
 from .encounter import Encounter, Rows, run_master
 from .masters import MASTERS
 
@@ -26,6 +26,8 @@ EXACT = {"fmpy-loop", "fmpy-ssp", "ecos-api", "ecos-ssp", "ecos-ssp-fmi3", "cont
 JITTER = 1e-10
 """Relative difference from ours in the others: at 6 s a step's length jitters by 1e-14 of itself, which an impact with
 its deep overlap multiplies. 2e-12 on one processor, 1.7e-11 on another, as each rounds."""
+ROUNDING = 1e-9
+"""The same for ships in native code, whose sines differ from Python's in the last bit."""
 
 Ours = dict[str, tuple[Rows, int, dict[str, list[float]]]]
 Ran = dict[tuple[str, str], tuple[Rows, int | None]]
@@ -63,11 +65,11 @@ def test_a_host_agrees_with_our_master(ran: Ran, ours: Ours, host: str, name: st
     assert rows.shape == expected.shape
     assert impacts in (None, collisions)
     seen = shown(rows)
-    if host in EXACT:
+    if host in EXACT and name != NATIVE:
         np.testing.assert_array_equal(rows[seen], expected[seen])
     else:
         vectors = np.abs(expected).max(axis=0).reshape(-1, 3).max(axis=1).repeat(3)  # a component goes by its vector
-        assert (np.abs(rows[seen] - expected[seen]) / vectors).max() <= JITTER
+        assert (np.abs(rows[seen] - expected[seen]) / vectors).max() <= (ROUNDING if name == NATIVE else JITTER)
 
 
 @pytest.mark.parametrize("host", MASTERS)
