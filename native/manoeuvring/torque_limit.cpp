@@ -8,8 +8,8 @@ bool TorqueLimit::is_surely_free(double u, double n) const {
   constexpr int AT_REST = TORQUE_WIDEST * TORQUE_PER_UNIT;
   if (!(u >= 0.0)) return false;
   const double place = u * table_->per_speed;
-  const int k = place < AT_REST ? static_cast<int>(place) : AT_REST;
-  return n <= n_ * table_->most[AT_REST + (k > 0 ? k : 0)];
+  const int k = place >= 0.0 && place < AT_REST ? static_cast<int>(place) : place < 0.0 ? 0 : AT_REST;
+  return n <= n_ * table_->most[AT_REST + k];
 }
 
 Range TorqueLimit::find_range(double u_P) const {

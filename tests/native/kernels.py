@@ -14,7 +14,7 @@ from shipcollision_fmu.toolchain.load import EXPORTS
 from shipcollision_fmu.toolchain.platforms import find_own_target
 from shipcollision_fmu.toolchain.sources import Part, find_native
 
-__all__ = ["evaluate", "load_kernels"]
+__all__ = ["evaluate", "find_ship_model", "load_kernels"]
 
 CACHE = native_cache()
 """Taken before the tests set another cache."""
@@ -23,15 +23,19 @@ FOLDERS = ("numbers/", "ship/", "manoeuvring/", "f", "memory", "python_ship")
 """Of native/, what the ship model needs: without collision/ it compiles without Bullet's source."""
 
 
+def find_ship_model() -> Part:
+    """The sources of the ship model."""
+    native = find_native()
+    files = [file for folder in FOLDERS for file in native.glob(f"{folder}*.cpp")]
+    return Part(native, tuple(sorted(file.relative_to(native).as_posix() for file in files)))
+
+
 @cache
 def load_kernels() -> ctypes.CDLL:
     """The library with the parts of tests/native/kernels.cpp."""
     target = find_own_target()
     assert target is not None
-    native = find_native()
-    files = [file for folder in FOLDERS for file in native.glob(f"{folder}*.cpp")]
-    library = Part(native, tuple(sorted(file.relative_to(native).as_posix() for file in files)))
-    parts = [library, Part(HERE, ("kernels.cpp",))]
+    parts = [find_ship_model(), Part(HERE, ("kernels.cpp",))]
     return ctypes.CDLL(str(build_library("kernels", parts, target, EXPORTS, cache=CACHE, prefer_system=True)))
 
 
