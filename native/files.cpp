@@ -4,42 +4,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "wide_path.hpp"
+
 namespace shipcollision {
 
 namespace {
 
 #if defined(_WIN32)
-
-constexpr size_t LONGEST_PATH = 4096;
-constexpr size_t LONGEST_SHORT_PATH = 240;  // longer paths need a prefix, which switches off the old limit of 260
-
-// UTF-8 as UTF-16; false for what is no UTF-8, and for a path that is too long.
-bool widen(const char* path, wchar_t* wide) {
-  const unsigned char* next = reinterpret_cast<const unsigned char*>(path);
-  size_t size = 0;
-  const bool is_long = strlen(path) > LONGEST_SHORT_PATH && path[0] != '\0' && path[1] == ':';
-  if (is_long) {
-    for (const char* prefix = "\\\\?\\"; *prefix != '\0'; prefix++) wide[size++] = static_cast<wchar_t>(*prefix);
-  }
-  while (*next) {
-    unsigned code = *next++;
-    const int more = code < 0x80 ? 0 : code < 0xC2 ? -1 : code < 0xE0 ? 1 : code < 0xF0 ? 2 : code < 0xF5 ? 3 : -1;
-    if (more < 0 || size + 3 > LONGEST_PATH) return false;
-    code &= more == 0 ? 0x7F : 0x3F >> more;
-    for (int i = 0; i < more; i++) {
-      if ((*next & 0xC0) != 0x80) return false;
-      code = code << 6 | (*next++ & 0x3F);
-    }
-    if (is_long && code == '/') code = '\\';
-    if (code >= 0x10000) {
-      wide[size++] = static_cast<wchar_t>(0xD800 + ((code - 0x10000) >> 10));
-      code = 0xDC00 + ((code - 0x10000) & 0x3FF);
-    }
-    wide[size++] = static_cast<wchar_t>(code);
-  }
-  wide[size] = L'\0';
-  return true;
-}
 
 FILE* open(const char* path) {
   wchar_t wide[LONGEST_PATH + 1];

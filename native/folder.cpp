@@ -2,7 +2,11 @@
 
 #include <string.h>
 
-#if !defined(_WIN32)
+#if defined(_WIN32)
+#include <io.h>
+
+#include "wide_path.hpp"
+#else
 #include <dirent.h>
 #endif
 
@@ -42,8 +46,18 @@ class Names {
 void list_folder(const char* folder, const char* suffix, Text& names) {
   Names found;
 #if defined(_WIN32)
-  static_cast<void>(folder);
-  static_cast<void>(suffix);
+  Text pattern;
+  pattern << folder << "/*";
+  wchar_t wide[LONGEST_PATH + 1];
+  _wfinddata64_t entry;
+  if (!widen(pattern.get(), wide)) return;
+  const intptr_t search = _wfindfirst64(wide, &entry);
+  if (search == -1) return;
+  do {
+    char name[2 * LONGEST_NAME];
+    if (narrow(entry.name, name, sizeof name)) found.add(name, suffix);
+  } while (_wfindnext64(search, &entry) == 0);
+  _findclose(search);
 #else
   DIR* opened = opendir(folder);
   if (opened == nullptr) return;

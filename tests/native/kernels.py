@@ -19,7 +19,7 @@ __all__ = ["evaluate", "find_ship_model", "load_kernels"]
 CACHE = native_cache()
 """Taken before the tests set another cache."""
 HERE = Path(__file__).parent
-FOLDERS = ("numbers/", "ship/", "manoeuvring/", "f", "memory", "python_ship")
+FOLDERS = ("numbers/", "ship/", "manoeuvring/", "f", "memory", "python_ship", "wide_path")
 """Of native/, what the ship model needs: without collision/ it compiles without Bullet's source."""
 
 
