@@ -183,3 +183,24 @@ def make_Python_FMU(tmp_path_factory: pytest.TempPathFactory) -> Callable[[], Mo
     folder = tmp_path_factory.mktemp("Python FMU")
     unpacked = Path(extract(build_fmus(folder)["ShipManoeuvring"], folder / "unpacked"))
     return lambda: ModelOfFmu(unpacked)
+
+
+@pytest.fixture(scope="session")
+def make_native_FMU(native_fmus: dict[str, Path], tmp_path_factory: pytest.TempPathFactory) -> Callable[[], ModelOfFmu]:
+    """Makes ships behind the native FMU, which takes ship files prepared."""
+    from fmpy import extract
+
+    from shipcollision_fmu.manoeuvring.prepared_ship import prepare_ship
+
+    folder = tmp_path_factory.mktemp("native FMU")
+    unpacked = Path(extract(native_fmus["2"], folder / "unpacked"))
+
+    @cache
+    def find_ship(ship: str) -> str:
+        if not ship.endswith(".toml"):
+            return ship
+        prepared = tmp_path_factory.mktemp("prepared") / "own.ship"
+        prepared.write_bytes(prepare_ship(ship))
+        return str(prepared)
+
+    return lambda: ModelOfFmu(unpacked, find_ship)

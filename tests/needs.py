@@ -71,6 +71,12 @@ NEEDS = {
     "osgviewer": Need(
         "osgviewer and Xvfb", lambda: are_programs("osgviewer", "osgconv", "Xvfb"), f"{_DEBIAN}openscenegraph xvfb"
     ),
+    "wine": Need("Wine", partial(are_programs, "wine"), f"{_DEBIAN}--no-install-recommends wine wine64"),
+    "qemu-aarch64": Need(
+        "QEMU's user mode for ARM",
+        lambda: are_programs("qemu-aarch64") and Path("/usr/aarch64-linux-gnu/lib/libc.so.6").is_file(),
+        f"{_DEBIAN}qemu-user libc6-arm64-cross",
+    ),
     "libpython": Need(
         "a shared libpython", lambda: shared_libpython() is not None,
         f"{_DEBIAN}libpython{sys.version_info.major}.{sys.version_info.minor}, or a CPython built with --enable-shared",

@@ -23,7 +23,7 @@ from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
 
 __all__ = ["ENGINES", "OF_THE_OBJECT", "ModelOfFmu", "RefusedError", "make_model", "reuse_model", "use_engine"]
 
-ENGINES = ("Python", "Python FMU")
+ENGINES = ("Python", "Python FMU", "native FMU")
 OF_THE_OBJECT = pytest.mark.parametrize("engine", ["Python"], indirect=True)
 """Marks what FMI has no word for, or another: it is tested of the Python model alone."""
 OK, WARNING = 0, 1

@@ -16,6 +16,7 @@ from shipcollision_fmu.cli import main
 from shipcollision_fmu.cosim import fmu_files
 from shipcollision_fmu.errors import HostError
 from shipcollision_fmu.fmi.builder import native_fmus
+from shipcollision_fmu.toolchain import fmu_binaries
 from shipcollision_fmu.toolchain.fmu_binaries import Binary
 from tests.conftest import ENCOUNTER
 from tests.ship_files import ship_toml
@@ -167,7 +168,9 @@ def test_build_names_the_ships_and_takes_arrays_apart(folder: Path) -> None:
 
 def test_build_without_python(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     library = Binary("win64", ".dll", b"MZ")
+    monkeypatch.setattr(fmu_binaries, "build_binaries", lambda platforms, report: {2: [library]})
     monkeypatch.setattr(native_fmus, "build_binaries", lambda platforms, report: {2: [library]})
+    monkeypatch.setattr(native_fmus, "list_ship_names", lambda: ["buoy"])
     built = called("build", "--native", "--platforms", "win64", "--out", "fmus", "--sources")
     assert (built.exit_code, built.stdout) == (0, "fmus/ShipManoeuvring.native.fmu\n")
     assert built.stderr == "note: ShipCollision has no native form yet; `shipcollision build` makes it with Python\n"
@@ -283,6 +286,7 @@ def test_a_mistake_is_one_line_and_writes_nothing(
             "--ships is for ShipCollision, which --native does not build",
         ),
         (["build", "--platforms", "win64"], 2, "--platforms is for native code: add --native or leave it out (see"),
+        (["package", "guan2014", "--osp", "--platforms", "win64"], 2, "--platforms is for native code: add --native"),
         (["build", "--sources"], 2, "--sources is for native code: add --native or leave it out (see"),
         (["build", "--native", "--platforms", "amiga"], 2, "platform 'amiga' is unknown: give some of linux64, win64,"),
         (["build", "--native", "--out", "barge.toml"], 1, "cannot write to barge.toml: "),

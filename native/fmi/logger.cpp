@@ -72,8 +72,9 @@ void Logger::log_failure(const char* line) const {
 
 void Logger::print(const char* prefix, const char* line) const {
   if (!is_on_stderr_) return;
-  const char* const parts[] = {fmu_, " ", instance_, ": ", prefix, line, "\n"};  // printf is not in Windows' library
-  for (const char* part : parts) fputs(part, stderr);
+  Text whole;  // in one piece, as other threads print as well; printf is not in Windows' library
+  whole << fmu_ << " " << instance_ << ": " << prefix << line << "\n";
+  fputs(whole.get(), stderr);
 }
 
 }  // namespace shipcollision

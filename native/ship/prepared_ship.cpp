@@ -6,7 +6,8 @@
 #include "../files.hpp"
 #include "../folder.hpp"
 #include "../numbers/crc32.hpp"
-#include "../numbers/hexadecimal.hpp"
+#include "../numbers/elementary.hpp"
+#include "../numbers/line_reader.hpp"
 
 namespace shipcollision {
 namespace {
@@ -28,20 +29,16 @@ bool ends_with(const char* text, const char* end) {
 // Reads line by line what prepared_ship.py has written; after a line that is not as expected, nothing more.
 class Lines {
  public:
-  explicit Lines(const char* at) : at_(at) {}
+  Lines(char* content, size_t size) : reader_(content, size) { reader_.next_line(); }
 
   bool is_good() const { return expected_ == nullptr; }
   // The key that was expected in the line that is wrong, and the number of that line.
   const char* expected() const { return expected_; }
   int number() const { return number_; }
-
-  void skip_line() {
-    while (*at_ != '\0' && *at_ != '\n') ++at_;
-    end_line();
-  }
+  void refuse(const char* key) { expected_ = key; }
 
   void read_text(const char* key, Text& text) {
-    if (begin(key) && !(take_text(text) && end_line())) refuse(key);
+    if (begin(key) && !take_text(text)) refuse(key);
   }
 
   template <typename Numbers>
@@ -53,14 +50,12 @@ class Lines {
   template <typename Numbers>
   bool read_if_there(const char* key, Numbers& numbers, Text* refusal = nullptr) {
     if (!begin(key)) return false;
-    if (starts_with(at_, "none\n")) {
-      at_ += 4;
-      end_line();
+    if (reader_.word("none")) {
+      if (!reader_.is_end_of_line()) refuse(key);
       return false;
     }
-    if (refusal != nullptr && starts_with(at_, "refused ")) {
-      at_ += 8;
-      if (!(take_text(*refusal) && !refusal->is_empty() && end_line())) refuse(key);
+    if (refusal != nullptr && reader_.word("refused")) {
+      if (!take_text(*refusal) || refusal->is_empty()) refuse(key);
       return false;
     }
     const bool is_read = take_numbers(numbers);
@@ -69,25 +64,13 @@ class Lines {
   }
 
  private:
-  void refuse(const char* key) { expected_ = key; }
-
-  // Goes to the first value of a line with this key.
+  // Goes to the first value of the next line, which must have this key.
   bool begin(const char* key) {
     if (!is_good()) return false;
-    const size_t size = strlen(key);
-    if (!starts_with(at_, key) || at_[size] != ' ') {
-      refuse(key);
-      return false;
-    }
-    at_ += size + 1;
-    return true;
-  }
-
-  bool end_line() {
-    if (*at_ != '\n') return false;
-    ++at_;
     ++number_;
-    return true;
+    if (reader_.next_line() && reader_.word(key)) return true;
+    refuse(key);
+    return false;
   }
 
   template <typename Numbers>
@@ -96,31 +79,21 @@ class Lines {
     char* into = reinterpret_cast<char*>(&numbers);
     for (size_t i = 0; i < sizeof numbers; i += sizeof(double)) {
       double number;
-      if (i > 0 && *at_++ != ' ') return false;
-      if (!read_hexadecimal(at_, number)) return false;
+      if (!reader_.real(number) || !isfinite(number)) return false;
       memcpy(into + i, &number, sizeof number);
     }
-    return end_line();
+    return reader_.is_end_of_line();
   }
 
   bool take_text(Text& text) {
+    const char* words;
     text.clear();
-    if (*at_++ != '"') return false;
-    for (; *at_ != '"'; ++at_) {
-      if (*at_ == '\0' || *at_ == '\n') return false;
-      char character[2] = {*at_, '\0'};
-      if (*at_ == '\\') {
-        ++at_;
-        character[0] = *at_ == 'n' ? '\n' : *at_ == 'r' ? '\r' : *at_;
-        if (*at_ == '\0' || *at_ == '\n') return false;
-      }
-      text << character;
-    }
-    ++at_;
-    return true;
+    if (!reader_.text(words)) return false;
+    text << words;
+    return reader_.is_end_of_line();
   }
 
-  const char* at_;
+  LineReader reader_;
   int number_ = 1;
   const char* expected_ = nullptr;
 };
@@ -208,6 +181,7 @@ void read_machines(Lines& lines, PreparedShip& ship) {
   ship.has_manoeuvring = lines.read_if_there("manoeuvring", ship.manoeuvring);
   ship.has_propeller = lines.read_if_there("propeller", ship.propeller);
   ship.has_series = lines.read_if_there("series", ship.series, &ship.series_refusal);
+  if (ship.has_propeller != (ship.has_series || !ship.series_refusal.is_empty())) lines.refuse("series");
   if (ship.series_refusal.is_empty() && lines.read_if_there("torque", root_and_per_speed)) {
     lines.read("most", ship.torque.most);
     lines.read("least", ship.torque.least);
@@ -221,16 +195,15 @@ void read_machines(Lines& lines, PreparedShip& ship) {
 
 }  // namespace
 
-bool read_prepared_ship(const char* content, size_t size, const char* file, PreparedShip& ship, Text& why) {
+bool read_prepared_ship(char* content, size_t size, const char* file, PreparedShip& ship, Text& why) {
   why.clear();
   if (!check_first_line(content, size, file, why) || !check_checksum(content, size, file, why)) return false;
-  Lines lines(content);
-  lines.skip_line();
+  Lines lines(content, size - LAST_LINE);
   read_body(lines, ship);
   read_machines(lines, ship);
-  if (!lines.is_good() || ship.has_propeller != (ship.has_series || !ship.series_refusal.is_empty())) {
+  if (!lines.is_good()) {
     why << file << " is damaged: line " << lines.number() << " must be the key ";
-    why.quote(lines.is_good() ? "series" : lines.expected()) << " with its values; prepare the ship again";
+    why.quote(lines.expected()) << " with its values; prepare the ship again";
     return false;
   }
   return true;

@@ -49,9 +49,9 @@ struct PreparedShip {
   }
 };
 
-// Reads the content of a prepared file, which ends with a zero after `size` bytes. `file` names it in messages. False
-// for a file that is damaged, of another kind or of another version; the ship is then of no use.
-bool read_prepared_ship(const char* content, size_t size, const char* file, PreparedShip& ship, Text& why);
+// Reads the content of a prepared file, which ends with a zero after `size` bytes and is changed. `file` names it in
+// messages. False for a file that is damaged, of another kind or of another version; the ship is then of no use.
+bool read_prepared_ship(char* content, size_t size, const char* file, PreparedShip& ship, Text& why);
 
 // Reads a ship by its name among those in `directory`/ships, or by the path of its file: text with the suffix .ship or
 // a path separator. A relative path is looked for in `directory`, then in the current folder.

@@ -12,6 +12,11 @@ from .options import FMI, PATH, SCENARIO, SHIP
 
 __all__ = ["build", "package", "prepare", "validate"]
 
+PLATFORMS = click.option(
+    "--platforms", metavar="NAME,...",
+    help="With --native: some of linux64, win64, darwin64 and aarch64-linux.  [default: all]",
+)  # fmt: skip
+
 
 @click.command()
 @click.option("--out", type=PATH, default=Path("build"), show_default=True, help="Folder.")
@@ -22,10 +27,7 @@ __all__ = ["build", "package", "prepare", "validate"]
     help="Ships of ShipCollision; one is enough where it meets obstacles.  [default: own,target]",
 )  # fmt: skip
 @click.option("--native", is_flag=True, help="ShipManoeuvring in C++, for hosts without Python.")
-@click.option(
-    "--platforms", metavar="NAME,...",
-    help="With --native: some of linux64, win64, darwin64 and aarch64-linux.  [default: all]",
-)  # fmt: skip
+@PLATFORMS
 @click.option("--sources", is_flag=True, help="With --native: the FMU brings its C++ sources, too.")
 def build(
     out: Path, fmi: str, scalar: bool, ships: str | None, native: bool, platforms: str | None, sources: bool
@@ -65,15 +67,23 @@ def _build_native(out: Path, fmi: int, scalar: bool, platforms: str | None, sour
     """The FMUs that have a native form."""
     from ..files import check_writable
     from ..fmi.builder.native_fmus import build_native_fmus
-    from ..toolchain.platforms import PLATFORMS
 
     check_writable(out)
-    chosen = tuple(PLATFORMS) if platforms is None else _split(platforms)
-    with progress("native code") as report:
-        built = build_native_fmus(out, fmi=fmi, scalar=scalar, platforms=chosen, sources=sources, report=report)
+    built = build_native_fmus(out, fmi=fmi, scalar=scalar, platforms=_compile(platforms), sources=sources)
     for path in built.values():
         say(str(path))
     say("note: ShipCollision has no native form yet; `shipcollision build` makes it with Python", err=True)
+
+
+def _compile(platforms: str | None) -> tuple[str, ...]:
+    """The platforms of an option, all without it. Their libraries are compiled into the cache, with progress."""
+    from ..toolchain import fmu_binaries
+    from ..toolchain import platforms as known
+
+    chosen = tuple(known.PLATFORMS) if platforms is None else _split(platforms)
+    with progress("native code") as report:
+        fmu_binaries.build_binaries(fmu_binaries.choose_platforms(chosen), report)
+    return chosen
 
 
 def _split(names: str) -> tuple[str, ...]:
@@ -98,6 +108,8 @@ def _split(names: str) -> tuple[str, ...]:
     "--replace", multiple=True, metavar="SHIP=FILE.fmu",
     help="A ship model of your own, coupled by force; FILE.toml beside it names its variables.",
 )  # fmt: skip
+@click.option("--native", is_flag=True, help="Our ships run without Python; the collision runs Python.")
+@PLATFORMS
 @click.option("--overwrite", is_flag=True, help="Replace files of other origin at the place of the package, too.")
 def package(
     scenario: str,
@@ -108,6 +120,8 @@ def package(
     fmi: str,
     inputs: bool,
     replace: tuple[str, ...],
+    native: bool,
+    platforms: str | None,
     overwrite: bool,
 ) -> None:
     """Make a system of FMUs for other hosts.
@@ -125,21 +139,25 @@ def package(
         raise click.UsageError("choose one form: --ssp or --osp")
     if inputs and not ssp:
         raise click.UsageError("--inputs is for --ssp: an OSP system has all variables without it")
+    if platforms is not None and not native:
+        raise click.UsageError("--platforms is for native code: add --native or leave it out")
     foreign = {ship: read_foreign_ship(Path(file)) for ship, file in map(_split_replacement, replace)}
     loaded = load_scenario(scenario)
+    compiled = _compile(platforms) if native else ()
     if ssp:
         place = out if out is not None else Path(f"{loaded.name}.ssp")
         if place.suffix != ".ssp":
             raise click.UsageError(f"--out {place}: hosts recognise the file by its suffix; call it {place.name}.ssp")
         left_out = write_ssp(
             loaded, place, initial_orders=initial_orders, fmi=int(fmi), inputs=inputs, foreign=foreign,
-            overwrite=overwrite,
+            native=compiled, overwrite=overwrite,
         )  # fmt: skip
     else:
         place = out if out is not None else Path(f"{loaded.name}-osp")
         left_out = write_osp(
-            loaded, place, initial_orders=initial_orders, fmi=int(fmi), foreign=foreign, overwrite=overwrite
-        )
+            loaded, place, initial_orders=initial_orders, fmi=int(fmi), foreign=foreign, native=compiled,
+            overwrite=overwrite,
+        )  # fmt: skip
     for line in left_out:
         say(f"note: {line}", err=True)
     say(str(place))

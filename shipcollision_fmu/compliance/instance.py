@@ -14,17 +14,20 @@ from fmpy.fmi3 import FMU3Slave
 from ..errors import HostError
 from ..fmi.builder.resource_uri import locate_resources
 
-__all__ = ["DISCARD", "WARNING", "Instance"]
+__all__ = ["DISCARD", "ERROR", "WARNING", "Instance"]
 
-WARNING, DISCARD = 1, 2
+WARNING, DISCARD, ERROR = 1, 2, 3
 """Statuses: what is at most a warning succeeded; a discarded step did nothing, and FMI goes on."""
 
 
 class Instance:
     """An FMU instance with the calls of the probes, in one form for both versions of FMI."""
 
-    def __init__(self, folder: Path, token: str | None = None, *, by_standard: bool = False) -> None:
-        """by_standard: the resources are named as FMI demands, not as the wrapper can read it (FMI 2.0)."""
+    def __init__(
+        self, folder: Path, token: str | None = None, *, by_standard: bool = False, location: str | None = None
+    ) -> None:
+        """by_standard: the resources are named as FMI demands, not as the wrapper can read it (FMI 2.0).
+        location: they are named so (FMI 2.0)."""
         self.description = read_model_description(str(folder), validate=False)
         self.fmi = 3 if self.description.fmiVersion.startswith("3") else 2
         slave: type = FMU3Slave if self.fmi == 3 else FMU2Slave
@@ -37,7 +40,7 @@ class Instance:
         if self.fmi == 3 or by_standard:
             self.fmu.instantiate()
         else:
-            self._instantiate(locate_resources(folder))
+            self._instantiate(locate_resources(folder) if location is None else location)
         self.dll, self.component = self.fmu.dll, self.fmu.component
 
     def _instantiate(self, resources: str) -> None:

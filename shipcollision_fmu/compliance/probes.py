@@ -13,24 +13,34 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from .instance import DISCARD, WARNING, Instance
+from .strict_probes import (
+    UNKNOWN_REFERENCE,
+    probe_error_status,
+    probe_locations,
+    probe_state_after_end,
+    probe_state_handle,
+)
 
 __all__ = ["PROBES", "Probe"]
 
 FOLDER_NAME = "a(1) é#%25"
 """Name of a folder with what a URI encodes: brackets, a space, a letter beyond ASCII, and what a URI uses itself."""
-UNKNOWN_REFERENCE = 4_294_967_294
-"""A value reference that no FMU has."""
 
 
 @dataclass(frozen=True)
 class Probe:
     """A probe: its name, its demand in words, the versions of FMI in which a breach is a problem (else a note), its
-    function."""
+    function; and the versions in which it is one for an FMU that needs no tool to run."""
 
     name: str
     demand: str
     binding: tuple[int, ...]
     run: Callable[[Path], Iterator[str]]
+    without_tool: tuple[int, ...] = ()
+
+    def is_binding(self, fmi: int, needs_tool: bool) -> bool:
+        """Whether a breach is a problem in an FMU."""
+        return fmi in self.binding or (not needs_tool and fmi in self.without_tool)
 
 
 def probe_run(folder: Path) -> Iterator[str]:
@@ -258,15 +268,19 @@ PROBES = (
     Probe("set-parameter", "fixed parameters stay", _ALL, probe_setting_parameters),
     Probe("reference", "unknown value references are refused", _ALL, probe_unknown_references),
     # pythonfmu3 passes neither start nor stop time on, so the author of such an FMU cannot comply.
-    Probe("stop-time", "no step after the stop time", (2,), probe_stop_time),
-    Probe("start-time", "time begins at the start time", (2,), probe_start_time),
-    Probe("wrong-reference", "a wrong value reference spoils no other value", (), probe_wrong_reference),
+    Probe("stop-time", "no step after the stop time", (2,), probe_stop_time, _ALL),
+    Probe("start-time", "time begins at the start time", (2,), probe_start_time, _ALL),
+    Probe("wrong-reference", "a wrong value reference spoils no other value", (), probe_wrong_reference, _ALL),
     Probe("reset", "reset is a fresh start", _ALL, probe_reset),
     Probe("instances", "two instances do not disturb each other", _ALL, probe_instances),
     Probe("state", "a restored state repeats to the bit", _ALL, probe_state),
-    # Not binding: no wrapper in Python passes the token on, so the author of a Python FMU cannot comply.
-    Probe("wrong-token", "another token is refused", (), probe_wrong_token),
-    # Nor does pythonfmu's wrapper decode a URI. The last, since it ends the process.
-    Probe("folder-name", f"any name of its folder will do, such as {FOLDER_NAME}", (), probe_folder_name),
+    # No wrapper in Python passes the token on, so the author of a Python FMU cannot comply; nor with what follows.
+    Probe("wrong-token", "another token is refused", (), probe_wrong_token, _ALL),
+    Probe("error-status", "what FMI calls an error answers an error at once", (), probe_error_status, _ALL),
+    Probe("state-handle", "handles of states are used again and nulled", (), probe_state_handle, _ALL),
+    Probe("state-after-end", "a state brings an instance back after its end", (), probe_state_after_end, _ALL),
+    Probe("locations", "every form of the place of the resources is read", (), probe_locations, _ALL),
+    # pythonfmu's wrapper decodes no URI. The last, since it ends the process.
+    Probe("folder-name", f"any name of its folder will do, such as {FOLDER_NAME}", (), probe_folder_name, _ALL),
 )
 """Every probe, in the order of the report."""

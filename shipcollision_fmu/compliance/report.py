@@ -62,7 +62,8 @@ def validate(fmu: Path, *, calls: bool = True, ignore: Collection[str] = ()) -> 
             found += [Finding(rule.name, line, rule.binding) for line in rule.check(subject)]
     if calls:
         fmi = int(subject.description.fmiVersion[0])
-        found += [Finding(probe.name, line, fmi in probe.binding) for probe, line in run_probes(fmu)]
+        needs_tool = bool(getattr(subject.description.coSimulation, "needsExecutionTool", False))
+        found += [Finding(probe.name, line, probe.is_binding(fmi, needs_tool)) for probe, line in run_probes(fmu)]
     return [finding for finding in found if finding.check not in ignore]
 
 

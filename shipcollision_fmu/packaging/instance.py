@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ..cosim.component import Value
+from ..fmi.builder.native_fmus import native_instance_fmu
 from ..fmi.builder.package import instance_fmu
 from ..fmi.interface import Interface
 from ..fmi.variables import Table, Variable
@@ -34,6 +35,7 @@ class Instance:
     shown   variables that a user would change: parameters, orders, wind and current
     files   files in its resources, by path
     fmi     version of FMI; FMI 3.0 without arrays, which SSP 1.0 and OSP cannot connect
+    native  platforms of an FMU without Python; none for one that runs Python
     """
 
     name: str
@@ -43,6 +45,7 @@ class Instance:
     shown: tuple[str, ...]
     files: Mapping[str, bytes]
     fmi: int = 2
+    native: tuple[str, ...] = ()
 
     @property
     def model(self) -> str:
@@ -56,7 +59,8 @@ class Instance:
 
     def build_fmu(self) -> bytes:
         """The FMU file."""
-        return instance_fmu(self.interface, self.ships, self.start, self.files, self.fmi, self.fmi == 3)
+        parts = (self.interface, self.ships, self.start, self.files, self.fmi, self.fmi == 3)
+        return native_instance_fmu(*parts, self.native) if self.native else instance_fmu(*parts)
 
     def list_shown_values(self) -> list[tuple[Variable, Value]]:
         """The variables of `shown` with their start values, in the order of the table."""

@@ -45,19 +45,20 @@ def write_osp(
     initial_orders: bool = False,
     fmi: int = 2,
     foreign: Mapping[str, ForeignShip] | None = None,
+    native: tuple[str, ...] = (),
     overwrite: bool = False,
 ) -> tuple[str, ...]:
     """Write the scenario into the folder `out`; returns sentences on what the folder does not hold.
 
     With `initial_orders` the orders of time 0 are held and everything that a helm does later is left out. Otherwise
     later orders go into scenario.json, and an autopilot, a route or an evasion is refused. With fmi = 3 the FMUs are
-    for FMI 3.0; `foreign`: see build_system_structure. Files of an earlier package are replaced, files of other origin
-    only with `overwrite`. Raises ScenarioError, and HostError when the folder cannot be written.
+    for FMI 3.0; `foreign` and `native`: see build_system_structure. Files of an earlier package are replaced, files of
+    other origin only with `overwrite`. Raises ScenarioError, and HostError when the folder cannot be written.
     """
     if out.is_file():
         raise HostError(f"cannot write to {out}: it is a file; give the name of a folder with --out")
     check_writable(out)
-    system = build_system_structure(scenario, fmi, foreign)
+    system = build_system_structure(scenario, fmi, foreign, native)
     if not initial_orders:
         check_orders_fit(system, "an OSP system", ())
     left_out = list(describe_left_out(system, system.orders if initial_orders else ()))

@@ -49,19 +49,20 @@ def write_ssp(
     fmi: int = 2,
     inputs: bool = False,
     foreign: Mapping[str, ForeignShip] | None = None,
+    native: tuple[str, ...] = (),
     overwrite: bool = False,
 ) -> tuple[str, ...]:
     """Write the scenario as the file `out` (NAME.ssp); returns sentences on what the file does not hold.
 
     With `initial_orders` the orders of time 0 are held and everything that a helm does later is left out. Otherwise a
     scenario with later orders, an autopilot, a route or an evasion is refused. With fmi = 3 the FMUs are for FMI 3.0.
-    `inputs`: see build_ssp; `foreign`: see build_system_structure. An earlier package is replaced, a file of other
-    origin only with `overwrite`. Raises ScenarioError, and HostError when the file cannot be written.
+    `inputs`: see build_ssp; `foreign` and `native`: see build_system_structure. An earlier package is replaced, a file
+    of other origin only with `overwrite`. Raises ScenarioError, and HostError when the file cannot be written.
     """
     check_writable(out.parent)
     if out.is_file() and not (overwrite or _is_of_a_package(out)):
         refuse_other_origin(out.parent, (out.name,), "it is no package of this program", "file")
-    system = build_system_structure(scenario, fmi, foreign)
+    system = build_system_structure(scenario, fmi, foreign, native)
     if not initial_orders:
         check_orders_fit(system, "an .ssp file", system.orders)
     left_out = describe_left_out(system, system.orders)

@@ -29,7 +29,7 @@ from ..scenario.scenario import Scenario
 from ..scenario.tables.ship_start import ShipStart
 from .foreign_ship import ForeignShip
 from .instance import COLLISION, Connection, Instance
-from .packed_ship import pack_ship
+from .packed_ship import pack_prepared_ship, pack_ship
 from .replaced_ship import build_replaced_ship, connect_replaced_ship, describe_replaced_ship, list_frames
 
 __all__ = [
@@ -76,9 +76,13 @@ class SystemStructure:
 
 
 def build_system_structure(
-    scenario: Scenario, fmi: int = 2, foreign: Mapping[str, ForeignShip] | None = None
+    scenario: Scenario,
+    fmi: int = 2,
+    foreign: Mapping[str, ForeignShip] | None = None,
+    native: tuple[str, ...] = (),
 ) -> SystemStructure:
-    """The system of a scenario, for a version of FMI; foreign: ship models of others in place of ours, by ship.
+    """The system of a scenario, for a version of FMI; foreign: ship models of others in place of ours, by ship;
+    native: platforms for which our ships run without Python.
 
     Raises ScenarioError for a ship named COLLISION, and for a foreign one that is not there, ShipError for a ship file.
     """
@@ -96,7 +100,7 @@ def build_system_structure(
         built.append(
             build_replaced_ship(name, foreign[name], ships)
             if name in foreign
-            else _build_ship(scenario, name, ship, packed[name])
+            else _build_ship(scenario, name, ship, packed[name], native)
         )
     collision = _build_collision(scenario, packed, foreign)
     duration, step = scenario.scenario.duration, scenario.step
@@ -128,15 +132,18 @@ def build_system_structure(
     )
 
 
-def _build_ship(scenario: Scenario, name: str, ship: ShipStart, packed: tuple[str, dict[str, bytes]]) -> Instance:
-    parameters = {**ship_parameters(scenario, name, ship), "ship": packed[0]}
+def _build_ship(
+    scenario: Scenario, name: str, ship: ShipStart, packed: tuple[str, dict[str, bytes]], native: tuple[str, ...]
+) -> Instance:
+    place, files = pack_prepared_ship(name, scenario.ship_file(name)) if native else packed
+    parameters = {**ship_parameters(scenario, name, ship), "ship": place}
     at_start = next((ordered for k, ordered in schedule_orders(ship, scenario.step) if k == 0), [0.0, 0.0])
     inputs: dict[str, Value] = {
         **dict(zip(ORDERS, at_start, strict=True)),
         **dict(zip(SURROUNDINGS, surroundings(scenario), strict=True)),
     }
     start = {**parameters, **inputs}
-    return Instance(name, SHIP_INTERFACE, tuple(scenario.ships), start, tuple(start), packed[1])
+    return Instance(name, SHIP_INTERFACE, tuple(scenario.ships), start, tuple(start), files, native=native)
 
 
 def _build_collision(

@@ -16,7 +16,7 @@ import pytest
 from click.testing import CliRunner
 
 from shipcollision_fmu.cli import main
-from shipcollision_fmu.compliance import probes
+from shipcollision_fmu.compliance import probes, strict_probes
 from shipcollision_fmu.compliance.calls import run_probes
 from shipcollision_fmu.compliance.probes import PROBES
 from shipcollision_fmu.compliance.report import NAMES, find_problems, validate
@@ -24,6 +24,7 @@ from shipcollision_fmu.compliance.rules import RULES
 from shipcollision_fmu.compliance.subject import Subject
 from shipcollision_fmu.cosim.fmu_files import ready_fmus
 from shipcollision_fmu.errors import InputError
+from shipcollision_fmu.fmi.builder.native_fmus import build_native_fmus
 
 
 @pytest.mark.parametrize(
@@ -36,9 +37,11 @@ from shipcollision_fmu.errors import InputError
     ],
 )
 def test_our_fmus_have_no_problem(name: str, fmi: int) -> None:
-    """The notes are faults of the wrappers: they do not tell a slave which guid the host gave, that of FMI 2.0
-    decodes %20 alone in the URI of its resources, that of FMI 3.0 drops start and stop time."""
-    notes = {2: ["wrong-token", "folder-name"], 3: ["stop-time", "start-time", "wrong-token"]}[fmi]
+    """The notes are faults of the wrappers: they do not tell a slave which guid the host gave, refuse most calls with
+    the next step only, and null no handle; that of FMI 2.0 decodes %20 alone in the URI of its resources, that of FMI
+    3.0 drops start and stop time."""
+    both = ["wrong-token", "error-status", "state-handle"]
+    notes = {2: [*both, "locations", "folder-name"], 3: ["stop-time", "start-time", *both]}[fmi]
     assert [one.check for one in validate(ready_fmus(fmi=fmi)[name])] == notes
 
 
@@ -253,7 +256,8 @@ def badly_made(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
 def test_every_probe_finds_what_breaks_it(badly_made: list[Path]) -> None:
     careless, failing = ([(probe.name, line) for probe, line in run_probes(fmu)] for fmu in badly_made)
     names = {probe.name for probe in PROBES}
-    assert {name for name, _ in careless + failing} == names - {"start-time"}  # found in our own FMUs for FMI 3.0
+    # start-time is found in our own FMUs for FMI 3.0, state-after-end below.
+    assert {name for name, _ in careless + failing} == names - {"start-time", "state-after-end"}
     assert ("step-size", "a step of -0.01 s is not refused") in careless
     assert ("stop-time", "a step that ends after the stop time is not refused") in careless
     assert (
@@ -272,7 +276,9 @@ class Strict:
 
     fmi = 2
 
-    def __init__(self, folder: Path, token: str | None = None, *, by_standard: bool = False) -> None:
+    def __init__(
+        self, folder: Path, token: str | None = None, *, by_standard: bool = False, location: str | None = None
+    ) -> None:
         if token is not None:
             raise ValueError("another guid")
         capabilities = SimpleNamespace(canBeInstantiatedOnlyOncePerProcess=False, canGetAndSetFMUstate=False)
@@ -337,8 +343,61 @@ class Strict:
 def test_an_fmu_that_follows_the_state_machine_is_not_blamed(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """After an error FMI allows no step: a probe that asks for one has itself to blame."""
     monkeypatch.setattr(probes, "Instance", Strict)
+    monkeypatch.setattr(strict_probes, "Instance", Strict)
     (tmp_path / "modelDescription.xml").write_text("")
     assert [(probe.name, line) for probe in PROBES for line in probe.run(tmp_path)] == []
+
+
+class Forgetful(Strict):
+    """An instance whose states have nothing in them, and whose handles stay as they are."""
+
+    def __init__(self, folder: Path, **options: Any) -> None:
+        super().__init__(folder, **options)
+        self.description.coSimulation.canGetAndSetFMUstate = True
+
+    def call(self, name: str, *arguments: Any) -> int:
+        """A call by name."""
+        if name == "GetFMUstate":
+            arguments[0]._obj.value = 1
+        return 0 if "FMUstate" in name else super().call(name, *arguments)
+
+
+def test_states_that_restore_nothing_are_found(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr(strict_probes, "Instance", Forgetful)
+    assert list(strict_probes.probe_state_handle(tmp_path)) == [
+        "a handle that was used for another state has not that state",
+        "a handle is not a null pointer after its state was freed",
+    ]
+    assert list(strict_probes.probe_state_after_end(tmp_path)) == [
+        "after terminate a state does not bring it back", "after reset a state does not bring it back",
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("name", "fmi", "needs_tool", "is_binding"),
+    [("folder-name", 2, True, False), ("folder-name", 2, False, True), ("stop-time", 3, True, False),
+     ("stop-time", 3, False, True), ("runs", 3, True, True)],
+)  # fmt: skip
+def test_what_a_wrapper_cannot_give_binds_an_fmu_without_one(
+    name: str, fmi: int, needs_tool: bool, is_binding: bool
+) -> None:
+    (probe,) = (probe for probe in PROBES if probe.name == name)
+    assert probe.is_binding(fmi, needs_tool) == is_binding
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("fmi", "scalar"), [(2, False), (3, False), (3, True)])
+def test_our_native_fmus_have_neither_problem_nor_note(tmp_path: Path, fmi: int, scalar: bool) -> None:
+    (fmu,) = build_native_fmus(tmp_path, fmi=fmi, scalar=scalar, platforms=("linux64",)).values()
+    assert [str(one) for one in validate(fmu)] == []
+
+
+@pytest.mark.slow
+def test_breaches_of_a_native_fmu_are_problems(tmp_path: Path) -> None:
+    """A Python FMU that says it needs no tool."""
+    fmu = changed(tmp_path, 2, 'needsExecutionTool="true"', 'needsExecutionTool="false"')
+    found = {one.check for one in validate(fmu, ignore=["content", "documents"]) if one.binding}
+    assert found == {"wrong-token", "error-status", "state-handle", "locations", "folder-name"}
 
 
 def test_the_command_tells_problems_and_notes(badly_made: list[Path]) -> None:

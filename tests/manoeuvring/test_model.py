@@ -95,7 +95,7 @@ def test_step_before_initialise() -> None:
 
 
 BAD_STARTS: list[tuple[dict[str, Any], type[ShipCollisionError], str]] = [
-    ({"ship": "kvlc2"}, ShipError, r"unknown ship 'kvlc2': did you mean kvlcc2\?"),
+    ({"ship": "kvlc2"}, ShipError, r"unknown ship 'kvlc2': .*kvlcc2"),
     ({"degrees_of_freedom": 5}, ShipError, r"degrees_of_freedom = 5 must be 3"),
     ({"velocity": [nan, 0.0, 0.0]}, ScenarioError, r"initial_velocity = \[nan, 0\.0, 0\.0\] must be finite"),
     ({"rate": [0.0, 0.0, inf]}, ScenarioError, r"initial_rate = \[0\.0, 0\.0, inf\] must be finite"),

@@ -1,4 +1,5 @@
 // The parts of the native ship model one by one, for comparison with their Python twins: numbers in, numbers out.
+#include <stdlib.h>
 #include <string.h>
 
 #include "../../native/export.hpp"
@@ -11,7 +12,7 @@
 #include "../../native/manoeuvring/torque_limit.hpp"
 #include "../../native/manoeuvring/wind.hpp"
 #include "../../native/numbers/crc32.hpp"
-#include "../../native/numbers/hexadecimal.hpp"
+#include "../../native/numbers/line_reader.hpp"
 #include "../../native/ship/coasting_law.hpp"
 
 using namespace shipcollision;
@@ -173,6 +174,16 @@ constexpr Named KERNELS[] = {
 
 void copy_text(char* into, const Text& text) { memcpy(into, text.get(), text.size() + 1); }
 
+// Reads a copy of the content, since reading changes it.
+bool read(const char* content, size_t size, PreparedShip& ship, Text& why) {
+  char* copy = static_cast<char*>(malloc(size + 1));
+  memcpy(copy, content, size);
+  copy[size] = '\0';
+  const bool is_read = read_prepared_ship(copy, size, "some.ship", ship, why);
+  free(copy);
+  return is_read;
+}
+
 }  // namespace
 
 // `count` evaluations of the kernel of that name for the ship of a prepared file, `ins` numbers in and `outs` out of
@@ -181,7 +192,7 @@ SHIPCOLLISION_EXPORT bool shipcollision_evaluate(const char* name, const char* c
                                                  size_t ins, double* out, size_t outs, size_t count) {
   static PreparedShip ship;
   Text why;
-  if (size > 0 && !read_prepared_ship(content, size, "a ship", ship, why)) return false;
+  if (size > 0 && !read(content, size, ship, why)) return false;
   for (const Named& named : KERNELS) {
     if (strcmp(named.name, name) != 0) continue;
     for (size_t i = 0; i < count; ++i) named.kernel(ship, in + i * ins, out + i * outs);
@@ -193,7 +204,7 @@ SHIPCOLLISION_EXPORT bool shipcollision_evaluate(const char* name, const char* c
 SHIPCOLLISION_EXPORT bool shipcollision_read_ship(const char* content, size_t size, char* message) {
   static PreparedShip ship;
   Text why;
-  const bool is_read = read_prepared_ship(content, size, "some.ship", ship, why);
+  const bool is_read = read(content, size, ship, why);
   copy_text(message, is_read ? ship.name : why);
   return is_read;
 }
@@ -221,10 +232,10 @@ SHIPCOLLISION_EXPORT void shipcollision_write_text(const char* words, char* writ
   copy_text(written, text);
 }
 
-// Length of the hexadecimal number at the begin of a text; 0 for other text.
-SHIPCOLLISION_EXPORT size_t shipcollision_read_hexadecimal(const char* text, double* number) {
-  const char* end = text;
-  return read_hexadecimal(end, *number) ? static_cast<size_t>(end - text) : 0;
+// The number that a line consists of; false for other text, which is changed.
+SHIPCOLLISION_EXPORT bool shipcollision_read_real(char* text, double* number) {
+  LineReader reader(text, strlen(text));
+  return reader.next_line() && reader.real(*number) && reader.is_end_of_line();
 }
 
 SHIPCOLLISION_EXPORT uint32_t shipcollision_crc32(const void* bytes, size_t size) { return crc32(bytes, size); }

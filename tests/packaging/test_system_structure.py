@@ -18,9 +18,11 @@ from fmpy.ssp.ssd import read_ssd, read_ssv
 from fmpy.validation import validate_fmu
 
 from shipcollision_fmu.errors import HostError, InputError, ScenarioError, ShipError
+from shipcollision_fmu.fmi.builder import native_fmus
 from shipcollision_fmu.fmi.interface import Interface
 from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
+from shipcollision_fmu.manoeuvring.prepared_ship import prepare_ship
 from shipcollision_fmu.packaging.osp import build_osp_files, write_osp
 from shipcollision_fmu.packaging.osp_groups import KINDS, list_collision_groups, list_ship_groups
 from shipcollision_fmu.packaging.packed_ship import pack_ship
@@ -29,6 +31,7 @@ from shipcollision_fmu.packaging.system_structure import TimedOrder, build_syste
 from shipcollision_fmu.scenario.scenario import list_scenario_names, load_scenario
 from shipcollision_fmu.ship.hull.hull import build_hull
 from shipcollision_fmu.ship.loading.library import find_models, load_ship
+from shipcollision_fmu.toolchain.fmu_binaries import Binary
 
 Write = Callable[..., Path]
 OSP = "{http://opensimulationplatform.com/MSMI/OSPSystemStructure}"
@@ -113,6 +116,26 @@ def test_a_ship_file_travels_with_what_it_extends(scenario_file: Write, tmp_path
     np.testing.assert_array_equal(here.M, there.M)
     assert (there.mass, there.L_pp, there.name) == (8.3e6, 100.25, "Barge")
     assert pack_ship("own", "kcs") == ("kcs", {})
+
+
+def test_native_ships_are_prepared_and_the_collision_stays_as_it_is(
+    scenario_file: Write, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    library = Binary("linux64", ".so", b"ELF")
+    monkeypatch.setattr(native_fmus, "build_binaries", lambda platforms: {2: [library]})
+    monkeypatch.setattr(native_fmus, "list_ship_names", lambda: ["buoy"])
+    scenario = load_scenario(str(scenario_file()))
+    own, _, collision = build_system_structure(scenario, native=("linux64",)).instances
+    (tmp_path / "own.fmu").write_bytes(own.build_fmu())
+    assert started(tmp_path / "own.fmu")["ship"] == "ships/own.ship"
+    assert started(tmp_path / "own.fmu")["initial.position.east"] == repr(scenario.ships["own"].start.position[1])
+    with zipfile.ZipFile(tmp_path / "own.fmu") as archive:
+        names = archive.namelist()
+        assert archive.read("resources/ships/own.ship") == prepare_ship(scenario.ship_file("own"))
+    assert "binaries/linux64/ShipManoeuvring.so" in names
+    assert not any(name.endswith((".py", ".toml")) for name in names)
+    assert collision.native == ()
+    assert collision.start["own.ship"] == "ships/own.toml"
 
 
 @pytest.mark.slow

@@ -15,9 +15,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from functools import lru_cache
-from pathlib import Path, PurePosixPath
-from tempfile import TemporaryDirectory
+from functools import cache
+from pathlib import Path
 from typing import Any, Literal
 from uuid import UUID
 from xml.etree.ElementTree import Element
@@ -102,31 +101,13 @@ def native_instance_fmu(
     scalar: bool = False,
     platforms: Sequence[str] = tuple(PLATFORMS),
 ) -> bytes:
-    """A native FMU for one instance in a system: see instance_fmu.
-
-    Its ship may be a ship file among `files`: the FMU holds that ship prepared, and `start` names the prepared file.
-    """
+    """A native FMU for one instance in a system: see instance_fmu. A ship among `files` is a prepared one."""
     if interface.name not in NATIVE_FMUS:
         raise InputError(f"{interface.name} has no native form: of our models {', '.join(NATIVE_FMUS)} has one")
     del ships  # these models are one ship
-    native = replace(interface, table=_table)
-    place = str(start.get("ship", ""))
-    prepared = {}
-    if files:
-        prepared = {str(PurePosixPath(place).with_suffix(SUFFIX)): _prepare_packed(place, files)}
-        start = {**start, "ship": next(iter(prepared))}
     binaries = build_binaries(choose_platforms(platforms))[fmi]
-    return native_fmu_bytes(native, binaries, fmi, scalar, start=start, resources=prepared)
-
-
-def _prepare_packed(ship: str, files: Mapping[str, bytes]) -> bytes:
-    """The prepared file of a ship whose ship file, at `ship`, is among `files`."""
-    with TemporaryDirectory(prefix="shipcollision-") as aside:
-        for name, content in files.items():
-            place = Path(aside, name)
-            place.parent.mkdir(parents=True, exist_ok=True)
-            place.write_bytes(content)
-        return prepare_ship(ship, Path(aside))
+    native = replace(interface, table=_table)
+    return native_fmu_bytes(native, binaries, fmi, scalar, start=start, resources=files)
 
 
 def native_fmu_bytes(
@@ -174,10 +155,12 @@ def _describe(
     return model_description_fmi2(interface, (), token, start, native=True, sources=list_compiled() if sources else ())
 
 
-@lru_cache(1)
 def _prepare_ships() -> dict[str, bytes]:
-    """The shipped ships by their place among the resources; half a second."""
-    return {f"{SHIPS}/{name}{SUFFIX}": prepare_ship(name) for name in list_ship_names()}
+    """The shipped ships by their place among the resources; half a second at the first time."""
+    return {f"{SHIPS}/{name}{SUFFIX}": _prepare(name) for name in list_ship_names()}
+
+
+_prepare = cache(prepare_ship)
 
 
 def _list_licences() -> dict[str, bytes]:

@@ -1,6 +1,6 @@
 /* A host in C that misuses the FMI layer, linked with it so that sanitizers watch both.
  *
- *     exercise calls     RESOURCES2 RESOURCES3 SEED COUNT     sequences of random calls, in both versions of FMI
+ *     exercise calls     RESOURCES2 RESOURCES3 SEED COUNT [REFERENCES]     sequences of random calls, in both versions
  *     exercise locations RESOURCES3 FOLDER     SEED COUNT     random resource locations, and damaged tables of variables
  *     exercise threads   RESOURCES2 RESOURCES3 SEED COUNT     instances in two threads at once
  *     exercise growth    RESOURCES2 RESOURCES3 STEPS INSTANCES     memory after the first tenth and at the end [kB]
@@ -22,9 +22,13 @@
 #include <string.h>
 #include <unistd.h>
 
+#ifndef TOKEN
 #define TOKEN "{00000000-1111-2222-3333-444444444444}"
+#endif
 
 enum { ROOM = 64, STATES = 4, LARGEST_STATE = 70000 };
+
+static int reference_count = 22; /* some of them are no variable */
 
 /* Random numbers: xorshift64*. -------------------------------------------------------------------------------------- */
 
@@ -164,7 +168,7 @@ static size_t snapshot(Host *host, unsigned char *bytes, uint64_t seed) {
 static const double REALS[] = {0.0, -0.0, 1.0, -1.0, NAN, INFINITY, -INFINITY, 1e300, 5e-324, 1e9, 0.05, 3.5};
 static const double STEPS[] = {0.1, 0.1, 0.1, 0.05, 0.0, -0.1, NAN, INFINITY, 1e-300, 1e300};
 static const char *const STRINGS[] = {"", "good", "bad", "bang", "doubt", "%s%n%d%", "../..", "Schiff \xc3\xa4", NULL,
-                                      "\n\t\"'\\", "start"};
+                                      "\n\t\"'\\", "start", "kcs", "buoy", "kvlcc2"};
 static const char *const CATEGORIES[] = {"logEvents", "logStatusError", "logStatusWarning", "logAll", "", NULL};
 
 typedef struct {
@@ -182,7 +186,7 @@ static void choose_references(Fuzz *fuzz) {
   fuzz->count = (size_t)below(&fuzz->random, 5);
   fuzz->size = fuzz->count;
   for (size_t i = 0; i < fuzz->count; i++) {
-    fuzz->references[i] = (unsigned)below(&fuzz->random, 22);
+    fuzz->references[i] = (unsigned)below(&fuzz->random, reference_count);
     if (below(&fuzz->random, 30) == 0) fuzz->references[i] = (unsigned)draw(&fuzz->random);
   }
   if (fuzz->host->fmi == 3) fuzz->size = (size_t)below(&fuzz->random, 9);
@@ -627,6 +631,7 @@ int main(int count, char **given) {
   if (count < 3) fail("usage: exercise COMMAND RESOURCES ...", 0);
   const char *const resources[2] = {given[2], count > 3 ? given[3] : ""};
   const long first = count > 4 ? atol(given[4]) : 0, second = count > 5 ? atol(given[5]) : 0;
+  if (count > 6) reference_count = atoi(given[6]);
   if (strcmp(given[1], "calls") == 0) exercise_calls(resources, (uint64_t)first, (int)second);
   else if (strcmp(given[1], "locations") == 0) exercise_locations(given[2], given[3], (uint64_t)first, (int)second);
   else if (strcmp(given[1], "threads") == 0) exercise_threads(resources, (uint64_t)first, (int)second);

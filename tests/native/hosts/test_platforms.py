@@ -1,0 +1,176 @@
+"""The native FMU in hosts without Python on each platform that can be run here: the same bits everywhere.
+
+linux64 runs in an empty environment, and once in a root folder that has no Python at all. win64 runs under Wine,
+aarch64-linux under QEMU. The expected motion is that of the Python model.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+from urllib.parse import quote
+
+import numpy as np
+import pytest
+from fmpy import extract
+
+from shipcollision_fmu.fmi.builder.native_fmus import build_native_fmus
+from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
+from shipcollision_fmu.toolchain import libraries
+from shipcollision_fmu.toolchain.sources import find_fmi_headers
+from tests.compiler import compile_c
+from tests.native.conftest import CACHE
+from tests.native.hosts.script import STEP, Script, from_bits, write_voyage
+
+pytestmark = pytest.mark.slow
+
+FLAVOURS = {"2": (2, False), "3": (3, False), "3-scalar": (3, True)}
+TARGETS = {"linux64": "x86_64-linux-gnu.2.17", "win64": "x86_64-windows-gnu", "aarch64-linux": "aarch64-linux-gnu.2.17"}
+BINARIES = {
+    "linux64": {"2": "linux64/ShipManoeuvring.so", "3": "x86_64-linux/ShipManoeuvring.so"},
+    "win64": {"2": "win64/ShipManoeuvring.dll", "3": "x86_64-windows/ShipManoeuvring.dll"},
+    "aarch64-linux": {"2": "aarch64-linux/ShipManoeuvring.so", "3": "aarch64-linux/ShipManoeuvring.so"},
+}
+ROOT = "/usr/aarch64-linux-gnu"
+"""Where Debian puts the C library of ARM for QEMU."""
+
+Play = Callable[[str, str, Script], list[str]]
+
+
+@pytest.fixture(scope="module")
+def unpacked(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    """The native FMUs of three platforms, unpacked in folders with blanks, percent signs and letters beyond ASCII."""
+    home = tmp_path_factory.mktemp("native 100% sjø")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(libraries, "native_cache", lambda: CACHE)
+        return {
+            flavour: Path(extract(
+                build_native_fmus(home, fmi=fmi, scalar=scalar, platforms=list(TARGETS))["ShipManoeuvring"],
+                home / flavour,
+            ))
+            for flavour, (fmi, scalar) in FLAVOURS.items()
+        }  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def play(unpacked: dict[str, Path], tmp_path_factory: pytest.TempPathFactory) -> Play:
+    """Lines that play.c prints for a script, by platform and flavour."""
+    home = tmp_path_factory.mktemp("host")
+    programs: dict[str, Path] = {}
+    wine = {"WINEPREFIX": str(home / "wine"), "WINEDEBUG": "-all", "PATH": os.environ["PATH"], "HOME": str(home),
+            "LC_ALL": "C.UTF-8"}  # fmt: skip
+
+    def begin_wine() -> None:
+        if not (home / "wine").exists():  # it says so when it makes one
+            subprocess.run(["wine", "wineboot", "--init"], env=wine, capture_output=True, check=True, timeout=600)
+
+    def program(platform: str) -> Path:
+        if platform not in programs:
+            programs[platform] = home / (f"{platform}.exe" if platform == "win64" else platform)
+            compile_c(
+                "-O1", f"-I{find_fmi_headers()}", "-o", programs[platform], Path(__file__).with_name("play.c"),
+                target=TARGETS[platform],
+            )  # fmt: skip
+        return programs[platform]
+
+    def run(platform: str, flavour: str, script: Script) -> list[str]:
+        folder = unpacked[flavour]
+        library = folder / "binaries" / BINARIES[platform][flavour[0]]
+        command, environment = [str(program(platform))], {}
+        drive = ""
+        if platform == "win64":
+            begin_wine()
+            command, environment, drive = ["wine", *command], wine, "Z:"
+        if platform == "aarch64-linux":
+            command = [str(shutil.which("qemu-aarch64")), "-L", ROOT, *command]
+        resources = f"{folder}/resources"
+        location = f"file:///{drive}{quote(resources)}" if flavour == "2" else f"{drive}{resources}/"
+        done = subprocess.run(
+            [*command, str(script.fmi), f"{drive}{library}", script.token, location.replace("file:////", "file:///")],
+            input=script.text.encode(), capture_output=True, check=False, timeout=600, env=environment,
+        )  # fmt: skip
+        assert (done.returncode, done.stderr) == (0, b"")
+        return done.stdout.decode().splitlines()
+
+    return run
+
+
+def vectors(lines: list[str]) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
+    """The twelve states at the end of what a script printed."""
+    return np.array([from_bits(word) for line in lines[10:] for word in line.split()])
+
+
+@pytest.fixture(scope="module")
+def digests(play: Play, unpacked: dict[str, Path]) -> list[str]:
+    """What linux64 prints in FMI 2.0."""
+    return play("linux64", "2", write_voyage(unpacked["2"]))
+
+
+@pytest.mark.parametrize("degrees_of_freedom", [3, 4, 6])
+def test_a_host_without_python_moves_the_ship_as_the_python_model(
+    play: Play, unpacked: dict[str, Path], degrees_of_freedom: int
+) -> None:
+    lines = play("linux64", "2", write_voyage(unpacked["2"], degrees_of_freedom))
+    ship = ShipManoeuvring()
+    p, i, o = ship.parameters, ship.inputs, ship.outputs
+    p.hydrodynamics, p.degrees_of_freedom = True, degrees_of_freedom
+    p.initial_velocity[0], p.initial_attitude[2] = 7.0, 0.3
+    i.propeller_order, i.current[:], i.wind_speed, i.wind_direction = 1.2, [0.4, -0.7], 14.0, 2.1
+    ship.initialise()
+    for k in range(400):
+        i.rudder_order = 0.5 if k % 200 < 120 else -0.4
+        if k == 100:
+            i.impulse[:] = [-3e8, 1.5e8, 1e6, 2e8, -3e8, 4e10]
+        ship.step(k * STEP, STEP)
+    expected = np.array([*o.position, *o.attitude, *o.velocity, *o.rate])
+    scale = np.repeat([np.abs(expected[k : k + 3]).max() for k in (0, 3, 6, 9)], 3)
+    assert np.abs((vectors(lines) - expected) / scale).max() < 1e-9
+    assert len(set(lines[:10])) == 10
+
+
+@pytest.mark.parametrize(
+    "platform",
+    ["linux64", pytest.param("win64", marks=pytest.mark.needs("wine")),
+     pytest.param("aarch64-linux", marks=pytest.mark.needs("qemu-aarch64"))],
+)  # fmt: skip
+@pytest.mark.parametrize("flavour", list(FLAVOURS))
+def test_the_same_bits_on_each_platform(
+    play: Play, unpacked: dict[str, Path], digests: list[str], platform: str, flavour: str
+) -> None:
+    """States and digests, in FMI 2.0; in FMI 3.0 a state has another table, so its digests are those of linux64."""
+    script = write_voyage(unpacked[flavour])
+    lines = play(platform, flavour, script)
+    assert vectors(lines).tolist() == vectors(digests).tolist()
+    assert lines == (digests if flavour == "2" else play("linux64", flavour, script))
+
+
+def test_a_root_folder_without_python(
+    play: Play, unpacked: dict[str, Path], digests: list[str], tmp_path: Path
+) -> None:
+    """Only the host, the FMU and the C library are there."""
+    inside = tmp_path / "root"
+    shutil.copytree(unpacked["2"], inside / "fmu")
+    program = tmp_path / "host"
+    compile_c("-O1", f"-I{find_fmi_headers()}", "-o", program, Path(__file__).with_name("play.c"), "-ldl")
+    shutil.copy(program, inside / "host")
+    needed = subprocess.run(["ldd", str(program)], capture_output=True, text=True, check=True).stdout
+    for line in needed.splitlines():
+        for word in line.split():
+            if word.startswith("/"):
+                place = inside / word[1:]
+                place.parent.mkdir(parents=True, exist_ok=True)
+                shutil.copy(word, place)
+    assert not list(inside.rglob("*python*"))
+    script = write_voyage(unpacked["2"])
+    chroot = str(shutil.which("chroot", path="/usr/sbin:/sbin:/usr/bin"))
+    enter = [chroot] if os.geteuid() == 0 else [str(shutil.which("unshare")), "--map-root-user", chroot]
+    library, resources = "/fmu/binaries/linux64/ShipManoeuvring.so", "file:///fmu/resources"
+    done = subprocess.run(
+        [*enter, str(inside), "/host", "2", library, script.token, resources], input=script.text.encode(),
+        capture_output=True, check=False, timeout=600, env={},
+    )  # fmt: skip
+    assert (done.returncode, done.stderr) == (0, b"")
+    assert done.stdout.decode().split("\n")[:-1] == digests
