@@ -25,8 +25,8 @@ _ZIG_FLAGS = (
     "-Wglobal-constructors",  # nothing would run them on Windows (native/windows.cpp)
     "-fvisibility-global-new-delete=force-hidden",  # of a host's own operator new
 )
-_SYSTEM = ("g++", "clang++", "c++")
-"""Names of C++ compilers; Windows has none of them as a rule."""
+_SYSTEM = {"g++": "gcc", "clang++": "clang", "c++": "cc"}
+"""Names of C++ compilers, and of the C compilers beside them; Windows has none of them as a rule."""
 
 
 @dataclass(frozen=True)
@@ -87,23 +87,27 @@ def _find_zig() -> tuple[str, str] | None:
     found = find_spec("ziglang")
     for folder in (found.submodule_search_locations or ()) if found is not None else ():
         program = Path(folder) / ("zig.exe" if os.name == "nt" else "zig")
-        if program.is_file():
-            return str(program), _ask(str(program), "version")
+        version = _ask(str(program), "version")
+        if version:
+            return str(program), version
     return None
 
 
 @cache
 def _find_system() -> Compiler | None:
     """The system's compiler. Its C driver links, which adds no library of C++."""
-    for name in _SYSTEM:
-        path = shutil.which(name)
-        driver = shutil.which(name.replace("g++", "gcc").replace("clang++", "clang").replace("c++", "cc"))
-        if path is not None and driver is not None:
-            return Compiler(_ask(path, "--version"), (path,), (driver,))
+    for name, beside in _SYSTEM.items():
+        path, driver = shutil.which(name), shutil.which(beside)
+        version = _ask(path, "--version") if path is not None and driver is not None else ""
+        if path is not None and driver is not None and version:
+            return Compiler(version, (path,), (driver,))
     return None
 
 
 def _ask(*command: str) -> str:
-    """The first line that a program says."""
-    said = subprocess.run(command, capture_output=True, text=True, check=False).stdout
+    """The first line that a program says; none where it is missing or does not run here."""
+    try:
+        said = subprocess.run(command, capture_output=True, text=True, check=False).stdout
+    except OSError:
+        return ""
     return said.partition("\n")[0].strip()

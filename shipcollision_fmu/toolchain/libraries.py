@@ -12,7 +12,7 @@ from time import time
 
 from ..files import IN_PLACE, user_cache, write_file
 from .compilers import Compiler, find_compiler
-from .objects import compile_object, digest_source, run
+from .objects import compile_object, digest_source, is_kept, run
 from .pe import clear_time_stamps
 from .platforms import Target
 from .sources import Part
@@ -67,7 +67,7 @@ def build_libraries(
     home = native_cache() if cache is None else cache
     kind = "here" if prefer_system else "fmu"  # these may come from different compilers
     kept = {target: _find_place(home, name, parts, target, exports, kind) for target in targets}
-    missing = [target for target, path in kept.items() if not _is_kept(path)]
+    missing = [target for target, path in kept.items() if not is_kept(path)]
     compilers = {target: find_compiler(target, prefer_system=prefer_system) for target in missing}
     sources = [(part, file) for part in parts for file in part.files]
     done, total = 0, len(missing) * (len(sources) + 1)
@@ -106,15 +106,6 @@ def _find_place(
     digests = [digest_source(part, file, target) for part in parts for file in part.files]
     key = sha256(repr((name, target.zig, tuple(exports), kind, digests)).encode()).hexdigest()
     return home / key[:32] / f"{name}{target.suffix}"
-
-
-def _is_kept(path: Path) -> bool:
-    """Whether the file is there; then it counts as used."""
-    try:
-        os.utime(path)
-    except OSError:
-        return False
-    return True
 
 
 def _link(objects: Sequence[Path], target: Target, compiler: Compiler, exports: Sequence[str], kept: Path) -> None:

@@ -11,6 +11,7 @@ import re
 import subprocess
 import tempfile
 from collections.abc import Iterator
+from contextlib import suppress
 from hashlib import sha256
 from pathlib import Path
 
@@ -20,7 +21,7 @@ from .compilers import Compiler
 from .platforms import Target
 from .sources import Part
 
-__all__ = ["FLAGS", "compile_object", "digest_source", "run"]
+__all__ = ["FLAGS", "compile_object", "digest_source", "is_kept", "run"]
 
 FLAGS = (
     "-std=c++17", "-O2", "-DNDEBUG",
@@ -46,8 +47,7 @@ def compile_object(part: Part, file: str, target: Target, compiler: Compiler, ca
     """The object of a source, compiled if it is not in the folder `cache`. Raises HostError with the first error."""
     key = sha256(repr((compiler.name, compiler.flags, digest_source(part, file, target))).encode()).hexdigest()
     kept = cache / f"{Path(file).stem}-{key[:32]}.o"
-    if kept.is_file():
-        os.utime(kept)
+    if is_kept(kept):
         return kept
     positions = () if target.is_windows else ("-fPIC",)
     folders = [f"-I{folder}" for folder in part.includes]
@@ -58,6 +58,15 @@ def compile_object(part: Part, file: str, target: Target, compiler: Compiler, ca
         command = [*compiler.compile, *flags, "-c", file, "-o", str(made)]
         run(command, compiler, f"cannot compile {file} for {target.folder}", part.root)
         return write_file(kept, made.read_bytes(), IN_PLACE)
+
+
+def is_kept(path: Path) -> bool:
+    """Whether a file is in the cache; then it counts as used."""
+    if not path.is_file():
+        return False
+    with suppress(OSError):  # the cache may be somebody else's
+        os.utime(path)
+    return True
 
 
 def run(command: list[str], compiler: Compiler, failure: str, folder: Path | None = None) -> None:

@@ -115,6 +115,29 @@ def test_the_systems_compiler_does_where_zig_is_missing(monkeypatch: pytest.Monk
         find_compiler(next(target for target in TARGETS if target.is_windows))
 
 
+@pytest.mark.parametrize(("name", "beside"), [("g++", "gcc"), ("clang++", "clang"), ("c++", "cc")])
+def test_each_usual_compiler_is_found_with_its_driver(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str, beside: str
+) -> None:
+    for program in (name, beside):
+        (tmp_path / program).write_text(f"#!/bin/sh\necho {program} 1.2\n", encoding="ascii")
+        (tmp_path / program).chmod(0o755)
+    monkeypatch.setenv("PATH", str(tmp_path))
+    found = compilers._find_system.__wrapped__()
+    assert found is not None
+    assert (found.name, found.compile, found.link) == (
+        f"{name} 1.2", (str(tmp_path / name),), (str(tmp_path / beside),)
+    )  # fmt: skip
+
+
+def test_a_compiler_that_does_not_run_counts_as_missing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("g++", "gcc"):
+        (tmp_path / name).write_bytes(b"\x7fELF of another machine")
+        (tmp_path / name).chmod(0o755)
+    monkeypatch.setenv("PATH", str(tmp_path))
+    assert compilers._find_system.__wrapped__() is None
+
+
 def own_platform() -> str:
     """Its name on this machine."""
     return next(one.name for one in PLATFORMS.values() if own() in one.targets)
