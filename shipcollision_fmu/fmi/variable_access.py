@@ -282,9 +282,9 @@ class VariableAccess:
             if state["read"] != self._initialised_from:
                 # What the model derives from its parameters is not in its state: it reads them again, inputs harmless.
                 self._write_all(self._fresh)
-                for (container, key), value in zip(self._parameters.values(), state["read"], strict=True):
-                    container[key] = value
+                self._write_parameters(state["read"])
                 self._initialise()
+            self._write_parameters(state["read"])  # others may have been set since the model read these
             self.model.set_state(state["model"])
         self._write_all(state["values"])
         self._dirty = state["dirty"]
@@ -335,6 +335,10 @@ class VariableAccess:
         if note is not None:
             self._paths_set.update(self.table[reference].path for reference in references)
             note(self._paths_set)
+
+    def _write_parameters(self, values: Sequence[Any]) -> None:
+        for (container, key), value in zip(self._parameters.values(), values, strict=True):
+            container[key] = value
 
     def _write_all(self, values: Sequence[Any]) -> None:
         for (container, key), value in zip(self._cells, values, strict=True):

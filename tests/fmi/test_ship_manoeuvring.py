@@ -211,6 +211,21 @@ def test_a_state_goes_into_an_instance_with_other_parameters_and_bad_inputs(ship
     assert b.everything() == a.everything()
 
 
+def test_a_state_goes_into_an_instance_whose_parameters_were_set_since(ship: Make) -> None:
+    """The model read the same parameters as the state's, and then the host set others without letting it read them."""
+    a, b = ship("a"), ship("b")
+    a.begin()
+    a.step(0)
+    b.fmu.setupExperiment()
+    b.fmu.enterInitializationMode()
+    b.reals("position.north")  # an output: the model reads its parameters
+    b.fmu.setString(b.reference("ship"), ["no such ship"])
+    assert b.restore(a.saved()) == OK
+    assert b.messages == []
+    assert (a.step(1), b.step(1)) == (OK, OK)
+    assert b.everything() == a.everything()
+
+
 def test_an_unknown_ship_fails_initialisation(ship: Make, form: str) -> None:
     """Error is right; Python's wrapper has Fatal alone to answer with."""
     a = ship()
