@@ -153,8 +153,8 @@ struct ShipManoeuvring::SetUp {
     tilt_inverse(ship.inverse(free), free, eta[3], eta[4], rows);
     Six after;
     for (int i = 0; i < 6; ++i) {
-      double sum = 0.0;
-      for (int j = 0; j < 6; ++j) sum += rows[i][j] * impulse[j];
+      double sum = rows[i][0] * impulse[0];
+      for (int j = 1; j < 6; ++j) sum += rows[i][j] * impulse[j];
       after[i] = nu[i] + sum;
     }
     return after;

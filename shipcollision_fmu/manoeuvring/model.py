@@ -81,7 +81,10 @@ class _SetUp(NamedTuple):
         """nu + M^-1 impulse, in the motions that are free at that attitude."""
         upright = self.free == 6 or not (eta[3] or eta[4])
         rows = self.M_inverse if upright else tilted_inverse(self.upright, self.free, eta[3:]).tolist()
-        return _six(x + sum(m * P for m, P in zip(row, impulse, strict=True)) for x, row in zip(nu, rows, strict=True))
+        X, Y, Z, K, M, N = impulse  # written out: sum() rounds otherwise from Python 3.12 on
+        return _six(
+            x + (m[0] * X + m[1] * Y + m[2] * Z + m[3] * K + m[4] * M + m[5] * N) for x, m in zip(nu, rows, strict=True)
+        )
 
 
 class ShipManoeuvring:

@@ -17,9 +17,8 @@ from tests.native.kernels import load_kernels
 from tests.native.manoeuvring.state import RUN, STEP, compare, give_state, take_state
 from tests.native.native_ship import NativeShip
 
-SCENARIOS = [
-    pytest.param(name, marks=pytest.mark.slow if name == "kvlcc2_crossing" else ()) for name in list_scenario_names()
-]  # fmt: skip
+MARKS = {"guan2014": pytest.mark.needs("pybullet"), "kvlcc2_crossing": pytest.mark.slow}
+"""guan2014 is answered by PyBullet's own dynamics; kvlcc2_crossing is the longest run."""
 
 
 @dataclass
@@ -56,7 +55,7 @@ def record(name: str) -> list[Record]:
     return list(of_model.values())
 
 
-@pytest.mark.parametrize("name", SCENARIOS)
+@pytest.mark.parametrize("name", [pytest.param(name, marks=MARKS.get(name, ())) for name in list_scenario_names()])
 def test_each_step_and_the_whole_run(name: str) -> None:
     for taken in record(name):
         length = load_ship(taken.parameters.ship).L_pp
