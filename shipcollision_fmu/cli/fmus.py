@@ -186,7 +186,7 @@ def prepare(ship: str, out: Path | None) -> None:
     place = out if out is not None else Path(f"{Path(ship).stem}{SUFFIX}")
     if place.suffix != SUFFIX:
         raise click.UsageError(f"--out {place}: native FMUs know the file by its suffix; call it {place.stem}{SUFFIX}")
-    say(str(write_file(place, prepare_ship(ship))))
+    say(str(write_file(place, prepare_ship(ship, needs_hull=True))))
 
 
 @click.command()

@@ -67,14 +67,17 @@ SEAKEEPING = (
 )  # fmt: skip
 
 
-def prepare_ship(source: str | Path | Mapping[str, Any], directory: Path | None = None) -> bytes:
+def prepare_ship(
+    source: str | Path | Mapping[str, Any], directory: Path | None = None, *, needs_hull: bool = False
+) -> bytes:
     """The content of the prepared file of a ship, which load_ship finds by `source` and `directory`.
 
-    The same ship gives the same bytes. Raises ShipError when the ship is refused; when its hull cannot be made, the
-    file says so in its place, since the ship model does not need it.
+    The same ship gives the same bytes. Raises ShipError when the ship is refused. When its hull cannot be made, the
+    file says so in its place, since the ship model does not need it; with needs_hull, ShipError or HostError is raised.
     """
     ship = load_ship(source, directory)
-    text = "\n".join([f"{FORMAT} {VERSION}", *_describe_body(ship), *_describe_machines(ship), *_describe_hull(ship)])
+    hull = _describe_hull(ship, needs_hull)
+    text = "\n".join([f"{FORMAT} {VERSION}", *_describe_body(ship), *_describe_machines(ship), *hull])
     content = f"{text}\n".encode("utf-8", "replace")
     return content + f"crc32 {crc32(content):08x}\n".encode()
 
@@ -116,17 +119,26 @@ def _describe_series(ship: Ship) -> str:
     return "\n".join([series, torque, _reals("most", limit.most), _reals("least", limit.least)])
 
 
-def _describe_hull(ship: Ship) -> list[str]:
+def _describe_hull(ship: Ship, needed: bool) -> list[str]:
     try:
         hull = build_hull(ship.L_oa, ship.B, ship.T, ship.hull)
-    except ShipError as error:
-        return [f"hull refused {_quote(str(error))}"]
-    except HostError:  # whose message names this machine's Python
-        return [f"hull refused {_quote('the packages that read a mesh were missing when the ship was prepared')}"]
+    except (ShipError, HostError) as error:
+        if needed:
+            raise
+        return [f"hull refused {_quote(_explain_refusal(ship, error))}"]
     lines = [f"hull {len(hull.parts)} {hull.reach.hex()}"]
     for part, planes in zip(hull.parts, hull.planes, strict=True):
         lines += [_reals("part", part.ravel()), _reals("planes", planes.ravel())]
     return lines
+
+
+def _explain_refusal(ship: Ship, error: ShipError | HostError) -> str:
+    """Why there is no hull, without a path of this machine."""
+    if ship.hull.file is not None and not Path(ship.hull.file).is_file():
+        return "the mesh file was missing when the ship was prepared"
+    if isinstance(error, HostError):
+        return "a package that reads meshes was missing when the ship was prepared"
+    return str(error)
 
 
 def _or_refusal(key: str, describe: Callable[[], str]) -> str:

@@ -83,9 +83,19 @@ def test_a_hull_that_cannot_be_made_leaves_the_rest(monkeypatch: pytest.MonkeyPa
 
     monkeypatch.setattr(prepared_ship, "build_hull", refuse)
     content = prepare_ship(ship_tables())
-    hull = 'refused "the packages that read a mesh were missing when the ship was prepared"'
-    assert lines_of(content)["hull"] == hull
+    assert lines_of(content)["hull"] == 'refused "a package that reads meshes was missing when the ship was prepared"'
     assert b"somebody" not in content
+    with pytest.raises(HostError):
+        prepare_ship(ship_tables(), needs_hull=True)
+
+
+def test_a_mesh_that_is_missing_leaves_the_rest(tmp_path: Path) -> None:
+    tables = ship_tables(hull={"shape": "mesh", "file": "hull.obj"})
+    content = prepare_ship(tables, tmp_path)
+    assert lines_of(content)["hull"] == 'refused "the mesh file was missing when the ship was prepared"'
+    assert str(tmp_path).encode() not in content
+    with pytest.raises(ShipError, match=r"hull\.obj: does not exist in"):
+        prepare_ship(tables, tmp_path, needs_hull=True)
 
 
 def called(*arguments: str) -> tuple[int, str]:
