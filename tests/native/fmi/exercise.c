@@ -1,8 +1,9 @@
 /* A host in C that misuses the FMI layer, linked with it so that sanitizers watch both.
  *
  *     exercise calls     RESOURCES2 RESOURCES3 SEED COUNT [REFERENCES]     sequences of random calls, in both versions
- *     exercise locations RESOURCES3 FOLDER     SEED COUNT     random resource locations, and damaged tables of variables
- *     exercise threads   RESOURCES2 RESOURCES3 SEED COUNT     instances in two threads at once
+ *     exercise locations RESOURCES3 FOLDER     SEED COUNT     random resource locations, and damaged tables
+ *     exercise threads   RESOURCES2 RESOURCES3 SEED COUNT [INPUT2 INPUT3]     instances in two threads at once;
+ *                        three inputs, which are one array in FMI 3.0, get the values of a vector
  *     exercise growth    RESOURCES2 RESOURCES3 STEPS INSTANCES     memory after the first tenth and at the end [kB]
  *     exercise rounding  RESOURCES2            a host that flushes small numbers to zero and rounds down
  *
@@ -23,14 +24,14 @@
 #include <unistd.h>
 
 #ifndef TOKEN
-#define TOKEN "{00000000-1111-2222-3333-444444444444}"
+#error "give -DTOKEN: the guid and instantiation token of the FMUs"
 #endif
 
 enum { ROOM = 64, STATES = 4, LARGEST_STATE = 70000 };
 
 static int reference_count = 22; /* some of them are no variable */
 
-/* Random numbers: xorshift64*. -------------------------------------------------------------------------------------- */
+/* Random numbers: xorshift64*. ------------------------------------------------------------------------------------ */
 
 typedef struct {
   uint64_t state;
@@ -57,7 +58,7 @@ static void fail(const char *what, uint64_t seed) {
   _Exit(1);
 }
 
-/* Instances of both versions. --------------------------------------------------------------------------------------- */
+/* Instances of both versions. -------------------------------------------------------------------------------------- */
 
 typedef struct {
   int fmi;
@@ -66,7 +67,8 @@ typedef struct {
   char last[512];
 } Host;
 
-static void take_line2(void *environment, fmi2String name, fmi2Status status, fmi2String category, fmi2String format, ...) {
+static void take_line2(void *environment, fmi2String name, fmi2Status status, fmi2String category, fmi2String format,
+                       ...) {
   Host *host = environment;
   va_list values;
   (void)name, (void)status, (void)category;
@@ -93,8 +95,8 @@ static void open_host(Host *host, int fmi, const char *resources, int is_logging
     snprintf(location, sizeof location, "file://%s", resources);
     host->component = fmi2Instantiate("one", fmi2CoSimulation, TOKEN, location, &functions, 0, is_logging);
   } else {
-    host->component = fmi3InstantiateCoSimulation("one", TOKEN, resources, 0, is_logging, 0, 0, NULL, 0, host, take_line3,
-                                                  NULL);
+    host->component =
+        fmi3InstantiateCoSimulation("one", TOKEN, resources, 0, is_logging, 0, 0, NULL, 0, host, take_line3, NULL);
   }
   if (host->component == NULL) fail(host->last, 0);
 }
@@ -163,7 +165,7 @@ static size_t snapshot(Host *host, unsigned char *bytes, uint64_t seed) {
   return size;
 }
 
-/* Random calls. ----------------------------------------------------------------------------------------------------- */
+/* Random calls. ---------------------------------------------------------------------------------------------------- */
 
 static const double REALS[] = {0.0, -0.0, 1.0, -1.0, NAN, INFINITY, -INFINITY, 1e300, 5e-324, 1e9, 0.05, 3.5};
 static const double STEPS[] = {0.1, 0.1, 0.1, 0.05, 0.0, -0.1, NAN, INFINITY, 1e-300, 1e300};
@@ -390,7 +392,7 @@ static void exercise_calls(const char *const *resources, uint64_t seed, int coun
   printf("%d sequences, %ld lines\n", count, host.lines);
 }
 
-/* Resource locations and tables. ------------------------------------------------------------------------------------ */
+/* Resource locations and tables. ----------------------------------------------------------------------------------- */
 
 static int try_location(Random *random, const char *location, char *line) {
   Host host = {2, NULL, 0, ""};
@@ -496,19 +498,20 @@ static void exercise_locations(const char *resources, const char *folder, uint64
   printf("%d locations, %d with an instance; %d tables, %d with one\n", count, made, count, read);
 }
 
-/* Threads. ---------------------------------------------------------------------------------------------------------- */
+/* Threads. --------------------------------------------------------------------------------------------------------- */
 
 typedef struct {
   const char *const *resources;
   uint64_t seed;
   int count;
+  unsigned input2, input3;
   unsigned char *bytes; /* how the last instance ends */
   size_t size;
 } Work;
 
 static void *work(void *given) {
   Work *work = given;
-  static const unsigned PUSH2[3] = {7, 8, 9}, PUSH3[1] = {6};
+  const unsigned push2[3] = {work->input2, work->input2 + 1, work->input2 + 2}, push3[1] = {work->input3};
   for (int i = 0; i < work->count; i++) {
     Host host = {0, NULL, 0, ""};
     void *state = NULL;
@@ -517,8 +520,8 @@ static void *work(void *given) {
     if (begin(&host, 0.0, 1e6) != 0) fail(host.last, work->seed);
     for (int k = 0; k < 50; k++) {
       const double push[3] = {(double)below(&random, 9), 1.0, -1.0};
-      const int status = host.fmi == 2 ? (int)fmi2SetReal(host.component, PUSH2, 3, push)
-                                       : (int)fmi3SetFloat64(host.component, PUSH3, 1, push, 3);
+      const int status = host.fmi == 2 ? (int)fmi2SetReal(host.component, push2, 3, push)
+                                       : (int)fmi3SetFloat64(host.component, push3, 1, push, 3);
       if (status != 0 || step(&host, k * 0.1, 0.1) != 0) fail(host.last, work->seed);
       if (k == 20 && get_state(&host, &state) != 0) fail(host.last, work->seed);
       if (k == 40 && set_state(&host, state) != 0) fail(host.last, work->seed);
@@ -530,11 +533,11 @@ static void *work(void *given) {
   return NULL;
 }
 
-static void exercise_threads(const char *const *resources, uint64_t seed, int count) {
+static void exercise_threads(const char *const *resources, uint64_t seed, int count, unsigned input2, unsigned input3) {
   static unsigned char bytes[3][LARGEST_STATE];
   Work works[3];
   pthread_t threads[2];
-  for (int i = 0; i < 3; i++) works[i] = (Work){resources, seed, count, bytes[i], 0};
+  for (int i = 0; i < 3; i++) works[i] = (Work){resources, seed, count, input2, input3, bytes[i], 0};
   for (int i = 0; i < 2; i++) {
     if (pthread_create(&threads[i], NULL, work, &works[i]) != 0) fail("no thread", seed);
   }
@@ -546,7 +549,7 @@ static void exercise_threads(const char *const *resources, uint64_t seed, int co
   printf("2 threads, %d instances each\n", count);
 }
 
-/* Growth. ----------------------------------------------------------------------------------------------------------- */
+/* Growth. ---------------------------------------------------------------------------------------------------------- */
 
 static long resident(void) {
   long pages = 0;
@@ -589,7 +592,7 @@ static void exercise_growth(const char *const *resources, long steps, long insta
   printf("%ld instances: %ld to %ld kB\n", instances, first, resident());
 }
 
-/* Rounding. --------------------------------------------------------------------------------------------------------- */
+/* Rounding. -------------------------------------------------------------------------------------------------------- */
 
 #if defined(__x86_64__)
 static void exercise_rounding(const char *resources) {
@@ -631,10 +634,12 @@ int main(int count, char **given) {
   if (count < 3) fail("usage: exercise COMMAND RESOURCES ...", 0);
   const char *const resources[2] = {given[2], count > 3 ? given[3] : ""};
   const long first = count > 4 ? atol(given[4]) : 0, second = count > 5 ? atol(given[5]) : 0;
-  if (count > 6) reference_count = atoi(given[6]);
+  const int third = count > 6 ? atoi(given[6]) : -1, fourth = count > 7 ? atoi(given[7]) : 6;
+  const unsigned input2 = third < 0 ? 7 : (unsigned)third, input3 = (unsigned)fourth;
+  if (third > 0) reference_count = third;
   if (strcmp(given[1], "calls") == 0) exercise_calls(resources, (uint64_t)first, (int)second);
   else if (strcmp(given[1], "locations") == 0) exercise_locations(given[2], given[3], (uint64_t)first, (int)second);
-  else if (strcmp(given[1], "threads") == 0) exercise_threads(resources, (uint64_t)first, (int)second);
+  else if (strcmp(given[1], "threads") == 0) exercise_threads(resources, (uint64_t)first, (int)second, input2, input3);
   else if (strcmp(given[1], "growth") == 0) exercise_growth(resources, first, second);
   else if (strcmp(given[1], "rounding") == 0) exercise_rounding(given[2]);
   else fail("no such command", 0);

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import shutil
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
 from typing import Literal
@@ -66,17 +69,24 @@ def write_fmu(
     return folder
 
 
-def build_exercise(cache: Path, folder: Path, *flags: str) -> Path:
-    """The program exercise.c, linked with the FMI layer by g++, with flags for both, such as of a sanitizer."""
+def build_exercise(
+    cache: Path, folder: Path, *flags: str, parts: Sequence[Part] | None = None, token: str = TOKEN
+) -> Path:
+    """The program exercise.c, linked with the FMI layer by g++, with flags for both, such as of a sanitizer.
+
+    `parts` are sources in place of those of the test models, `token` that of the FMUs made of them.
+    """
     target, headers = find_own_target(), find_fmi_headers()
     assert target is not None
     compiler = find_compiler(target, prefer_system=True)
-    objects = [
-        compile_object(replace(part, flags=(*part.flags, *flags)), file, target, compiler, cache / "objects")
-        for part in list_test_sources()
+    sources = [
+        (replace(part, flags=(*part.flags, *flags)), file)
+        for part in parts or list_test_sources()
         for file in part.files
     ]
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        objects = list(pool.map(lambda source: compile_object(*source, target, compiler, cache / "objects"), sources))
     program = folder / "exercise"
-    compile_c("-std=c11", "-D_GNU_SOURCE", "-O2", *flags, f"-I{headers}", HERE / "exercise.c", *objects, "-o", program,
-              "-lm", "-lpthread")  # fmt: skip
+    options = "-std=c11", "-D_GNU_SOURCE", "-O2", *flags, f'-DTOKEN="{token}"', f"-I{headers}"
+    compile_c(*options, HERE / "exercise.c", *objects, "-o", program, "-lm", "-lpthread")
     return program

@@ -5,12 +5,17 @@ from __future__ import annotations
 import re
 import subprocess
 from pathlib import Path
+from zlib import crc32
 
 import pytest
+from fmpy import extract
 
+from shipcollision_fmu.fmi.arrays import gather_arrays
+from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE
 from shipcollision_fmu.toolchain.libraries import native_cache
+from shipcollision_fmu.toolchain.sources import list_fmu_parts
 
-from .native_fmus import build_exercise
+from .native_fmus import TOKEN, build_exercise
 
 CACHE = native_cache()
 pytestmark = pytest.mark.needs("g++")
@@ -27,6 +32,18 @@ def watched(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="session")
 def plain(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return build_exercise(CACHE, tmp_path_factory.mktemp("plain"))
+
+
+@pytest.fixture(scope="session")
+def ships(native_fmus: dict[str, Path], tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    """Unpacked FMUs of the ship by flavour, with the tests' token."""
+    folders = {}
+    for flavour in ("2", "3"):
+        folder = folders[flavour] = Path(extract(native_fmus[flavour], tmp_path_factory.mktemp("ship")))
+        table = folder / "resources" / "variables.txt"
+        text = re.sub(rb'token "[^"]*"', f'token "{TOKEN}"'.encode(), table.read_bytes().rpartition(b"crc32")[0])
+        table.write_bytes(text + f"crc32 {crc32(text):08x}\n".encode())
+    return folders
 
 
 def run(program: Path, command: str, folders: dict[str, Path], *numbers: int, second: Path | None = None) -> str:
@@ -65,6 +82,22 @@ def test_random_locations_and_damaged_tables(watched: Path, native_dummies: dict
 def test_two_threads(native_dummies: dict[str, Path], tmp_path: Path) -> None:
     program = build_exercise(CACHE, tmp_path, *THREAD)
     assert run(program, "threads", native_dummies, 7, 100) == "2 threads, 100 instances each\n"
+
+
+@pytest.mark.slow
+def test_random_calls_on_the_ship(ships: dict[str, Path], tmp_path: Path) -> None:
+    program = build_exercise(CACHE, tmp_path, *ADDRESS, parts=list_fmu_parts())
+    said = run(program, "calls", ships, 0, 3000, len(INTERFACE.table(())) + 5)
+    assert re.match(r"3000 sequences, [1-9]\d{4} lines", said)
+
+
+@pytest.mark.slow
+def test_two_threads_with_a_ship_each(ships: dict[str, Path], tmp_path: Path) -> None:
+    program = build_exercise(CACHE, tmp_path, *THREAD, parts=list_fmu_parts())
+    names = [line.name for line in INTERFACE.table(())]
+    arrays = [array.name for array in gather_arrays(INTERFACE.table(()))]
+    inputs = names.index("force.surge"), arrays.index("force") + 1
+    assert run(program, "threads", ships, 7, 50, *inputs) == "2 threads, 50 instances each\n"
 
 
 @pytest.mark.slow
