@@ -21,10 +21,8 @@ from .platforms import PLATFORMS, Target, find_own_target
 
 __all__ = ["Compiler", "find_compiler"]
 
-_ZIG_FLAGS = (
-    "-Wglobal-constructors",  # nothing would run them on Windows (native/windows.cpp)
-    "-fvisibility-global-new-delete=force-hidden",  # of a host's own operator new
-)
+_ZIG_FLAGS = ("-fvisibility-global-new-delete=force-hidden",)
+"""Ours are not a host's: macOS and Windows have no list of exports."""
 _SYSTEM = {"g++": "gcc", "clang++": "clang", "c++": "cc"}
 """Names of C++ compilers, and of the C compilers beside them; Windows has none of them as a rule."""
 
