@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import ctypes
+import os
 import shutil
 import struct
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -17,6 +19,7 @@ from shipcollision_fmu.toolchain.mach_o import join_libraries
 from shipcollision_fmu.toolchain.pe import clear_time_stamps
 from shipcollision_fmu.toolchain.platforms import PLATFORMS, Target, find_own_target
 from shipcollision_fmu.toolchain.sources import Part, find_native
+from tests.compiler import compile_c
 
 TARGETS = [target for platform in PLATFORMS.values() for target in platform.targets]
 EXPORTS = ("shipcollision_*",)
@@ -164,6 +167,51 @@ def test_another_folder_gives_the_same_bytes_for_every_platform(tmp_path: Path) 
         built.append({target.folder: path.read_bytes() for target, path in made.items()})
     assert built[0] == built[1]
     assert all(str(tmp_path).encode() not in data for data in built[0].values())
+
+
+@pytest.mark.slow
+@pytest.mark.needs("wine")
+def test_windows_runs_constructors_and_extends_the_stack(tmp_path: Path) -> None:
+    """native/windows.cpp in place of MinGW's start-up code. 200 kB of local variables are many pages of a stack; Wine
+    gives them all at once, so it shows that no register is lost, and not that every page is touched."""
+    source = tmp_path / "src"
+    source.mkdir()
+    shutil.copy(find_native() / "windows.cpp", source)
+    (source / "a.cpp").write_text(
+        "static volatile int seed = 5;\n"
+        "struct Made { Made(int value) : number(value) {} int number; };\n"
+        "static Made first(seed), second(seed + 2);\n"
+        'extern "C" __declspec(dllexport) int shipcollision_sum() {\n'
+        "  volatile char pages[200000];\n"
+        "  for (int k = 0; k < 200000; ++k) pages[k] = 1;\n"
+        "  return first.number + 10 * second.number + 100 * pages[seed];\n"
+        "}\n",
+        encoding="ascii",
+    )
+    target = PLATFORMS["win64"].targets[0]
+    part = Part(source, ("a.cpp", "windows.cpp"))
+    build_library("small", [part], target, EXPORTS, cache=tmp_path / "cache")
+    library = next(tmp_path.glob("cache/*/small.dll"))
+    host = tmp_path / "host.c"
+    host.write_text(
+        "#include <windows.h>\n"
+        "int main(int count, char **words) {\n"
+        "  (void)count;\n"
+        '  int (*sum)(void) = (int (*)(void))(void *)GetProcAddress(LoadLibraryA(words[1]), "shipcollision_sum");\n'
+        "  return sum();\n"
+        "}\n",
+        encoding="ascii",
+    )
+    compile_c("-O1", host, "-o", tmp_path / "host.exe", target=target.zig)
+    prefix = {
+        "WINEPREFIX": str(tmp_path / "wine"),
+        "WINEDEBUG": "-all",
+        "PATH": os.environ["PATH"],
+        "HOME": str(tmp_path),
+    }
+    command = ["wine", str(tmp_path / "host.exe"), f"Z:{library}"]
+    done = subprocess.run(command, env=prefix, capture_output=True, check=False, timeout=600)
+    assert done.returncode == 175
 
 
 def test_a_windows_library_without_time_stamp() -> None:
