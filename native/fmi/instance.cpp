@@ -278,7 +278,7 @@ bool Instance::restore(const unsigned char* bytes, size_t size, Text& why) {
     why << access_.name() << ": this saved state cannot be read";
     return false;
   }
-  if (!access_.restore(reader, why)) return false;
+  if (!access_.restore(reader, phase >= Phase::running, why)) return false;
   phase_ = phase;
   experiment_ = experiment;
   return true;

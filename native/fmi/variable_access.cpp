@@ -400,7 +400,6 @@ void VariableAccess::reset() {
 
 void VariableAccess::save(ByteWriter& bytes) const {
   bytes.value(is_dirty_);
-  bytes.value(is_running_);
   bytes.value(is_read_);
   bytes.value(static_cast<uint32_t>(parameters_size_));
   bytes.put(parameters_, parameters_size_);
@@ -410,7 +409,7 @@ void VariableAccess::save(ByteWriter& bytes) const {
   put_values(bytes, false);
 }
 
-bool VariableAccess::restore(ByteReader& bytes, Text& why) {
+bool VariableAccess::restore(ByteReader& bytes, bool is_running, Text& why) {
   ByteWriter counted;
   save(counted);
   unsigned char* before = static_cast<unsigned char*>(malloc(counted.size() + 1));
@@ -420,20 +419,21 @@ bool VariableAccess::restore(ByteReader& bytes, Text& why) {
   }
   ByteWriter written(before, counted.size());
   save(written);
-  const bool is_restored = write_all(bytes, why);
+  const bool was_running = is_running_, is_restored = write_all(bytes, is_running, why);
   if (!is_restored) {
     ByteReader again(before, counted.size());
     Text ignored;
-    write_all(again, ignored);
+    write_all(again, was_running, ignored);
   }
   free(before);
   return is_restored;
 }
 
-bool VariableAccess::write_all(ByteReader& bytes, Text& why) {
-  bool is_dirty = true, is_running = false, is_read = false;
+bool VariableAccess::write_all(ByteReader& bytes, bool is_running, Text& why) {
+  bool is_dirty = true, is_read = false;
   uint32_t parameters_size = 0, state_size = 0;
-  bool is_right = bytes.flag(is_dirty) && bytes.flag(is_running) && bytes.flag(is_read) && bytes.value(parameters_size);
+  bool is_right = bytes.flag(is_dirty) && bytes.flag(is_read) && bytes.value(parameters_size);
+  is_right = is_right && (is_dirty ? !is_running : is_read);  // outputs follow from parameters that were read
   const unsigned char* parameters = is_right ? bytes.take(parameters_size) : nullptr;
   is_right = parameters != nullptr && parameters_size <= parameters_capacity_ && bytes.value(state_size);
   const unsigned char* state = is_right ? bytes.take(state_size) : nullptr;

@@ -52,9 +52,10 @@ class VariableAccess {
   // As freshly made.
   void reset();
 
-  // The whole state as bytes. Restoring answers false, and leaves everything, for what cannot be read.
+  // The whole state as bytes, but for whether it is running, which whoever saves it knows. Restoring answers false, and
+  // leaves everything, for what cannot be read.
   void save(ByteWriter& bytes) const;
-  bool restore(ByteReader& bytes, Text& why);
+  bool restore(ByteReader& bytes, bool is_running, Text& why);
 
   // Refuses references to values of a type that no variable has.
   bool refuse_type(const char* called, const Reference* references, size_t count, Text& why) const;
@@ -91,7 +92,7 @@ class VariableAccess {
   void write_start_values();
   void put_values(ByteWriter& bytes, bool parameters_alone) const;
   bool take_values(ByteReader& bytes, bool parameters_alone) const;
-  bool write_all(ByteReader& bytes, Text& why);
+  bool write_all(ByteReader& bytes, bool is_running, Text& why);
   bool read_again(const unsigned char* parameters, size_t size, Text& why);
 
   const Variables* variables_ = nullptr;

@@ -312,8 +312,29 @@ static int life3(Fuzz *fuzz) {
   }
 }
 
+static uint32_t crc32(const unsigned char *bytes, size_t size) {
+  uint32_t rest = 0xFFFFFFFF;
+  for (size_t i = 0; i < size; i++) {
+    rest ^= bytes[i];
+    for (int bit = 0; bit < 8; bit++) rest = rest & 1 ? rest >> 1 ^ 0xEDB88320 : rest >> 1;
+  }
+  return ~rest;
+}
+
+/* Another value somewhere, mostly near the beginning, and a digest that is right. */
+static void forge(Fuzz *fuzz, unsigned char *bytes, size_t size) {
+  const size_t span = below(&fuzz->random, 2) ? size : 160;
+  for (int i = 1 + below(&fuzz->random, 3); i > 0; i--) {
+    bytes[16 + (size_t)below(&fuzz->random, (int)(span - 16))] = (unsigned char)draw(&fuzz->random);
+  }
+  const uint32_t digest = crc32(bytes + 16, size - 16);
+  memcpy(bytes + 12, &digest, 4);
+}
+
 static void damage(Fuzz *fuzz, unsigned char *bytes, size_t *size) {
-  switch (below(&fuzz->random, 4)) {
+  switch (below(&fuzz->random, 6)) {
+    case 4:
+    case 5: forge(fuzz, bytes, *size); break;
     case 0: *size = (size_t)below(&fuzz->random, (int)*size); break;
     case 1: bytes[below(&fuzz->random, (int)*size)] ^= (unsigned char)(1 << below(&fuzz->random, 8)); break;
     case 2:
@@ -429,15 +450,6 @@ static void choose_location(Random *random, const char *resources, char *locatio
     memset(location + size, 'x', 7000);
     location[size + 7000] = '\0';
   }
-}
-
-static uint32_t crc32(const unsigned char *bytes, size_t size) {
-  uint32_t rest = 0xFFFFFFFF;
-  for (size_t i = 0; i < size; i++) {
-    rest ^= bytes[i];
-    for (int bit = 0; bit < 8; bit++) rest = rest & 1 ? rest >> 1 ^ 0xEDB88320 : rest >> 1;
-  }
-  return ~rest;
 }
 
 static size_t read_table(const char *folder, char *text, size_t room) {
