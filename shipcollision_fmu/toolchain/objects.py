@@ -50,7 +50,7 @@ def compile_object(part: Part, file: str, target: Target, compiler: Compiler, ca
     if is_kept(kept):
         return kept
     positions = () if target.is_windows else ("-fPIC",)
-    folders = [f"-I{folder}" for folder in part.includes]
+    folders = [f"-isystem{folder}" for folder in part.includes]  # where warnings are of no interest
     names = [f"-ffile-prefix-map={folder}=." for folder in part.includes]
     with tempfile.TemporaryDirectory(prefix="shipcollision-") as aside:
         made = Path(aside, "object.o")
