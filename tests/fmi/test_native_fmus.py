@@ -26,7 +26,10 @@ from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE
 from shipcollision_fmu.manoeuvring.prepared_ship import prepare_ship
 from shipcollision_fmu.ship.loading.library import list_ship_names
+from shipcollision_fmu.toolchain.compilers import find_compiler
 from shipcollision_fmu.toolchain.fmu_binaries import Binary, choose_platforms
+from shipcollision_fmu.toolchain.objects import FLAGS, run
+from shipcollision_fmu.toolchain.platforms import find_own_target
 from tests.ship_files import ship_toml
 
 BINARIES = [Binary("linux64", ".so", b"ELF"), Binary("darwin64", ".dylib", b"MACH")]
@@ -168,6 +171,26 @@ def test_sources_travel_and_are_listed(tmp_path: Path, fmi: int) -> None:
     assert {"fmi/fmi2.cpp", "fmi/fmi3.cpp", "manoeuvring/rudder.cpp"} <= set(there)
     assert not any("python" in name or name.startswith("collision") for name in there)
     assert {"sources/fmi2Functions.h", "sources/fmi3Functions.h", "sources/README.txt"} <= set(files)
+
+
+@pytest.mark.slow
+def test_what_is_compiled_from_the_sources_gives_the_same_bits(native_fmus: dict[str, Path], tmp_path: Path) -> None:
+    with zipfile.ZipFile(native_fmus["2"]) as archive:
+        library = next(name for name in archive.namelist() if name.startswith("binaries/"))
+        binary = Binary(library.split("/")[1], Path(library).suffix, archive.read(library))
+    fmu = tmp_path / "with_sources.fmu"
+    fmu.write_bytes(native_fmu_bytes(NATIVE_FMUS["ShipManoeuvring"], [binary], sources=True))
+    start = {"initial.velocity.surge": 5.0, "rudder_order": 0.2, "propeller_order": 1.5, "hydrodynamics": True}
+    expected = simulate(fmu, **start)
+    folder = Path(fmpy.extract(str(fmu), str(tmp_path / "unpacked")))
+    target = find_own_target()
+    assert target is not None
+    compiler = find_compiler(target, prefer_system=True)
+    files = [path.relative_to(folder / "sources").as_posix() for path in (folder / "sources").rglob("*.cpp")]
+    (folder / library).unlink()
+    command = [*compiler.link, "-shared", "-fPIC", *FLAGS, "-I.", "-o", str(folder / library), *files]
+    run(command, compiler, "cannot compile the sources", folder / "sources")
+    assert simulate(folder, **start).tolist() == expected.tolist()
 
 
 def test_names_of_files() -> None:
