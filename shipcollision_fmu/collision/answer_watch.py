@@ -12,7 +12,9 @@ M^-1 J exceeds what other forces could do in the time. A false alarm is worse th
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import reduce
 from math import hypot, inf
+from operator import add  # sum() rounds otherwise from Python 3.12 on
 
 from .bodies import Body
 from .findings import Found
@@ -105,10 +107,10 @@ class AnswerWatch:
         """The share of M^-1 J that the ship shows since the impulse, and whether it is large enough to count."""
         predicted = (body.inverse_at(ship.attitude) @ J).tolist()
         change = [now - then for now, then in zip(ship.velocity + ship.rate, self.nu, strict=True)]
-        whole = sum(a * b for a, b in zip(J, predicted, strict=True))
+        whole = reduce(add, (a * b for a, b in zip(J, predicted, strict=True)))
         if whole <= 0.0 or hypot(*predicted[:3]) < LEAST_CHANGE + OTHER_ACCELERATION * T:
             return 0.0, False
-        return sum(a * b for a, b in zip(J, change, strict=True)) / whole, True
+        return reduce(add, (a * b for a, b in zip(J, change, strict=True))) / whole, True
 
 
 def _other_mass(share: float) -> Found:

@@ -17,7 +17,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import reduce
 from math import dist
+from operator import add  # sum() rounds otherwise from Python 3.12 on
 
 import numpy as np
 
@@ -76,7 +78,7 @@ class ContactPoint:
         place."""
         if len(self.parts) > 1:
             shares = [max(float(part.P @ part.contact.normal), 0.0) for part in self.parts]
-            if (total := sum(shares)) > 0.0:
+            if (total := reduce(add, shares, 0.0)) > 0.0:
                 weights = np.array(shares) / total
                 pressed = [part.contact for part in self.parts]
                 return (

@@ -7,6 +7,8 @@ other, and friction of the pair. The ledger of energy ensures that a fender retu
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import reduce
+from operator import add  # sum() rounds otherwise from Python 3.12 on
 from typing import Any
 
 from .bodies import Body
@@ -39,7 +41,7 @@ class FenderLedger:
     @property
     def energy(self) -> tuple[float, float]:
         """(stored now, dissipated so far) in all of them [J]."""
-        return float(sum(self._stored.values())), self._dissipated
+        return float(reduce(add, self._stored.values(), 0.0)), self._dissipated
 
     def press(
         self, fenders: Mapping[Pair, Fender], detector: Detector, caches: ContactCaches, states: Sequence[BodyState],

@@ -22,7 +22,9 @@ The summary depends neither on the machine's speed nor on whether FMUs or models
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import reduce
 from importlib.metadata import PackageNotFoundError, version
+from operator import add  # sum() rounds otherwise from Python 3.12 on
 from typing import Any
 
 import numpy as np
@@ -147,7 +149,7 @@ def _energy(ships: Mapping[str, Ship], free: Mapping[str, int], states: Mapping[
         name: float(kinetic_energy(ships[name].M, state[3:6], state[6:12], free[name]))
         for name, state in states.items()
     }
-    return kinetic | {"total": sum(kinetic.values())}
+    return kinetic | {"total": reduce(add, kinetic.values())}
 
 
 def _version(package: str) -> str | None:

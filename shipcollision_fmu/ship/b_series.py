@@ -14,7 +14,9 @@ the K_T of the series' regression polynomials, which others transcribed, within 
 from __future__ import annotations
 
 from bisect import bisect_left
+from functools import reduce
 from math import cos, pi, radians, sin
+from operator import add  # sum() rounds otherwise from Python 3.12 on
 
 __all__ = ["FOURIER", "PITCHES", "ROTATION", "compute_bollard_pull", "compute_coefficient", "find_pitch"]
 
@@ -90,4 +92,6 @@ def find_pitch(k_0: float) -> float:
 def _measured(pitch: float, beta_deg: float) -> float:
     beta = radians(beta_deg)
     A, B = FOURIER[pitch]
-    return 0.01 * sum(a * cos(k * beta) + b * sin(k * beta) for k, (a, b) in enumerate(zip(A, B, strict=True)))
+    return 0.01 * reduce(
+        add, (a * cos(k * beta) + b * sin(k * beta) for k, (a, b) in enumerate(zip(A, B, strict=True)))
+    )

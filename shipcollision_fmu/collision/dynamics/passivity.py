@@ -11,7 +11,9 @@ Obstacles do not move, and connect no groups.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import reduce
 from math import hypot
+from operator import add  # sum() rounds otherwise from Python 3.12 on
 
 from ...ship.frames import Array
 from .body_state import BodyState
@@ -45,7 +47,7 @@ def _scale(group: Sequence[Impulse], states: Sequence[BodyState]) -> tuple[float
         for body, J_body in ((c.a, -(P @ c.G_a)), (c.b, P @ c.G_b)):
             J[body] = J[body] + J_body if body in J else J_body
     changes = {body: states[body].M_inverse @ J_body for body, J_body in J.items()}
-    quadratic = sum(float(J[body] @ change) for body, change in changes.items())
+    quadratic = reduce(add, (float(J[body] @ change) for body, change in changes.items()), 0.0)
     if quadratic <= 0.0 or work + 0.5 * quadratic <= ROUNDING * (abs(work) + quadratic):
         return 1.0, 0.0
     return max(0.0, -2.0 * work / quadratic), max(hypot(*change[:3].tolist()) for change in changes.values())

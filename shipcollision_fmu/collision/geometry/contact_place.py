@@ -6,6 +6,9 @@ or a face. Their common corners (clipping.py) are the contact points, each with 
 
 from __future__ import annotations
 
+from functools import reduce
+from operator import add  # sum() rounds otherwise from Python 3.12 on
+
 import numpy as np
 
 from ...ship.frames import Array
@@ -65,7 +68,7 @@ def _plane(feature: list[list[float]]) -> Plane:
     Through an edge passes the plane that is level across it, through a point the level one.
     """
     n = len(feature)
-    h_0, u_0, v_0 = (sum(row[k] for row in feature) / n for k in range(3))
+    h_0, u_0, v_0 = (reduce(add, (row[k] for row in feature)) / n for k in range(3))
     uu = uv = vv = uh = vh = 0.0
     for h, u, v in feature:
         du, dv, dh = u - u_0, v - v_0, h - h_0

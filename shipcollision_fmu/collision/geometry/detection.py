@@ -13,7 +13,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import reduce
 from math import dist
+from operator import add  # sum() rounds otherwise from Python 3.12 on
 
 import numpy as np
 
@@ -174,7 +176,7 @@ class Detector:
         weights = [max(distance - g, 0.0) for _, g in places]
         if not any(weights):
             weights = [1.0] * len(places)
-        total = sum(weights)
+        total = reduce(add, weights)
         middle: Array = sum((w / total * point for (point, _), w in zip(places, weights, strict=True)), np.zeros(3))
         return make_contact(a, b, states, middle, normal, gap)
 

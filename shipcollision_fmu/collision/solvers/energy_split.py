@@ -16,7 +16,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import reduce
 from math import hypot
+from operator import add  # sum() rounds otherwise from Python 3.12 on
 
 import numpy as np
 
@@ -112,7 +114,7 @@ def _reduce(booked: Sequence[Booked]) -> tuple[Contact, Array]:
     are weighted by the normal impulses."""
     first = booked[0].impulse.contact
     weights = [float(b.impulse.P @ b.impulse.contact.normal) for b in booked]
-    whole = sum(weights)
+    whole = reduce(add, weights, 0.0)
     if len(booked) == 1 or whole <= 0.0:
         return first, booked[0].before
     at, v, G_a, G_b = np.zeros(3), np.zeros(3), np.zeros((3, 6)), np.zeros((3, 6))
