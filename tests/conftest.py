@@ -134,6 +134,28 @@ def native_fmus(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
 
 
 @pytest.fixture(scope="session")
+def test_library() -> Path:
+    """The library of the test models."""
+    from tests.native.fmi import native_fmus as native_dummy
+
+    return native_dummy.build_test_library(NATIVE_CACHE)
+
+
+@pytest.fixture(scope="session")
+def native_dummies(test_library: Path, tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    """Unpacked FMUs of the dummy, by flavour: "2", "3", and "3-scalar"."""
+    from tests.fmi.Dummy import INTERFACE
+    from tests.native.fmi import native_fmus as native_dummy
+
+    home = tmp_path_factory.mktemp("native")
+    return {
+        "2": native_dummy.write_fmu(home / "2", test_library, INTERFACE),
+        "3": native_dummy.write_fmu(home / "3", test_library, INTERFACE, 3),
+        "3-scalar": native_dummy.write_fmu(home / "3-scalar", test_library, INTERFACE, 3, scalar=True),
+    }
+
+
+@pytest.fixture(scope="session")
 def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Chrome]:
     """A browser for all pages: to start it takes longer than to open a page."""
     from tests.show.browser import chromium

@@ -18,6 +18,7 @@ from fmpy.fmi2 import FMU2Slave, byref, defaultCallbacks, fmi2CallbackFunctions,
 from shipcollision_fmu.fmi.builder.package import build_fmus, fmu_bytes
 from shipcollision_fmu.fmi.variable_access import VariableAccess
 
+DISCARD, ERROR = 2, 3
 DUMMY = Path(__file__).with_name("Dummy.py")
 
 
@@ -100,7 +101,12 @@ def real_unpacked(
 
 
 class Host:
-    """An instance, its variables by name, and what it logged as (status, message)."""
+    """An instance, its variables by name, and what it logged as (status, message).
+
+    refusal: the status of a step that the standard calls an error; Python's wrapper has Discard alone to answer with.
+    """
+
+    refusal = 0
 
     def __init__(self, unpacked: Path, name: str, logging: bool = True) -> None:
         description = read_model_description(str(unpacked))
@@ -179,13 +185,30 @@ class Host:
         return status
 
 
+OF_PYTHON = pytest.mark.parametrize("form", ["Python"], indirect=True)
+"""Marks what the wrapper of Python alone does, or does in its own way; tests/native/fmi has native code's."""
+
+
+@pytest.fixture(params=["Python", "native"])
+def form(request: pytest.FixtureRequest) -> str:
+    """The dummy with Python inside, and its twin without: what holds for both is tested of both."""
+    name: str = request.param
+    return name
+
+
 @pytest.fixture
-def host(unpacked: Path) -> Iterator[Callable[..., Host]]:
+def host(form: str, request: pytest.FixtureRequest) -> Iterator[Callable[..., Host]]:
     """Makes instances of the dummy FMU, and frees them."""
     made: list[Host] = []
+    python, native = (
+        (lambda: request.getfixturevalue("unpacked")),
+        lambda: request.getfixturevalue("native_dummies")["2"],
+    )
+    dummy: Path = python() if form == "Python" else native()
 
-    def make(name: str = "instance", *, logging: bool = True, at: Path = unpacked) -> Host:
+    def make(name: str = "instance", *, logging: bool = True, at: Path = dummy) -> Host:
         made.append(Host(at, name, logging))
+        made[-1].refusal = DISCARD if form == "Python" else ERROR
         return made[-1]
 
     yield make
