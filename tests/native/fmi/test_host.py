@@ -11,6 +11,7 @@ import pytest
 from shipcollision_fmu.toolchain.sources import find_fmi_headers
 from tests.compiler import compile_c
 from tests.fmi.Dummy import INTERFACE
+from tests.toolchain.binary_files import read_library
 
 from .native_fmus import TOKEN
 
@@ -51,15 +52,12 @@ def test_an_empty_environment_gives_the_values_of_python(
 
 
 def test_the_library_needs_the_c_library_alone(test_library: Path) -> None:
-    said = subprocess.run(["readelf", "-d", test_library], capture_output=True, text=True, check=True).stdout
-    needed = [line.partition("[")[2].partition("]")[0] for line in said.splitlines() if "NEEDED" in line]
-    assert set(needed) <= {"libc.so.6", "libm.so.6"}
-    exported = subprocess.run(["nm", "-D", "--defined-only", test_library], capture_output=True, text=True, check=True)
-    names = {line.split()[2].partition("@")[0] for line in exported.stdout.splitlines()}
+    contents = read_library(test_library.read_bytes())
+    assert contents.loads <= {"libc.so.6", "libm.so.6"}
     declared = {
         name
         for header in ("fmi2Functions.h", "fmi3Functions.h")
         for name in re.findall(r"^\s*FMI[23]_Export \w+TYPE\s+(\w+);", (find_fmi_headers() / header).read_text(), re.M)
     }
-    assert names == declared
+    assert contents.exports == declared
     assert len(declared) == 44 + 75
