@@ -95,35 +95,6 @@ def test_start_values_are_those_of_the_table(host: Make) -> None:
     assert read_everything(host()) == read_python(INTERFACE.make_access())
 
 
-def test_outputs_in_initialisation_follow_the_parameters(host: Make) -> None:
-    a = host()
-    a.fmu.setReal(a.reference("gain.first"), [0.25])
-    a.fmu.setupExperiment()
-    a.fmu.enterInitializationMode()
-    assert a.place() == [0.25] * 3
-    a.fmu.setReal(a.reference("gain.first"), [-0.0])
-    assert [math.copysign(1.0, x) for x in a.place()] == [-1.0] * 3
-    a.fmu.setString(a.reference("word"), ["ship ahoy"])
-    a.fmu.exitInitializationMode()
-    assert a.fmu.getString(a.reference("said")) == [b"ship ahoy"]
-
-
-def test_instances_do_not_disturb_each_other(host: Make) -> None:
-    def run(*instances: Host) -> list[str]:
-        for instance, push in zip(instances, (1.0, -2.0), strict=False):
-            instance.fmu.setReal(instance.reference("gain.second"), [push / 7.0])
-            instance.begin()
-        for k in range(20):
-            for instance, push in zip(instances, (1.0, -2.0), strict=False):
-                instance.fmu.setReal(instance.reference("push.x"), [push * k])
-                assert instance.step(k) == OK
-        return [instance.everything() for instance in instances]
-
-    together = run(host("a"), host("b"))
-    assert run(host("c")) == together[:1]
-    assert together[0] != together[1]
-
-
 # Refused calls: an error, one line, and nothing is changed. -----------------------------------------------------------
 
 REFUSED: list[tuple[str, Sequence[int], Sequence[Any], str]] = [
