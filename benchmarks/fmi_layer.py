@@ -26,15 +26,15 @@ from fmpy.fmi2 import FMU2Slave, defaultCallbacks
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
-from shipcollision_fmu.fmi.interface import Interface  # noqa: E402
-from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE as SHIP  # noqa: E402
-from shipcollision_fmu.fmi.variables import real  # noqa: E402
-from shipcollision_fmu.manoeuvring.prepared_ship import prepare_ship  # noqa: E402
-from shipcollision_fmu.toolchain.libraries import build_library, native_cache  # noqa: E402
-from shipcollision_fmu.toolchain.platforms import find_own_target  # noqa: E402
-from shipcollision_fmu.toolchain.sources import find_fmi_headers, list_fmu_parts  # noqa: E402
-from tests.compiler import compile_c  # noqa: E402
-from tests.native.fmi.native_fmus import TOKEN, build_test_library, write_fmu  # noqa: E402
+from shipcollision_fmu.fmi.interface import Interface  # noqa: E402  # after the path is set
+from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE as SHIP  # noqa: E402  # after the path is set
+from shipcollision_fmu.fmi.variables import real  # noqa: E402  # after the path is set
+from shipcollision_fmu.manoeuvring.prepared_ship import prepare_ship  # noqa: E402  # after the path is set
+from shipcollision_fmu.toolchain.libraries import build_library, native_cache  # noqa: E402  # after the path is set
+from shipcollision_fmu.toolchain.platforms import find_own_target  # noqa: E402  # after the path is set
+from shipcollision_fmu.toolchain.sources import find_fmi_headers, list_fmu_parts  # noqa: E402  # after the path is set
+from tests.compiler import compile_c  # noqa: E402  # after the path is set
+from tests.native.fmi.native_fmus import TOKEN, build_test_library, write_fmu  # noqa: E402  # after the path is set
 
 INPUTS, OUTPUTS = 36, 80
 ROUNDS, CHAINS = 30, 400
@@ -149,7 +149,7 @@ def main() -> None:
                 first, second = map(median, took)
                 ratio = median(b / a for a, b in zip(*took, strict=True))
                 name = fmus[1][0]
-                print(f"{shape}, {how}: bare {first:.1f} us, {name} {second:.1f} us, {ratio:.2f} times")  # noqa: T201
+                print(f"{shape}, {how}: bare {first:.1f} us, {name} {second:.1f} us, {ratio:.2f} times")  # noqa: T201  # a program that prints
 
 
 if __name__ == "__main__":

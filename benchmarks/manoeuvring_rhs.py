@@ -92,9 +92,9 @@ def shipmmg() -> Contender | None:
     basic = {
         "L_pp": L, "B": ship.B, "d": d, "x_G": float(ship.r_bg[0]), "D_p": propeller.D_p, "m": ship.mass,
         "I_zG": ship.mass * (0.25 * L) ** 2, "A_R": rudder.A_R, "η": propeller.D_p / rudder.H_R,
-        "m_x": hull.m_x * unit, "m_y": hull.m_y * unit, "J_z": hull.J_z * unit * L**2, "f_α": rudder.f_alpha,  # noqa: RUF001
+        "m_x": hull.m_x * unit, "m_y": hull.m_y * unit, "J_z": hull.J_z * unit * L**2, "f_α": rudder.f_alpha,  # noqa: RUF001  # the other program's symbols
         "ϵ": rudder.epsilon, "t_R": rudder.t_R, "x_R": rudder.x_R * L, "a_H": rudder.a_H, "x_H": rudder.x_H * L,
-        "γ_R_minus": rudder.gamma_R_minus, "γ_R_plus": rudder.gamma_R_plus, "l_R": rudder.l_R, "κ": rudder.kappa,  # noqa: RUF001
+        "γ_R_minus": rudder.gamma_R_minus, "γ_R_plus": rudder.gamma_R_plus, "l_R": rudder.l_R, "κ": rudder.kappa,  # noqa: RUF001  # the other program's symbols
         "t_P": propeller.t_P, "w_P0": propeller.w_P0, "x_P": propeller.x_P,
     }  # fmt: skip
     derivatives = {
@@ -136,7 +136,7 @@ def _fields(of: type, values: dict[str, float]) -> dict[str, float]:
     import unicodedata
 
     plain = {unicodedata.normalize("NFKC", key): value for key, value in values.items()}
-    known = getattr(of, "__dataclass_fields__")  # noqa: B009
+    known = getattr(of, "__dataclass_fields__")  # noqa: B009  # types do not have it for mypy
     return {key: plain[key] for key in known}
 
 

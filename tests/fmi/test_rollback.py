@@ -46,7 +46,7 @@ class Encounter:
             return self.parts[-1]  # type: ignore[no-any-return]  # the component just made
 
         scenario = load_scenario("guan2014_added_mass")
-        ships = lambda name: component(name, MANOEUVRING)  # noqa: E731
+        ships = lambda name: component(name, MANOEUVRING)  # noqa: E731  # short, and used once
         self.system: System = connect(
             scenario, scenario.load_ships(), ships, lambda: component("collision", COLLISION)
         )[0]

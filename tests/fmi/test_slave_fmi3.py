@@ -36,7 +36,7 @@ class Host3:
             modelIdentifier=description.coSimulation.modelIdentifier,
             instanceName=name,
         )
-        log = lambda env, status, category, message: self.messages.append((status, message.decode()))  # noqa: E731
+        log = lambda env, status, category, message: self.messages.append((status, message.decode()))  # noqa: E731  # short, and used once
         self.fmu.instantiate(loggingOn=True, logMessage=log)
         self.dll: Any = self.fmu.dll
         self.component: Any = self.fmu.component

@@ -60,7 +60,7 @@ def test_what_includes_an_edited_file_is_compiled_again(tmp_path: Path) -> None:
 def test_other_names_are_not_exported(tmp_path: Path) -> None:
     library = build(small(tmp_path / "src"), tmp_path / "cache")
     with pytest.raises(AttributeError):
-        library.other  # noqa: B018
+        library.other  # noqa: B018  # the access is what is tested
 
 
 def test_a_library_in_the_cache_needs_no_compiler(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

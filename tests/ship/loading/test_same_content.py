@@ -100,7 +100,7 @@ def test_a_file_that_was_just_written_is_read_again(monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(file_stamp, "SETTLED_NS", 10**18)
     for B in ("20.0", "21.0", "22.0"):
         path = settled(tmp_path / "barge.toml", BARGE.replace("B = 20.0", f"B = {B}"))
-        assert load_ship(path).B == float(B)  # noqa: SIM300
+        assert load_ship(path).B == float(B)  # noqa: SIM300  # the file's value first
 
 
 def mesh_ship(mesh: Path, **changes: Any) -> dict[str, Any]:
