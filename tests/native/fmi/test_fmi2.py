@@ -312,16 +312,6 @@ def test_a_discarded_step_keeps_the_state_before(host: Make) -> None:
     assert a.fmu.getStatus(0) == OK
 
 
-@pytest.mark.parametrize("h", [0.0, -0.1, math.nan, math.inf])
-def test_a_step_that_is_none_is_discarded(host: Make, h: float) -> None:
-    a = host()
-    a.begin()
-    before = a.saved()
-    assert raw(a, "DoStep", c_double(0.0), c_double(h), 1) == DISCARD
-    assert a.messages == [(ERROR, f"Dummy: no step from t = 0.0 s by {h} s: both must be finite and the step > 0")]
-    assert a.saved() == before
-
-
 def test_the_stop_time_is_an_error_and_rounding_is_not(host: Make) -> None:
     a = host()
     a.begin(0.0, 1.0)
@@ -346,13 +336,6 @@ def test_a_gap_is_warned_of_once(host: Make) -> None:
                   "of the time; step from where the last step ended, or restore a state")
     ]  # fmt: skip
     assert a.categories == ["logStatusWarning"]
-
-
-def test_a_stop_before_the_start_is_ignored_with_a_warning(host: Make) -> None:
-    a = host()
-    assert a.begin(3.0, 3.0) == OK
-    assert a.messages == [(WARNING, "stop time 3 s is not after the start time 3 s and is ignored")]
-    assert raw(a, "DoStep", c_double(3.0), c_double(0.1), 1) == OK
 
 
 @pytest.mark.parametrize("start", [math.nan, math.inf])
