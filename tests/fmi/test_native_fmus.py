@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import logging
 import zipfile
+from collections.abc import Callable
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -11,6 +13,8 @@ from xml.etree import ElementTree
 import fmpy
 import pytest
 from fmpy.validation import validate_fmu
+from fmu_manipulation_toolbox.checker import get_checkers
+from fmu_manipulation_toolbox.operations import FMU
 
 from shipcollision_fmu.compliance.report import validate
 from shipcollision_fmu.errors import HostError, InputError
@@ -112,6 +116,42 @@ def test_fmpy_has_no_finding(native_fmus: dict[str, Path], flavour: str) -> None
 @pytest.mark.parametrize("flavour", FLAVOURS)
 def test_our_validator_has_no_finding(native_fmus: dict[str, Path], flavour: str) -> None:
     assert [str(one) for one in validate(native_fmus[flavour])] == []
+
+
+@pytest.fixture
+def findings_of_the_container_tool(caplog: pytest.LogCaptureFixture) -> Callable[[Path], list[str]]:
+    """What `fmutool -check` of fmu-manipulation-toolbox says about an FMU."""
+
+    def check(fmu: Path) -> list[str]:
+        caplog.clear()
+        with caplog.at_level(logging.INFO, "fmu_manipulation_toolbox"):
+            opened = FMU(str(fmu))
+            for checker in get_checkers():
+                opened.apply_operation(checker())
+        assert len(caplog.messages) >= 2  # both checkers speak
+        return [record.getMessage() for record in caplog.records if record.levelno >= logging.WARNING]
+
+    return check
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("flavour", FLAVOURS)
+def test_the_container_tools_own_check_has_no_finding(
+    native_fmus: dict[str, Path], flavour: str, findings_of_the_container_tool: Callable[[Path], list[str]]
+) -> None:
+    assert findings_of_the_container_tool(native_fmus[flavour]) == []
+
+
+@pytest.mark.slow
+def test_the_container_tools_own_check_sees_a_fault(
+    native_fmus: dict[str, Path], findings_of_the_container_tool: Callable[[Path], list[str]], tmp_path: Path
+) -> None:
+    files = contents(native_fmus["2"], tmp_path)
+    files["modelDescription.xml"] = files["modelDescription.xml"].replace(b'name="substep"', b'name="ship"')
+    with zipfile.ZipFile(tmp_path / "damaged.fmu", "w") as archive:
+        for name, data in files.items():
+            archive.writestr(name, data)
+    assert "ship" in "".join(findings_of_the_container_tool(tmp_path / "damaged.fmu"))
 
 
 def simulate(fmu: Path, **start: Any) -> Any:

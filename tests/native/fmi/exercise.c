@@ -4,7 +4,8 @@
  *     exercise locations RESOURCES3 FOLDER     SEED COUNT     random resource locations, and damaged tables
  *     exercise threads   RESOURCES2 RESOURCES3 SEED COUNT [INPUT2 INPUT3]     instances in two threads at once;
  *                        three inputs, which are one array in FMI 3.0, get the values of a vector
- *     exercise growth    RESOURCES2 RESOURCES3 STEPS INSTANCES     memory after the first tenth and at the end [kB]
+ *     exercise growth    RESOURCES2 RESOURCES3 STEPS INSTANCES [INPUT2 OUTPUT2 WORD2]     memory after the first tenth
+ *                        and at the end [kB]; three inputs are moved, three outputs read, a text set if there is one
  *     exercise rounding  RESOURCES2            a host that flushes small numbers to zero and rounds down
  *
  * Random calls are in any order, with any reference, value, size and handle, null pointers among them; arrays are as
@@ -571,19 +572,21 @@ static long resident(void) {
   return pages * (sysconf(_SC_PAGESIZE) / 1024);
 }
 
-static void exercise_growth(const char *const *resources, long steps, long instances) {
-  static const unsigned PUSH[3] = {7, 8, 9}, WORD[1] = {12}, PLACE[3] = {0, 1, 2};
+static void exercise_growth(const char *const *resources, long steps, long instances, unsigned input, unsigned output,
+                            int word) {
+  const unsigned PUSH[3] = {input, input + 1, input + 2}, PLACE[3] = {output, output + 1, output + 2};
+  const unsigned WORD[1] = {(unsigned)word};
   static const char *const WORDS[] = {"start", "bang", "doubt", "a longer word than the others"};
   Host host = {0, NULL, 0, ""};
   void *state = NULL;
-  long first = 0;
+  long first = 0, refused = 0;
   open_host(&host, 2, resources[0], 1);
   if (begin(&host, 0.0, 1e9) != 0) fail(host.last, 0);
   for (long k = 0; k < steps; k++) {
     double values[3] = {(double)(k % 7), k % 1000 == 999 ? NAN : 0.0, 0.0};
     fmi2SetReal(host.component, PUSH, 3, values);
-    fmi2SetString(host.component, WORD, 1, &WORDS[k % 4]);
-    step(&host, (double)k * 0.1, 0.1);
+    if (word >= 0) fmi2SetString(host.component, WORD, 1, &WORDS[k % 4]);
+    refused += step(&host, (double)k * 0.1, 0.1) != 0;
     fmi2GetReal(host.component, PLACE, 3, values);
     if (k % 10 == 0) get_state(&host, &state);
     if (k % 50 == 0) set_state(&host, state);
@@ -592,7 +595,7 @@ static void exercise_growth(const char *const *resources, long steps, long insta
   }
   const long after_steps = resident();
   close_host(&host);
-  printf("%ld steps: %ld to %ld kB\n", steps, first, after_steps);
+  printf("%ld steps, %ld refused: %ld to %ld kB\n", steps, refused, first, after_steps);
   for (long i = 0; i < instances; i++) {
     open_host(&host, 2 + (int)(i % 2), resources[i % 2], 1);
     begin(&host, 0.0, 1.0);
@@ -648,11 +651,13 @@ int main(int count, char **given) {
   const long first = count > 4 ? atol(given[4]) : 0, second = count > 5 ? atol(given[5]) : 0;
   const int third = count > 6 ? atoi(given[6]) : -1, fourth = count > 7 ? atoi(given[7]) : 6;
   const unsigned input2 = third < 0 ? 7 : (unsigned)third, input3 = (unsigned)fourth;
+  const unsigned output2 = count > 7 ? (unsigned)fourth : 0;
+  const int word2 = count > 8 ? atoi(given[8]) : 12;
   if (third > 0) reference_count = third;
   if (strcmp(given[1], "calls") == 0) exercise_calls(resources, (uint64_t)first, (int)second);
   else if (strcmp(given[1], "locations") == 0) exercise_locations(given[2], given[3], (uint64_t)first, (int)second);
   else if (strcmp(given[1], "threads") == 0) exercise_threads(resources, (uint64_t)first, (int)second, input2, input3);
-  else if (strcmp(given[1], "growth") == 0) exercise_growth(resources, first, second);
+  else if (strcmp(given[1], "growth") == 0) exercise_growth(resources, first, second, input2, output2, word2);
   else if (strcmp(given[1], "rounding") == 0) exercise_rounding(given[2]);
   else fail("no such command", 0);
   return 0;
