@@ -25,11 +25,9 @@ void Logger::open(Forward forward, Function function, void* environment, const c
   forward_ = forward;
   function_ = function;
   environment_ = environment;
-  Text name;
-  name << instance;
-  size_t size = name.size() < LONGEST_NAME ? name.size() : LONGEST_NAME - 1;
-  while (size > 0 && (name.get()[size] & 0xC0) == 0x80) size--;  // whole characters of UTF-8
-  memcpy(instance_, name.get(), size);
+  size_t size = strnlen(instance, LONGEST_NAME - 1);
+  while (size > 0 && (instance[size] & 0xC0) == 0x80) size--;  // whole characters of UTF-8
+  memcpy(instance_, instance, size);
   instance_[size] = '\0';
   for (bool& each : is_on_) each = is_on;
   const char* asked = getenv(STDERR);

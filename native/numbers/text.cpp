@@ -8,32 +8,78 @@ namespace {
 constexpr int FEWEST_BELOW = -4;  // Python writes 0.0001 and 1e-05
 constexpr int MOST_BEFORE = 16;   // and 1e+15 as 1000000000000000.0, 1e+16 as 1e+16
 
+constexpr char GAP[] = "...";
+constexpr size_t GAP_SIZE = sizeof GAP - 1;
+constexpr size_t AT_ONCE = 100;  // bytes that are left out beyond need; fewer make a text of a million bytes slow
+
 bool is_continuation(char character) { return (character & 0xc0) == 0x80; }
+
+// Bytes of the character of UTF-8 at `text`, or 0 where none begins: RFC 3629, section 4.
+size_t find_size(const char* text) {
+  const unsigned char* at = reinterpret_cast<const unsigned char*>(text);
+  if (at[0] < 0x80) return 1;
+  const size_t size = at[0] < 0xc2 ? 0 : at[0] < 0xe0 ? 2 : at[0] < 0xf0 ? 3 : at[0] < 0xf5 ? 4 : 0;
+  if (size == 0) return 0;
+  const unsigned char least = at[0] == 0xe0 ? 0xa0 : at[0] == 0xf0 ? 0x90 : 0x80;  // longer than need be
+  const unsigned char most = at[0] == 0xed ? 0x9f : at[0] == 0xf4 ? 0x8f : 0xbf;   // half of UTF-16, or beyond Unicode
+  if (at[1] < least || at[1] > most) return 0;
+  for (size_t i = 2; i < size; ++i) {
+    if (!is_continuation(text[i])) return 0;
+  }
+  return size;
+}
 
 }  // namespace
 
 void Text::clear() {
   size_ = 0;
-  is_full_ = false;
+  kept_ = 0;
   characters_[0] = '\0';
 }
 
-void Text::put(char character) {
-  if (is_full_) return;
-  if (size_ < CAPACITY) {
-    characters_[size_++] = character;
-  } else {
-    is_full_ = true;
-    if (is_continuation(character)) {  // the character that it belongs to is left out
-      while (is_continuation(characters_[size_ - 1])) --size_;
-      --size_;
-    }
-  }
+// A whole character.
+void Text::put(const char* character, size_t size) {
+  if (size_ + size > CAPACITY) make_room(size);
+  for (size_t i = 0; i < size; ++i) characters_[size_++] = character[i];
   characters_[size_] = '\0';
 }
 
+// Leaves out whole characters in the middle, so that so many bytes more are within the capacity.
+void Text::make_room(size_t size) {
+  if (kept_ == 0) {
+    kept_ = CAPACITY / 2;
+    while (is_continuation(characters_[kept_])) --kept_;
+    __builtin_memcpy(characters_ + kept_, GAP, GAP_SIZE);
+  }
+  char* after = characters_ + kept_ + GAP_SIZE;
+  const char* next = after + (size_ + size - CAPACITY) + AT_ONCE;
+  while (is_continuation(*next)) ++next;
+  while (next < characters_ + size_) *after++ = *next++;
+  size_ = static_cast<size_t>(after - characters_);
+}
+
+// The character at `next`, or the byte there where none begins, and moves on to what follows it.
+void Text::put_character(const char*& next) {
+  const size_t size = find_size(next);
+  if (size > 0) {
+    put(next, size);
+    next += size;
+    return;
+  }
+  put_byte(*next++);
+}
+
+// A byte in hexadecimal digits.
+void Text::put_byte(char byte) {
+  static const char hexadecimal[] = "0123456789abcdef";
+  put('\\');
+  put('x');
+  put(hexadecimal[byte >> 4 & 15]);
+  put(hexadecimal[byte & 15]);
+}
+
 Text& Text::operator<<(const char* words) {
-  while (*words != '\0') put(*words++);
+  while (*words != '\0') put_character(words);
   return *this;
 }
 
@@ -103,7 +149,6 @@ Text& Text::list(const double* numbers, size_t count) {
 }
 
 Text& Text::quote(const char* words) {
-  static const char hexadecimal[] = "0123456789abcdef";
   bool has_single = false, has_double = false;
   for (const char* c = words; *c != '\0'; ++c) {
     has_single = has_single || *c == '\'';
@@ -111,19 +156,20 @@ Text& Text::quote(const char* words) {
   }
   const char mark = has_single && !has_double ? '"' : '\'';
   put(mark);
-  for (const char* c = words; *c != '\0'; ++c) {
-    if (*c == mark || *c == '\\') {
+  while (*words != '\0') {
+    const char c = *words;
+    if (c == mark || c == '\\') {
       put('\\');
-      put(*c);
-    } else if (*c == '\n' || *c == '\r' || *c == '\t') {
-      *this << (*c == '\n' ? "\\n" : *c == '\r' ? "\\r" : "\\t");
-    } else if (static_cast<unsigned char>(*c) < 0x20 || *c == 0x7f) {
-      *this << "\\x";
-      put(hexadecimal[*c >> 4]);
-      put(hexadecimal[*c & 15]);
+      put(c);
+    } else if (c == '\n' || c == '\r' || c == '\t') {
+      *this << (c == '\n' ? "\\n" : c == '\r' ? "\\r" : "\\t");
+    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      put_byte(c);
     } else {
-      put(*c);
+      put_character(words);
+      continue;
     }
+    ++words;
   }
   put(mark);
   return *this;

@@ -1,4 +1,5 @@
-// A line of text of bounded length, for messages: no memory is allocated and no locale asked.
+// A line of text of bounded length, for messages: no memory is allocated and no locale asked. It is UTF-8 always, as FMI
+// asks of what is logged: a byte that belongs to no character, as in a path of Linux, is written as \xNN.
 #pragma once
 
 #include <stddef.h>
@@ -7,7 +8,8 @@ namespace shipcollision {
 
 struct Decimal;
 
-// What is longer than the capacity is cut off between two characters of UTF-8.
+// Of what is longer than the capacity the middle is left out, whole characters, with "..." in its place: a refusal has
+// its remedy at the end.
 class Text {
  public:
   static constexpr size_t CAPACITY = 2000;
@@ -29,13 +31,17 @@ class Text {
   Text& quote(const char* words);                          // as Python's repr of a string, in single quotes
 
  private:
-  void put(char character);
+  void put(char character) { put(&character, 1); }
+  void put(const char* character, size_t size);
+  void put_character(const char*& next);
+  void put_byte(char byte);
+  void make_room(size_t size);
   bool put_special(double number);
   void put_decimal(const Decimal& decimal, int most_before, bool is_real);
 
   char characters_[CAPACITY + 1];
   size_t size_;
-  bool is_full_;
+  size_t kept_;  // bytes before the gap; 0: nothing is left out
 };
 
 }  // namespace shipcollision

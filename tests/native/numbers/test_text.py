@@ -79,13 +79,44 @@ def test_text_is_quoted_as_by_python(text: str) -> None:
     assert quoted.value.decode() == repr(text)
 
 
-@pytest.mark.parametrize("size", [1995, 1997, 1998, 1999, 2000, 2001, 5000])
-def test_text_that_is_too_long_is_cut_between_two_characters(size: int) -> None:
-    text = ("x" * (size % 2) + "ø" * (size // 2)).encode()
+def write(text: bytes) -> bytes:
+    """What a Text has of a text and the letters `xy` after it."""
     written = ctypes.create_string_buffer(6000)
     load_kernels().shipcollision_write_text(text, written)
-    assert written.value.decode() == (text + b"xy")[:2000].decode(errors="ignore")[: len(text.decode()) + 2]
-    assert len(written.value) >= min(size + 2, 1999)
+    return written.value
+
+
+@pytest.mark.parametrize("letter", ["x", "ø", "船", "🚢"])
+@pytest.mark.parametrize("size", [1990, 1994, 1997, 1998, 1999, 2000, 2001, 5000, 300_000])
+def test_a_text_that_is_too_long_lacks_its_middle(letter: str, size: int) -> None:
+    """Whole characters are left out, and its end is there, where a refusal has its remedy."""
+    for first in ("", "a", "ab", "abc"):
+        text = first + letter * ((size - len(first)) // len(letter.encode()))
+        written = write(text.encode()).decode()
+        if len(text.encode()) + 2 <= 2000:
+            assert written == f"{text}xy"
+            continue
+        begin, gap, end = written.partition("...")
+        assert gap
+        assert text.startswith(begin)
+        assert f"{text}xy".endswith(end)
+        assert end.endswith("xy")
+        assert 1850 < len(written.encode()) <= 2000
+        assert min(len(begin.encode()), len(end.encode())) > 800
+
+
+NO_UTF8 = [
+    b"\x80", b"\xff\xe4", b"a\xc3", b"\xc3(", b"\xc0\xaf", b"\xc1\xbf", b"\xe0\x9f\xbf", b"\xe2\x82", b"\xed\xa0\x80",
+    b"\xf0\x8f\xbf\xbf", b"\xf0\x9f\x9a", b"\xf4\x90\x80\x80", b"\xf5\x80\x80\x80", b"\xf8\x88\x80\x80\x80",
+    "\u0800\ud7ff\ue000\U0010ffff\x7f\x80".encode(),
+]  # fmt: skip
+
+
+def test_bytes_that_are_no_characters_are_written_in_digits() -> None:
+    random = Random(1)
+    for text in NO_UTF8 + [bytes(random.choices(b"a\x80\xbf\xc3\xe2\xed\xf0\x9f", k=12)) for _ in range(300)]:
+        assert write(text) == text.decode(errors="backslashreplace").encode() + b"xy"
+    assert write(b"\x80" * 5000).decode().endswith("80xy")
 
 
 def test_checksum() -> None:
