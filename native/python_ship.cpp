@@ -27,7 +27,7 @@ bool answer(bool is_done, const Text& why, char* message, size_t capacity) {
 SHIPCOLLISION_EXPORT void* shipcollision_make_ship(const char* directory) {
   if (strlen(directory) >= shipcollision::LONGEST_STRING) return nullptr;
   ShipManoeuvring* ship = new ShipManoeuvring;
-  strcpy(ship->directory, directory);
+  if (ship != nullptr) strcpy(ship->directory, directory);
   return ship;
 }
 

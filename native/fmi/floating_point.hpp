@@ -10,10 +10,10 @@ namespace shipcollision {
 class FloatingPoint {
  public:
   FloatingPoint() : before_(get()) {
-    if (before_ != STANDARD) set(STANDARD);
+    if (is_other()) set(STANDARD);
   }
   ~FloatingPoint() {
-    if (before_ != STANDARD) set(before_);
+    if (is_other()) set(before_);
   }
   FloatingPoint(const FloatingPoint&) = delete;
   FloatingPoint& operator=(const FloatingPoint&) = delete;
@@ -23,11 +23,12 @@ class FloatingPoint {
   using Word = uint32_t;
   static constexpr Word STANDARD = 0x1F80;  // MXCSR: all exceptions masked, no flags raised
   static constexpr Word FLAGS = 0x3F;       // what happened so far
-  static Word get() { return __builtin_ia32_stmxcsr() & ~FLAGS; }
+  static Word get() { return __builtin_ia32_stmxcsr(); }
   static void set(Word word) { __builtin_ia32_ldmxcsr(word); }
 #elif defined(__aarch64__)
   using Word = uint64_t;
   static constexpr Word STANDARD = 0;  // FPCR
+  static constexpr Word FLAGS = 0;     // they are in another register
   static Word get() {
     Word word;
     __asm__ volatile("mrs %0, fpcr" : "=r"(word));
@@ -37,6 +38,8 @@ class FloatingPoint {
 #else
 #error "this processor's floating-point control word is not known here: add its two instructions"
 #endif
+
+  bool is_other() const { return (before_ & ~FLAGS) != STANDARD; }
 
   Word before_;
 };

@@ -6,9 +6,9 @@
 #pragma once
 
 #include <stddef.h>
-#include <stdlib.h>
 
 #include "../manoeuvring/interface.hpp"
+#include "../memory.hpp"
 #include "experiment.hpp"
 #include "floating_point.hpp"
 #include "logger.hpp"
@@ -34,7 +34,7 @@ struct Request {
   bool is_logging;
 };
 
-class Instance {
+class Instance : public OnHeap {
  public:
   // A new instance, or null and a line to the logger.
   static Instance* make(const Request& request);
@@ -43,9 +43,6 @@ class Instance {
   ~Instance();
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;
-
-  static void* operator new(size_t size) noexcept { return malloc(size); }
-  static void operator delete(void* memory) { free(memory); }
 
   Status set_logging(bool is_on, const char* const* categories, size_t count);
 

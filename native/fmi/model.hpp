@@ -2,8 +2,8 @@
 #pragma once
 
 #include <stddef.h>
-#include <stdlib.h>
 
+#include "../memory.hpp"
 #include "../numbers/text.hpp"
 
 namespace shipcollision {
@@ -19,12 +19,9 @@ struct Place {
 };
 
 // A model in time. What can be refused answers false and says why; everything is then as it was.
-class Model {
+class Model : public OnHeap {
  public:
   virtual ~Model() = default;
-
-  static void* operator new(size_t size) noexcept { return malloc(size); }
-  static void operator delete(void* memory) { free(memory); }
 
   // The value at the path of a line of the table ("outputs.position"), entry `index` of the list there, or -1.
   virtual bool find(const char* path, int index, Place& place) = 0;

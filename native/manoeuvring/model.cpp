@@ -123,14 +123,14 @@ bool is_any(const Six& numbers) {
 }  // namespace
 
 // The whole state: pose eta (n), twist nu (b, over ground), ledger, machines, forces by origin.
-struct ShipManoeuvring::State {
+struct ShipManoeuvring::State : OnHeap {
   Six eta, nu, impulse_applied;
   Machines machines;
   Forces forces;
 };
 
 // Everything that follows from the parameters, computed once.
-struct ShipManoeuvring::SetUp {
+struct ShipManoeuvring::SetUp : OnHeap {
   ShipParameters parameters;
   PreparedShip ship;
   int free;  // degrees of freedom
@@ -243,6 +243,10 @@ bool ShipManoeuvring::prepare(SetUp*& prepared, Text& why) const {
     return true;
   }
   prepared = new SetUp;
+  if (prepared == nullptr) {
+    why << "there is no memory for the ship";
+    return false;
+  }
   if (prepared->fill(parameters, directory, why)) return true;
   delete prepared;
   return false;
@@ -252,6 +256,18 @@ void ShipManoeuvring::keep(SetUp* prepared) {
   if (prepared == set_up_) return;
   delete set_up_;
   set_up_ = prepared;
+}
+
+void ShipManoeuvring::give_up(SetUp* prepared) const {
+  if (prepared != set_up_) delete prepared;
+}
+
+bool ShipManoeuvring::reserve_state(SetUp* prepared, Text& why) {
+  if (state_ == nullptr) state_ = new State;
+  if (state_ != nullptr) return true;
+  give_up(prepared);
+  why << "there is no memory for the state of the ship";
+  return false;
 }
 
 bool ShipManoeuvring::find_start(const SetUp& set_up, State& start, Text& warned, Text& why) const {
@@ -291,9 +307,10 @@ bool ShipManoeuvring::initialise(Text& why) {
   if (!prepare(prepared, why)) return false;
   State start;
   if (!find_start(*prepared, start, warned, why)) {
-    if (prepared != set_up_) delete prepared;
+    give_up(prepared);
     return false;
   }
+  if (!reserve_state(prepared, why)) return false;
   keep(prepared);
   warning = warned;
   if (!warned.is_empty() && !set_up_->ship.warning.is_empty()) warning << "; ";
@@ -422,7 +439,6 @@ bool ShipManoeuvring::SetUp::advance(const State& before, const ShipInputs& inpu
 // -- outputs and state -------------------------------------------------------------------------------------------
 
 void ShipManoeuvring::publish(const State& state) {
-  if (state_ == nullptr) state_ = new State;
   *state_ = state;
   memcpy(outputs.position, state.eta.at, sizeof outputs.position);
   memcpy(outputs.attitude, state.eta.at + 3, sizeof outputs.attitude);
@@ -457,7 +473,7 @@ bool ShipManoeuvring::set_state(const void* bytes, size_t size, Text& why) {
     return false;
   }
   SetUp* prepared;
-  if (!prepare(prepared, why)) return false;
+  if (!prepare(prepared, why) || !reserve_state(prepared, why)) return false;
   keep(prepared);
   State state;
   memcpy(&state, bytes, sizeof state);

@@ -1,6 +1,7 @@
 // The motion of one ship: the twin of shipcollision_fmu/manoeuvring/model.py.
 #pragma once
 
+#include "../memory.hpp"
 #include "../numbers/text.hpp"
 #include "interface.hpp"
 
@@ -8,7 +9,7 @@ namespace shipcollision {
 
 // Fill parameters and inputs, then initialise(), then step(t, h) again and again. Calls that can be refused return
 // false and say why; everything is then as it was.
-class ShipManoeuvring {
+class ShipManoeuvring : public OnHeap {
  public:
   struct State;  // the whole state: a value without pointers, whose bytes may be kept
 
@@ -37,6 +38,9 @@ class ShipManoeuvring {
   // The set-up for the parameters, this model's own while they are unchanged.
   bool prepare(SetUp*& prepared, Text& why) const;
   void keep(SetUp* prepared);
+  // Where there is no memory for a state, false; what was prepared for it is then given up.
+  bool reserve_state(SetUp* prepared, Text& why);
+  void give_up(SetUp* prepared) const;
   bool find_start(const SetUp& set_up, State& start, Text& warned, Text& why) const;
   void publish(const State& state);
 
