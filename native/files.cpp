@@ -1,32 +1,62 @@
 #include "files.hpp"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "wide_path.hpp"
 
+#if defined(_WIN32)
+#include <fcntl.h>
+#include <io.h>
+#include <windows.h>
+#else
+#include <errno.h>
+#include <fcntl.h>
+#include <unistd.h>
+#endif
+
 namespace shipcollision {
 
 namespace {
 
+constexpr size_t LARGEST_READ = size_t{1} << 20;  // bytes at once: Windows takes an int
+
 #if defined(_WIN32)
 
-FILE* open(const char* path) {
+int open_file(const char* path) {
   wchar_t wide[LONGEST_PATH + 1];
-  return widen(path, wide) ? _wfopen(wide, L"rb") : nullptr;
+  return widen(path, wide) ? _wopen(wide, _O_RDONLY | _O_BINARY | _O_NOINHERIT) : -1;
 }
+
+bool is_on_disk(int file) { return GetFileType(reinterpret_cast<HANDLE>(_get_osfhandle(file))) == FILE_TYPE_DISK; }
+
+long long read_some(int file, char* bytes, size_t size) { return _read(file, bytes, static_cast<unsigned>(size)); }
+
+void close_file(int file) { _close(file); }
 
 #else
 
-FILE* open(const char* path) { return fopen(path, "rb"); }
+// Of a pipe that nobody writes to, the opening would not end, and the reading of a terminal would not either.
+int open_file(const char* path) { return open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC); }
+
+// What has no place to read from is a pipe, a socket or a terminal.
+bool is_on_disk(int file) { return lseek(file, 0, SEEK_CUR) == 0; }
+
+long long read_some(int file, char* bytes, size_t size) {
+  for (;;) {
+    const ssize_t got = read(file, bytes, size);
+    if (got >= 0 || errno != EINTR) return got;
+  }
+}
+
+void close_file(int file) { close(file); }
 
 #endif
 
 // Reads until the end or one byte beyond the limit; the file's stated size is not trusted.
-bool read_all(FILE* file, size_t limit, char*& bytes, size_t& size) {
+bool read_all(int file, size_t limit, char*& bytes, size_t& size) {
   size_t capacity = 0;
-  for (;;) {
+  while (size <= limit) {
     if (size == capacity) {
       capacity = capacity == 0 ? 65536 : 2 * capacity;
       if (capacity > limit + 1) capacity = limit + 1;
@@ -34,13 +64,14 @@ bool read_all(FILE* file, size_t limit, char*& bytes, size_t& size) {
       if (larger == nullptr) return false;
       bytes = larger;
     }
-    const size_t got = fread(bytes + size, 1, capacity - size, file);
-    size += got;
-    if (size > limit) return true;
+    const size_t left = capacity - size;
+    const long long got = read_some(file, bytes + size, left < LARGEST_READ ? left : LARGEST_READ);
+    if (got < 0) return false;
     if (got == 0) break;
+    size += static_cast<size_t>(got);
   }
   bytes[size] = '\0';
-  return !ferror(file);
+  return true;
 }
 
 }  // namespace
@@ -48,14 +79,14 @@ bool read_all(FILE* file, size_t limit, char*& bytes, size_t& size) {
 FileContent::~FileContent() { free(bytes_); }
 
 bool FileContent::read(const char* path, size_t limit, Text& why) {
-  FILE* file = open(path);
-  if (file == nullptr) {
+  const int file = open_file(path);
+  if (file < 0) {
     why << path << " cannot be opened: it is missing, or may not be read";
     return false;
   }
   size_ = 0;
-  const bool is_read = read_all(file, limit, bytes_, size_);
-  fclose(file);
+  const bool is_read = is_on_disk(file) && read_all(file, limit, bytes_, size_);
+  close_file(file);
   if (!is_read) {
     why << path << " cannot be read: it is not a file";
     return false;

@@ -15,7 +15,7 @@ class FileContent {
   FileContent(const FileContent&) = delete;
   FileContent& operator=(const FileContent&) = delete;
 
-  // Reads the file; false for one that is missing, no file, or longer than `limit` bytes.
+  // Reads the file; false for one that is missing, no file (a folder, a pipe), or longer than `limit` bytes. Never waits.
   bool read(const char* path, size_t limit, Text& why);
 
   char* data() { return bytes_; }

@@ -4,6 +4,7 @@
 
 #if defined(_WIN32)
 #include <io.h>
+#include <wchar.h>
 
 #include "wide_path.hpp"
 #else
@@ -46,11 +47,10 @@ class Names {
 void list_folder(const char* folder, const char* suffix, Text& names) {
   Names found;
 #if defined(_WIN32)
-  Text pattern;
-  pattern << folder << "/*";
   wchar_t wide[LONGEST_PATH + 1];
   _wfinddata64_t entry;
-  if (!widen(pattern.get(), wide)) return;
+  if (!widen(folder, wide) || wcslen(wide) + 2 > LONGEST_PATH) return;
+  wcscat(wide, L"\\*");
   const intptr_t search = _wfindfirst64(wide, &entry);
   if (search == -1) return;
   do {

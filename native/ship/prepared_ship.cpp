@@ -16,6 +16,9 @@ constexpr char FORMAT[] = "shipcollision prepared ship ";
 constexpr char VERSION[] = "1";
 constexpr size_t LONGEST_FILE = size_t{64} << 20;  // bytes; a hull of ten thousand vertices has one million
 
+constexpr char SUFFIX[] = ".ship";
+constexpr size_t LONGEST_FOLDER = 4200, LONGEST_PATH = 4400;  // bytes; no system opens a path of more than 4096
+
 constexpr char CHECKSUM[] = "crc32 ";
 constexpr size_t LAST_LINE = sizeof CHECKSUM - 1 + 8 + 1;  // eight digits and the end of the line
 
@@ -212,27 +215,33 @@ bool read_prepared_ship(char* content, size_t size, const char* file, PreparedSh
 namespace {
 
 bool is_path(const char* text) {
-  return ends_with(text, ".ship") || ends_with(text, ".toml") || strpbrk(text, "/\\") != nullptr;
+  return ends_with(text, SUFFIX) || ends_with(text, ".toml") || strpbrk(text, "/\\") != nullptr;
 }
 
 bool is_absolute(const char* path) {
   return path[0] == '/' || path[0] == '\\' || (path[0] != '\0' && path[1] == ':');
 }
 
-// A path below a folder.
-Text join(const char* folder, const char* path) {
-  Text joined;
-  if (folder[0] != '\0') joined << folder << (ends_with(folder, "/") ? "" : "/");
-  joined << path;
-  return joined;
+// Reads FOLDER/NAME SUFFIX; false for one that cannot be read, or whose path is too long.
+bool read_below(const char* folder, const char* name, const char* suffix, FileContent& content) {
+  char path[LONGEST_PATH];
+  Text unread;
+  const char* const parts[] = {folder, folder[0] == '\0' || ends_with(folder, "/") ? "" : "/", name, suffix};
+  size_t size = 0;
+  for (const char* part : parts) {
+    const size_t more = strlen(part);
+    if (size + more >= sizeof path) return false;
+    memcpy(path + size, part, more);
+    size += more;
+  }
+  path[size] = '\0';
+  return content.read(path, LONGEST_FILE, unread);
 }
 
 bool load_by_path(const char* path, const char* directory, PreparedShip& ship, Text& why) {
   FileContent content;
-  Text unread;
   const bool is_below = directory[0] != '\0' && !is_absolute(path);
-  if ((is_below && content.read(join(directory, path).get(), LONGEST_FILE, unread)) ||
-      content.read(path, LONGEST_FILE, unread)) {
+  if ((is_below && read_below(directory, path, "", content)) || read_below("", path, "", content)) {
     return read_prepared_ship(content.data(), content.size(), path, ship, why);
   }
   why << "ship file " << path << " does not exist or cannot be read: give the path of a prepared ship";
@@ -245,16 +254,19 @@ bool load_by_path(const char* path, const char* directory, PreparedShip& ship, T
 }
 
 bool load_by_name(const char* name, const char* directory, PreparedShip& ship, Text& why) {
-  Text file, unread, names;
-  file << name << ".ship";
-  const Text folder = join(directory, "ships");
+  char folder[LONGEST_FOLDER];
+  Text file, names;
   FileContent content;
-  if (content.read(join(folder.get(), file.get()).get(), LONGEST_FILE, unread)) {
+  file << name << SUFFIX;
+  const size_t size = strnlen(directory, sizeof folder - sizeof "/ships");
+  memcpy(folder, directory, size);
+  strcpy(folder + size, size == 0 ? "ships" : "/ships");
+  if (read_below(folder, name, SUFFIX, content)) {
     return read_prepared_ship(content.data(), content.size(), file.get(), ship, why);
   }
   why << "unknown ship ";
   why.quote(name) << ":";
-  list_folder(folder.get(), ".ship", names);
+  list_folder(folder, SUFFIX, names);
   if (!names.is_empty()) why << " known: " << names << "; or";
   why << " give the path of a prepared ship, which `shipcollision prepare SHIP` writes";
   return false;

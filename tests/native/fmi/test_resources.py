@@ -6,6 +6,7 @@ A location is right by RFC 3986, RFC 8089 (the file scheme) and FMI 2.0.4, secti
 from __future__ import annotations
 
 import ctypes
+import os
 import shutil
 from collections.abc import Callable
 from ctypes import CFUNCTYPE, byref, c_bool, c_char_p, c_int, c_size_t
@@ -298,3 +299,18 @@ def test_a_table_of_four_gigabytes_is_refused(attempt: Try, tmp_path: Path) -> N
 def test_a_folder_in_place_of_the_table_is_refused(attempt: Try, tmp_path: Path) -> None:
     (tmp_path / "variables.txt").mkdir()
     assert attempt(str(tmp_path)) == f"{tmp_path / 'variables.txt'} cannot be read: it is not a file"
+
+
+def test_a_pipe_in_place_of_the_table_is_refused_at_once(attempt: Try, tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "variables.txt")
+    assert attempt(str(tmp_path)) == f"{tmp_path / 'variables.txt'} cannot be read: it is not a file"
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_what_is_logged_is_utf8(attempt: Try, fmi: int) -> None:
+    assert attempt(b"/\xff\xe4/\xc3\xb8", fmi) == (
+        "/\\xff\\xe4/ø/variables.txt cannot be opened: it is missing, or may not be read"
+    )
+    assert attempt(b"\x80" * 4000, fmi).endswith(
+        "\\x80/variables.txt cannot be opened: it is missing, or may not be read"
+    )

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ctypes
+import os
+import shutil
 from pathlib import Path
 from random import Random
 from zlib import crc32
@@ -159,3 +161,29 @@ def test_toml_is_refused_with_the_remedy(folder: Path) -> None:
         "my/ship.toml` and give its path"
     )
     assert start(folder, "") == "ship = '' is no ship: give a name or the path of a prepared ship"
+
+
+def test_a_pipe_is_no_ship(folder: Path) -> None:
+    """It is refused at once: nobody may ever write to it."""
+    os.mkfifo(folder / "pipe.ship")
+    path = str(folder / "pipe.ship")
+    assert start(folder, path) == f"ship file {path} does not exist or cannot be read: give the path of a prepared ship"
+
+
+def test_resources_on_a_long_path(folder: Path) -> None:
+    """Longer than a message can be; no path of a file may have 4096 bytes."""
+    deep, name = folder, "x" * 200
+    while len(str(deep)) < 3600:
+        deep /= name
+    shutil.copytree(folder / "resources", deep / "resources")
+    for ship in ("kvlcc2", "mine.ship", "ships/barge.ship", str(deep / "resources" / "mine.ship")):
+        assert start(deep, ship) == ""
+    said = start(deep, "kvlcc3")
+    assert said.startswith("unknown ship 'kvlcc3': known: barge, kvlcc2; or give")
+    said = start(deep, "no.ship")
+    assert said.startswith(
+        "ship file no.ship does not exist or cannot be read: give the path of a prepared ship (looked for in "
+        f"{folder}/xxx"
+    )
+    assert said.endswith("xxx/resources and the current folder)")
+    assert start(deep / name / name, "kvlcc2").startswith("unknown ship 'kvlcc2': give the path of a prepared ship")
