@@ -1,4 +1,4 @@
-"""compile_c(): the machine's C compiler, or Zig's from PyPI where it has none."""
+"""compile_c(): the machine's C compiler, or Zig's from PyPI where it has none. compile_for_windows(): Zig's."""
 
 from __future__ import annotations
 
@@ -7,9 +7,12 @@ import platform
 import shutil
 import subprocess
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
-__all__ = ["compile_c"]
+from shipcollision_fmu.toolchain.sources import find_native
+
+__all__ = ["compile_c", "compile_for_windows"]
 
 CACHE = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "zig"
 """Zig's own folder, taken before the tests set another cache: the first compilation builds a C library in 9 s."""
@@ -26,3 +29,14 @@ def compile_c(*arguments: object, target: str = "") -> None:
         capture_output=True, text=True, check=False, timeout=600, env=os.environ | caches,
     )  # fmt: skip
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+
+
+def compile_for_windows(program: Path, *sources: Path, flags: Sequence[str] = ()) -> None:
+    """A program for Windows of sources in C and C++, without the start-up code of MinGW."""
+    target, start = "x86_64-windows-gnu", Path(__file__).parent / "native" / "hosts" / "windows_start.c"
+    objects = []
+    for source in (*sources, start, find_native() / "windows.cpp"):
+        objects.append(program.with_name(f"{program.stem}-{source.stem}.o"))
+        compile_c("-O1", "-fno-exceptions", "-fno-rtti", *flags, "-c", source, "-o", objects[-1], target=target)
+    entry = "-Wl,--subsystem,console", "-Wl,-e,mainCRTStartup"
+    compile_c("-nostdlib", *entry, *objects, "-o", program, "-lucrtbase", "-lkernel32", "-lshell32", target=target)

@@ -11,6 +11,7 @@
  *     end
  *
  * The same source is compiled for Linux, Windows and ARM, and prints the same there if the library's bits are the same.
+ * windows_start.c begins it on Windows.
  * What the instance logs goes to standard error. A status above 1 ends the program with 1 and a line. */
 
 #include <stdarg.h>
@@ -24,24 +25,16 @@
 
 #ifdef _WIN32
 #include <windows.h>
-#include <shellapi.h>
 static void *load(const char *path) {
   wchar_t wide[4096];
   MultiByteToWideChar(CP_UTF8, 0, path, -1, wide, 4096);
   return (void *)LoadLibraryW(wide);
 }
 static void *find(void *library, const char *name) { return (void *)GetProcAddress((HMODULE)library, name); }
-/* FMI's strings are UTF-8, which the arguments of main are not. */
-static void take_utf8(int count, char **given) {
-  wchar_t **wide = CommandLineToArgvW(GetCommandLineW(), &count);
-  for (int i = 0; i < count; i++)
-    WideCharToMultiByte(CP_UTF8, 0, wide[i], -1, given[i] = malloc(4096), 4096, NULL, NULL);
-}
 #else
 #include <dlfcn.h>
 static void *load(const char *path) { return dlopen(path, RTLD_NOW | RTLD_LOCAL); }
 static void *find(void *library, const char *name) { return dlsym(library, name); }
-static void take_utf8(int count, char **given) { (void)count, (void)given; }
 #endif
 
 enum { MOST = 64, LONGEST = 8192 };
@@ -231,7 +224,6 @@ static void play(char *line) {
 int main(int count, char **given) {
   static char line[LONGEST];
   if (count != 5) die("usage", "play 2|3 LIBRARY TOKEN RESOURCES < SCRIPT");
-  take_utf8(count, given);
   fmi = atoi(given[1]);
   library = load(given[2]);
   if (!library) die("cannot load", given[2]);

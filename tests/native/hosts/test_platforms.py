@@ -20,8 +20,8 @@ from fmpy import extract
 from shipcollision_fmu.fmi.builder.native_fmus import build_native_fmus
 from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
 from shipcollision_fmu.toolchain import libraries
-from shipcollision_fmu.toolchain.sources import find_fmi_headers
-from tests.compiler import compile_c
+from shipcollision_fmu.toolchain.sources import find_fmi_headers, find_native
+from tests.compiler import compile_c, compile_for_windows
 from tests.native.conftest import CACHE
 from tests.native.hosts.script import STEP, Script, from_bits, write_voyage
 
@@ -56,24 +56,37 @@ def unpacked(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
 
 
 @pytest.fixture(scope="module")
-def play(unpacked: dict[str, Path], tmp_path_factory: pytest.TempPathFactory) -> Play:
+def wine(tmp_path_factory: pytest.TempPathFactory) -> Callable[[], dict[str, str]]:
+    """The environment of Wine, with a Windows of its own, which takes a moment to make."""
+    home = tmp_path_factory.mktemp("wine")
+    made = {"WINEPREFIX": str(home / "wine"), "WINEDEBUG": "-all", "PATH": os.environ["PATH"], "HOME": str(home),
+            "LC_ALL": "C.UTF-8"}  # fmt: skip
+
+    def begin() -> dict[str, str]:
+        if not (home / "wine").exists():  # it says so when it makes one
+            subprocess.run(["wine", "wineboot", "--init"], env=made, capture_output=True, check=True, timeout=600)
+        return made
+
+    return begin
+
+
+@pytest.fixture(scope="module")
+def play(
+    unpacked: dict[str, Path], wine: Callable[[], dict[str, str]], tmp_path_factory: pytest.TempPathFactory
+) -> Play:
     """Lines that play.c prints for a script, by platform and flavour."""
     home = tmp_path_factory.mktemp("host")
     programs: dict[str, Path] = {}
-    wine = {"WINEPREFIX": str(home / "wine"), "WINEDEBUG": "-all", "PATH": os.environ["PATH"], "HOME": str(home),
-            "LC_ALL": "C.UTF-8"}  # fmt: skip
-
-    def begin_wine() -> None:
-        if not (home / "wine").exists():  # it says so when it makes one
-            subprocess.run(["wine", "wineboot", "--init"], env=wine, capture_output=True, check=True, timeout=600)
 
     def program(platform: str) -> Path:
         if platform not in programs:
-            programs[platform] = home / (f"{platform}.exe" if platform == "win64" else platform)
-            compile_c(
-                "-O1", f"-I{find_fmi_headers()}", "-o", programs[platform], Path(__file__).with_name("play.c"),
-                target=TARGETS[platform],
-            )  # fmt: skip
+            include, source = f"-I{find_fmi_headers()}", Path(__file__).with_name("play.c")
+            if platform == "win64":
+                programs[platform] = home / "win64.exe"
+                compile_for_windows(programs[platform], source, flags=[include])
+            else:
+                programs[platform] = home / platform
+                compile_c("-O1", include, "-o", programs[platform], source, target=TARGETS[platform])
         return programs[platform]
 
     def run(platform: str, flavour: str, script: Script) -> list[str]:
@@ -82,8 +95,7 @@ def play(unpacked: dict[str, Path], tmp_path_factory: pytest.TempPathFactory) ->
         command, environment = [str(program(platform))], {}
         drive = ""
         if platform == "win64":
-            begin_wine()
-            command, environment, drive = ["wine", *command], wine, "Z:"
+            command, environment, drive = ["wine", *command], wine(), "Z:"
         if platform == "aarch64-linux":
             command = [str(shutil.which("qemu-aarch64")), "-L", ROOT, *command]
         resources = f"{folder}/resources"
@@ -174,3 +186,28 @@ def test_a_root_folder_without_python(
     )  # fmt: skip
     assert (done.returncode, done.stderr) == (0, b"")
     assert done.stdout.decode().split("\n")[:-1] == digests
+
+
+LONG = "x" * 300
+WIDE = {
+    "Z:/tmp/./a/../b": r"Z:\tmp\b",
+    rf"Z:/tmp/sjø//{LONG}/../{LONG}": rf"\\?\Z:\tmp\sjø\{LONG}",
+    rf"\\server\share/{LONG}/.": rf"\\?\UNC\server\share\{LONG}",
+    rf"\\?\Z:\tmp/{LONG}": rf"\\?\Z:\tmp\{LONG}",
+    r"\\?\Z:\tmp/船": r"\\?\Z:\tmp\船",
+    f"Z:/{'x' * 4096}": "none",
+    f"{LONG}/relative": rf"\\?\Z:\tmp\{LONG}\relative",
+}
+"""Paths as hosts give them, and as Windows opens them: one with the prefix is taken as it is, in its own separators."""
+
+
+@pytest.mark.needs("wine")
+def test_what_windows_alone_has(wine: Callable[[], dict[str, str]], tmp_path: Path) -> None:
+    """Paths of any length, and functions whose frame is larger than the page by which a stack grows."""
+    program = tmp_path / "parts.exe"
+    compile_for_windows(program, Path(__file__).with_name("windows_parts.cpp"), find_native() / "wide_path.cpp")
+    done = subprocess.run(
+        ["wine", program, *WIDE], env=wine(), cwd="/tmp", capture_output=True, text=True, check=False, timeout=600
+    )
+    assert done.stdout.splitlines() == [*WIDE.values(), "frames"]
+    assert (done.returncode, done.stderr) == (0, "")
