@@ -1,13 +1,7 @@
 #include "coasting.hpp"
 
-#include "../numbers/elementary.hpp"
-
 namespace shipcollision {
 namespace {
-
-Three cross(const Three& p, const Three& q) {
-  return {{p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]}};
-}
 
 struct Displacement {
   Three shift, forward, starboard, down;
@@ -60,6 +54,16 @@ Motion coast(const Motion& before, const Three& r_bg, double h) {
   const Three turned = find_attitude(low, dot(row_n, forward), dot(row_e, forward), dot(row_n, starboard),
                                      dot(row_e, starboard), expected);
   return {place, turned, after, rate};
+}
+
+Pose coast_pose(const Pose& pose, const BodyMotion& motion, const Three& r_bg, double h) {
+  const auto& [x, R] = pose;
+  if (!motion.turns) return {x + h * motion.velocity, R};
+  const auto [shift, forward, starboard, down] =
+      displace(rotate_back(R, motion.velocity), rotate_back(R, motion.omega), r_bg, h);
+  Pose after{x + rotate(R, shift), {}};
+  for (int i = 0; i < 3; ++i) after.R.at[i] = {{dot(R[i], forward), dot(R[i], starboard), dot(R[i], down)}};
+  return after;
 }
 
 }  // namespace shipcollision

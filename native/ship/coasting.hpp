@@ -12,4 +12,13 @@ struct Motion {
 
 Motion coast(const Motion& before, const Three& r_bg, double h);
 
+// Velocity of CG [m/s] and angular velocity [rad/s], both in n; turns: whether the latter is not zero.
+struct BodyMotion {
+  Three velocity, omega;
+  bool turns;
+};
+
+// The pose after h [s].
+Pose coast_pose(const Pose& pose, const BodyMotion& motion, const Three& r_bg, double h);
+
 }  // namespace shipcollision

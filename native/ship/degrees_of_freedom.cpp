@@ -1,8 +1,5 @@
 #include "degrees_of_freedom.hpp"
 
-#include "../numbers/elementary.hpp"
-#include "frames.hpp"
-
 namespace shipcollision {
 namespace {
 

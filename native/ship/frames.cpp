@@ -1,7 +1,5 @@
 #include "frames.hpp"
 
-#include "../numbers/elementary.hpp"
-
 namespace shipcollision {
 
 Rows rotation_rows(double phi, double theta, double psi) {
@@ -9,6 +7,12 @@ Rows rotation_rows(double phi, double theta, double psi) {
   return {{{{cpsi * cth, cpsi * sth * sphi - spsi * cphi, spsi * sphi + cpsi * cphi * sth}},
            {{spsi * cth, cpsi * cphi + sphi * sth * spsi, sth * spsi * cphi - cpsi * sphi}},
            {{-sth, cth * sphi, cth * cphi}}}};
+}
+
+Three attitude_from_rotation(const Rows& R_nb) {
+  const double pitch = asin(min(1.0, max(-1.0, -R_nb[2][0])));
+  if (hypot(R_nb[2][1], R_nb[2][2]) < 1e-12) return {{0.0, pitch, atan2(-R_nb[0][1], R_nb[1][1])}};
+  return {{atan2(R_nb[2][1], R_nb[2][2]), pitch, atan2(R_nb[1][0], R_nb[0][0])}};
 }
 
 Three find_attitude(const Three& low, double forward_north, double forward_east, double starboard_north,

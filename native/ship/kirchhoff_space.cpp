@@ -8,16 +8,6 @@ namespace {
 constexpr int MAX_ITERATIONS = 40;
 constexpr double CONVERGED = 4e-15;
 
-double multiply(const double (&row)[6], const Six& x) {
-  return row[0] * x[0] + row[1] * x[1] + row[2] * x[2] + row[3] * x[3] + row[4] * x[4] + row[5] * x[5];
-}
-
-Six multiply(const Matrix& rows, const Six& x) {
-  Six product;
-  for (int i = 0; i < 6; ++i) product[i] = multiply(rows[i], x);
-  return product;
-}
-
 // d and the columns of E of a twist held for h [s].
 void find_exponential(const Six& nu, double h, Three& d, Three (&columns)[3]) {
   const auto& [u, v, w, p, q, r] = nu.at;

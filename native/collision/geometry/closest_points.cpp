@@ -128,8 +128,8 @@ bool PlacedHulls::closest_of_parts(int a, int part_a, int b, int part_b, double 
   const btVector3 on_a = result.on_b + result.normal_on_b * result.distance;
   double from_b[3];
   swap_axes(result.normal_on_b, from_b);  // Bullet's normal points from B to A
-  swap_axes(on_a, found.on_a);
-  swap_axes(result.on_b, found.on_b);
+  swap_axes(on_a, found.on_a.at);
+  swap_axes(result.on_b, found.on_b.at);
   for (int i = 0; i < 3; ++i) {
     found.normal[i] = -from_b[i];
     found.on_a[i] -= MARGIN * found.normal[i];

@@ -1,21 +1,9 @@
 // Closest points of convex hulls, by Bullet: the twin of shipcollision_fmu/collision/geometry/closest_points.py.
 #pragma once
 
+#include "narrow_phase.hpp"
+
 namespace shipcollision {
-
-// Bullet's collision margin [m], as in the Python twin; it is taken off again. Without it Bullet returns wrong normals
-// for faces that lie flat on each other.
-constexpr double MARGIN = 0.001;
-
-// Closest points of two convex parts: on_a, on_b in n [m], normal from a to b, gap [m] (< 0: overlap).
-struct Closest {
-  double on_a[3];
-  double on_b[3];
-  double normal[3];
-  double gap;
-  int part_a;
-  int part_b;
-};
 
 // The hulls of some ships, each of convex parts, and where they are. Results depend on hulls, poses and arguments alone.
 class PlacedHulls {

@@ -1,0 +1,20 @@
+// What the narrow phase answers: the twin of shipcollision_fmu/collision/geometry/narrow_phase.py.
+#pragma once
+
+#include "../../ship/frames.hpp"
+
+namespace shipcollision {
+
+// Bullet's collision margin [m], as in the Python twin; it is taken off again. Without it Bullet returns wrong normals
+// for faces that lie flat on each other.
+constexpr double MARGIN = 0.001;
+
+// Closest points of two convex parts: on_a, on_b in n [m], normal from a to b, gap [m] (< 0: overlap).
+struct Closest {
+  Three on_a, on_b, normal;
+  double gap;
+  int part_a;
+  int part_b;
+};
+
+}  // namespace shipcollision
