@@ -65,9 +65,9 @@ int main() {
     place(hulls, b);
     const int rows = hulls.closest(a, b, read_double(), found);
     for (int i = 0; i < rows; ++i) {
-      for (double number : found[i].on_a) print_double(number);
-      for (double number : found[i].on_b) print_double(number);
-      for (double number : found[i].normal) print_double(number);
+      for (double number : found[i].on_a.at) print_double(number);
+      for (double number : found[i].on_b.at) print_double(number);
+      for (double number : found[i].normal.at) print_double(number);
       print_double(found[i].gap);
       printf("%d %d\n", found[i].part_a, found[i].part_b);
     }
