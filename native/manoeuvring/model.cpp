@@ -397,7 +397,7 @@ bool ShipManoeuvring::SetUp::coast(const State& before, const ShipInputs& inputs
     after.nu[k] = moved.velocity[k];
     after.nu[3 + k] = moved.rate[k];
   }
-  if (!are_finite(after.eta.at, 6) || !are_finite(after.nu.at, 6)) {
+  if (!are_finite(after.eta.at, 6) || is_absurd(after.nu, ship)) {
     why << "the motion diverges in the step " << at_time(t) << ": shorten h = ";
     why.short_number(h) << " s, or look at velocity ";
     why.list(nu.at, 3) << " m/s and force ";

@@ -218,10 +218,10 @@ class ShipManoeuvring:
         try:
             position, attitude, velocity, rate = coasting.coast(before.eta[:3], before.eta[3:], nu[:3], nu[3:], h)
             eta, nu = _six([*position, *attitude]), _six([*velocity, *rate])
-            is_finite = isfinite(sum(eta) + sum(nu))
+            diverges = not isfinite(sum(eta)) or _is_absurd(nu, set_up.ship)
         except (OverflowError, ValueError, ZeroDivisionError):  # the sine of infinity
-            is_finite = False
-        if not is_finite:
+            diverges = True
+        if diverges:
             raise StepError(
                 f"the motion diverges in the step at t = {t:g} s: shorten h = {h:g} s, or look at velocity "
                 f"{list(start[:3])} m/s and force {self.inputs.force}"

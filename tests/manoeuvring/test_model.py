@@ -89,6 +89,19 @@ def test_divergence_is_refused(start: Start) -> None:
     assert ship.get_state() == state
 
 
+def test_divergence_of_a_ship_that_coasts_is_refused(start: Start) -> None:
+    """A buoy 300 m under water comes up so fast that its step ends at more than 10 km/s."""
+    ship = start(
+        "buoy", degrees_of_freedom=6, position=[0.0, 0.0, 300.0], attitude=[-0.319, 0.0, 0.0],
+        velocity=[3.0, 0.0, 0.0], rate=[0.0, 0.037, 0.0],
+    )  # fmt: skip
+    state = ship.get_state()
+    with pytest.raises(StepError, match=r"the motion diverges in the step at t = 0 s: shorten h = 0\.1 s"):
+        ship.step(0.0, 0.1)
+    assert ship.get_state() == state
+    ship.step(0.0, 0.01)
+
+
 def test_step_before_initialise() -> None:
     with pytest.raises(StepError, match=r"step before initialise: call initialise\(\) first"):
         ShipManoeuvring().step(0.0, 0.1)
