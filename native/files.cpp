@@ -8,7 +8,7 @@
 #if defined(_WIN32)
 #include <fcntl.h>
 #include <io.h>
-#include <windows.h>
+#include <sys/stat.h>
 #else
 #include <errno.h>
 #include <fcntl.h>
@@ -28,7 +28,10 @@ int open_file(const char* path) {
   return widen(path, wide) ? _wopen(wide, _O_RDONLY | _O_BINARY | _O_NOINHERIT) : -1;
 }
 
-bool is_on_disk(int file) { return GetFileType(reinterpret_cast<HANDLE>(_get_osfhandle(file))) == FILE_TYPE_DISK; }
+bool is_on_disk(int file) {
+  struct _stat64 status;
+  return _fstat64(file, &status) == 0 && (status.st_mode & _S_IFMT) == _S_IFREG;
+}
 
 long long read_some(int file, char* bytes, size_t size) { return _read(file, bytes, static_cast<unsigned>(size)); }
 
