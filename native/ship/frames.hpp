@@ -49,6 +49,8 @@ inline bool is_same(const Rows& R, const Rows& Q) {
   return is_same(R[0], Q[0]) && is_same(R[1], Q[1]) && is_same(R[2], Q[2]);
 }
 
+inline bool is_same(const Pose& p, const Pose& q) { return is_same(p.x, q.x) && is_same(p.R, q.R); }
+
 Rows rotation_rows(double phi, double theta, double psi);
 
 // Attitude of a rotation, psi in (-pi, pi].

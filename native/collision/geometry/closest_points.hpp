@@ -22,6 +22,7 @@ class PlacedHulls {
 
   // CO at x in n [m], with the rows of R_nb.
   void place(int ship, const double x[3], const double R_nb[9]);
+  void place(int ship, const Pose& pose) { place(ship, pose.x.at, pose.R.at[0].at); }
 
   // Whether two parts are not farther apart than `distance` [m]; then `found` is filled.
   bool closest_of_parts(int a, int part_a, int b, int part_b, double distance, Closest& found) const;
