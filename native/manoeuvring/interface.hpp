@@ -7,8 +7,6 @@
 
 namespace shipcollision {
 
-constexpr size_t LONGEST_STRING = 4096;  // bytes of a String variable, its end included: the longest path of Linux
-
 struct ShipParameters {
   char ship[LONGEST_STRING] = "kvlcc2";
   int degrees_of_freedom = 6;

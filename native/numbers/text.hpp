@@ -8,6 +8,8 @@ namespace shipcollision {
 
 struct Decimal;
 
+constexpr size_t LONGEST_STRING = 4096;  // bytes of a String variable, its end included: the longest path of Linux
+
 // Of what is longer than the capacity the middle is left out, whole characters, with "..." in its place: a refusal has
 // its remedy at the end.
 class Text {
