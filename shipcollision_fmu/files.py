@@ -38,17 +38,18 @@ def user_cache() -> Path:
     return (Path(home) if home else Path.home() / ".cache") / "shipcollision-fmu"
 
 
-def check_writable(out: Path) -> None:
-    """Raise HostError when the folder `out` cannot be written; nothing is left behind."""
+def check_writable(out: Path, remedy: str = ANOTHER_FOLDER) -> None:
+    """Raise HostError, whose message ends with `remedy`, when the folder `out` cannot be written; nothing is left
+    behind."""
     place = out
     while not (place.exists() or place.is_symlink()):
         place = place.parent
     if not place.is_dir():
-        raise HostError(f"cannot write to {out}: {place} is not a folder; give another folder with --out")
+        raise HostError(f"cannot write to {out}: {place} is not a folder; {remedy}")
     try:
         Path(tempfile.mkdtemp(prefix=".shipcollision-", dir=place)).rmdir()
     except OSError as error:
-        raise _describe_failure(out, error) from None
+        raise _describe_failure(out, error, remedy) from None
 
 
 def refuse_other_origin(out: Path, names: Iterable[str], sign: str, place: str = "folder") -> None:

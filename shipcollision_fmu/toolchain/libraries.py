@@ -10,7 +10,7 @@ from hashlib import sha256
 from pathlib import Path
 from time import time
 
-from ..files import IN_PLACE, user_cache, write_file
+from ..files import IN_PLACE, check_writable, user_cache, write_file
 from .compilers import Compiler, find_compiler
 from .objects import compile_object, digest_source, is_kept, run
 from .pe import clear_time_stamps
@@ -27,6 +27,8 @@ def ignore_progress(done: int, total: int) -> None:
     """The Report of a caller without a display."""
 
 
+ANOTHER_CACHE = "make it writable, or name another folder for caches in the environment variable XDG_CACHE_HOME"
+"""Remedy in the message about a cache in which nothing can be kept."""
 KEPT_DAYS = 30
 """Days after which what no build used is removed from the cache."""
 
@@ -44,9 +46,11 @@ def build_library(
     *,
     cache: Path | None = None,
     prefer_system: bool = False,
+    report: Report = ignore_progress,
 ) -> Path:
     """The library of that name for one target: see build_libraries."""
-    return build_libraries(name, parts, [target], exports, cache=cache, prefer_system=prefer_system)[target]
+    made = build_libraries(name, parts, [target], exports, cache=cache, prefer_system=prefer_system, report=report)
+    return made[target]
 
 
 def build_libraries(
@@ -62,13 +66,15 @@ def build_libraries(
     """The libraries of that name by target. Those that are not in the cache are compiled and linked, side by side.
 
     `exports` are patterns of the names that a host may call. Raises HostError when nothing here compiles for a target,
-    before anything is compiled, or when a source does not compile.
+    before anything is compiled, when the cache cannot be written, or when a source does not compile.
     """
     home = native_cache() if cache is None else cache
     kind = "here" if prefer_system else "fmu"  # these may come from different compilers
     kept = {target: _find_place(home, name, parts, target, exports, kind) for target in targets}
     missing = [target for target, path in kept.items() if not is_kept(path)]
     compilers = {target: find_compiler(target, prefer_system=prefer_system) for target in missing}
+    if missing:
+        check_writable(home, ANOTHER_CACHE)  # where Zig cannot make its folder it may try again for ever
     sources = [(part, file) for part in parts for file in part.files]
     done, total = 0, len(missing) * (len(sources) + 1)
     with ThreadPoolExecutor(os.cpu_count()) as pool:

@@ -6,6 +6,7 @@ Travels in FMUs, with `installed` and `platforms`, and without what compiles.
 from __future__ import annotations
 
 import ctypes
+import sys
 from functools import lru_cache
 from pathlib import Path
 
@@ -20,9 +21,15 @@ EXPORTS = ("shipcollision_*",)
 INTERFACE = 1
 """Number of the functions' signatures (native/python.cpp); a library with another one is refused."""
 
+FETCHING = "note: pip fetches Bullet's source, 80 MB, once; this takes half a minute or longer"
+COMPILING = "note: the library that detects contacts is compiled, once; this takes half a minute, on a busy machine two"
+
 
 def build_own_library(cache: Path | None = None) -> Path:
-    """The library for this machine, in the user's cache or in `cache`. Raises HostError when it cannot be built."""
+    """The library for this machine, in the user's cache or in `cache`. Raises HostError when it cannot be built.
+
+    What takes long is announced by a line on stderr.
+    """
     try:
         from .bullet_sources import has_bullet_sources  # opening a library needs none of these
         from .compilers import find_compiler
@@ -39,7 +46,22 @@ def build_own_library(cache: Path | None = None) -> Path:
     home = native_cache() if cache is None else cache
     if not has_bullet_sources(home):
         find_compiler(target, prefer_system=True)  # else 80 MB would be fetched before it is missed
-    return build_library(LIBRARY, list_library_parts(home), target, EXPORTS, cache=home, prefer_system=True)
+        _say(FETCHING)
+    parts = list_library_parts(home)
+    return build_library(LIBRARY, parts, target, EXPORTS, cache=home, prefer_system=True, report=_announce)
+
+
+def _announce(done: int, total: int) -> None:
+    """A line on stderr after the first step of compilation, when most of the `total` steps are still to come."""
+    if done == 1 < total:
+        _say(COMPILING)
+
+
+def _say(line: str) -> None:
+    """Write a line on stderr, which a host without a console does not have."""
+    if sys.stderr is not None:
+        sys.stderr.write(f"{line}\n")
+        sys.stderr.flush()
 
 
 @lru_cache

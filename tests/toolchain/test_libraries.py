@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from shipcollision_fmu.errors import HostError
-from shipcollision_fmu.toolchain import compilers, libraries
+from shipcollision_fmu.toolchain import bullet_sources, compilers, libraries, load, sources
 from shipcollision_fmu.toolchain.compilers import find_compiler
 from shipcollision_fmu.toolchain.libraries import build_libraries, build_library
 from shipcollision_fmu.toolchain.mach_o import join_libraries
@@ -67,6 +67,36 @@ def test_a_library_in_the_cache_needs_no_compiler(tmp_path: Path, monkeypatch: p
     build(small(tmp_path / "src"), tmp_path / "cache")
     monkeypatch.setattr(libraries, "find_compiler", None)
     assert build(small(tmp_path / "src"), tmp_path / "cache").shipcollision_a() == 3
+
+
+def test_a_cache_that_cannot_be_written_is_refused_before_a_compiler_runs(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "file").touch()
+    part = small(tmp_path / "src")
+    with monkeypatch.context() as patched:
+        patched.setattr(libraries, "compile_object", None)
+        with pytest.raises(HostError) as refused:
+            build(part, tmp_path / "file" / "cache")
+    assert str(refused.value) == (
+        f"cannot write to {tmp_path}/file/cache: {tmp_path}/file is not a folder; make it writable, or name another "
+        "folder for caches in the environment variable XDG_CACHE_HOME"
+    )
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "other"))
+    assert build(part, libraries.native_cache()).shipcollision_a() == 3
+    assert (tmp_path / "other").is_dir()
+
+
+def test_what_takes_long_at_first_use_is_announced_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    part = small(tmp_path / "src")
+    monkeypatch.setattr(sources, "list_library_parts", lambda _: [part])
+    monkeypatch.setattr(bullet_sources, "has_bullet_sources", lambda cache: cache.is_dir())
+    load.build_own_library(tmp_path / "cache")
+    assert capfd.readouterr() == ("", f"{load.FETCHING}\n{load.COMPILING}\n")
+    load.build_own_library(tmp_path / "cache")
+    assert capfd.readouterr() == ("", "")
 
 
 def test_progress_ends_at_the_last_step(tmp_path: Path) -> None:
