@@ -180,13 +180,33 @@ def prepare(ship: str, out: Path | None) -> None:
     SHIP is a shipped ship or the path of a TOML file. A native FMU has no Python to read TOML with: its parameter
     `ship` takes the path of the file that is written here. Prepare a ship again when its TOML or mesh file changes.
     """
-    from ..files import write_file
+    from ..files import check_writable, write_file
     from ..manoeuvring.prepared_ship import SUFFIX, prepare_ship
+    from ..ship.loading.library import load_ship
 
     place = out if out is not None else Path(f"{Path(ship).stem}{SUFFIX}")
-    if place.suffix != SUFFIX:
-        raise click.UsageError(f"--out {place}: native FMUs know the file by its suffix; call it {place.stem}{SUFFIX}")
-    say(str(write_file(place, prepare_ship(ship, needs_hull=True))))
+    _check_names(ship, place, SUFFIX)
+    content = prepare_ship(ship, needs_hull=True)
+    check_writable(place.parent)
+    for note in load_ship(ship).suspicious:
+        say(f"note: {note}", err=True)
+    say(str(write_file(place, content)))
+
+
+def _check_names(ship: str, place: Path, suffix: str) -> None:
+    """Raise UsageError when `ship` is no source of a ship, or `place` is not called as a prepared ship is."""
+    from ..ship.loading.library import list_ship_names
+
+    if Path(ship).is_dir() and ship not in list_ship_names():
+        raise click.UsageError(f"{ship} is a folder: give the name of a ship or the path of a TOML file")
+    if ship.endswith(suffix):
+        raise click.UsageError(f"{ship} is called as a prepared ship is: give the TOML file that it was prepared from")
+    if place.is_dir():
+        raise click.UsageError(
+            f"--out {place} is a folder: give the name of a file in it, such as {place / Path(ship).stem}{suffix}"
+        )
+    if place.suffix != suffix:
+        raise click.UsageError(f"--out {place}: native FMUs know the file by its suffix; call it {place.stem}{suffix}")
 
 
 @click.command()

@@ -120,3 +120,38 @@ def test_the_command_refuses_in_one_line(tmp_path: Path, monkeypatch: pytest.Mon
     assert status == 2
     assert "call it kvlcc2.ship" in said
     assert list(tmp_path.iterdir()) == []
+
+
+def test_the_command_says_what_is_no_source_and_no_place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("file").touch()
+    Path("ships").mkdir()
+    refused = {
+        ("ships",): "ships is a folder: give the name of a ship or the path of a TOML file",
+        ("mine.ship",): "mine.ship is called as a prepared ship is: give the TOML file that it was prepared from",
+        ("kcs", "--out", "ships"): "--out ships is a folder: give the name of a file in it, such as ships/kcs.ship",
+        ("kcs", "--out", "file/kcs.ship"): "cannot write to file: file is not a folder; give another folder with --out",
+    }
+    for arguments, reason in refused.items():
+        status, said = called(*arguments)
+        assert status != 0
+        assert said.startswith(f"error: {reason}")
+    assert sorted(path.name for path in tmp_path.rglob("*")) == ["file", "ships"]
+    assert called("kcs", "--out", "ships/kcs.ship") == (0, "ships/kcs.ship\n")
+
+
+def test_a_folder_with_the_name_of_a_ship_does_not_hide_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("kcs").mkdir()
+    assert called("kcs") == (0, "kcs.ship\n")
+
+
+def test_the_command_says_what_is_suspicious(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("odd.toml").write_text(
+        'ship.kind = "space ship"\nparticulars = {L_pp = 120.0, B = 20.0, T = 6.0, C_b = 0.61}\n'
+    )
+    status, said = called("odd.toml")
+    assert status == 0
+    assert said.startswith("note: [ship] kind = 'space ship' names no known type of ship")
+    assert said.endswith("\nodd.ship\n")
