@@ -6,6 +6,7 @@
 #include "../numbers/text.hpp"
 #include "degrees_of_freedom.hpp"
 #include "frames.hpp"
+#include "hull/solid.hpp"
 #include "seakeeping.hpp"
 #include "tables.hpp"
 #include "windage.hpp"
@@ -42,6 +43,7 @@ struct PreparedShip {
   TorqueTable torque;
   RudderTable rudder;
   EngineTable engine;
+  Text hull_refusal;  // why there is no hull, where it was asked for
 
   // Inverse of the free block of M; degrees_of_freedom: 3, 4 or 6.
   const Matrix& inverse(int degrees_of_freedom) const {
@@ -51,10 +53,13 @@ struct PreparedShip {
 
 // Reads the content of a prepared file, which ends with a zero after `size` bytes and is changed. `file` names it in
 // messages. False for a file that is damaged, of another kind or of another version; the ship is then of no use.
-bool read_prepared_ship(char* content, size_t size, const char* file, PreparedShip& ship, Text& why);
+// hull: null where it is of no interest.
+bool read_prepared_ship(char* content, size_t size, const char* file, PreparedShip& ship, Text& why,
+                        HullMesh* hull = nullptr);
 
 // Reads a ship by its name among those in `directory`/ships, or by the path of its file: text with the suffix .ship or
 // a path separator. A relative path is looked for in `directory`, then in the current folder.
-bool load_prepared_ship(const char* name_or_path, const char* directory, PreparedShip& ship, Text& why);
+bool load_prepared_ship(const char* name_or_path, const char* directory, PreparedShip& ship, Text& why,
+                        HullMesh* hull = nullptr);
 
 }  // namespace shipcollision

@@ -1,6 +1,6 @@
 """A prepared ship: all numbers that the native ship model needs of a ship, as a small file of text.
 
-    shipcollision prepared ship 1
+    shipcollision prepared ship 2
     name "'kvlcc2'"                   as messages show it
     warning ""                        what is suspicious, joined by "; "
     size 0x1.4p+8 ...                 L_pp L_oa B T [m] mass [kg] rho [kg/m3]
@@ -11,27 +11,26 @@
     series                            thrust of the propeller in four quadrants (propeller.py)
     torque, most, least               root and per_speed of the torque limit, and its tables (torque_limit.py)
     rudder, engine                    tables of the ship file, in the order of RUDDER, ENGINE
-    hull 2 0x1.5p+7                   number of convex parts, reach [m]; then for each part
+    hull 2 0x1.5p+7 0x1.4p+4          number of convex parts, reach and least extent [m]; then for each part
     part, planes                      its vertices (k, 3) [m] and half-spaces (m, 4)
     crc32 0f1e2d3c                    of all before
 
-A line is a key and its values. Reals are hexadecimal, as float.hex() writes them, hence exact; text is in double
-quotes, with backslashes before backslashes and quotes. `none` stands for a table that the ship does not have. Where the
-Python model would refuse to make something of the ship, `refused` and the text of the refusal stand in its place. The
-order of lines is fixed. native/ship/prepared_ship.cpp reads such files; what is computed here is not computed there.
+A line is a key and its values (ship/prepared_lines.py). `none` stands for a table that the ship does not have. Where
+the Python model would refuse to make something of the ship, `refused` and the text of the refusal stand in its place.
+native/ship/prepared_ship.cpp reads such files; what is computed here is not computed there.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
-from zlib import crc32
 
 from ..errors import HostError, ShipError
 from ..ship.degrees_of_freedom import FREE, free_inverse
 from ..ship.hull.hull import build_hull
 from ..ship.loading.library import load_ship
+from ..ship.prepared_lines import describe_hull, quote, reals, seal
 from ..ship.seakeeping import compute_seakeeping
 from ..ship.ship import Ship
 from ..ship.windage import compute_windage
@@ -41,7 +40,7 @@ __all__ = ["FORMAT", "SUFFIX", "VERSION", "prepare_ship"]
 
 FORMAT = "shipcollision prepared ship"
 """Begin of the first line."""
-VERSION = 1
+VERSION = 2
 """Version of the format. A reader refuses every other, so it rises with each change of a line or of an order."""
 
 SUFFIX = ".ship"
@@ -77,20 +76,18 @@ def prepare_ship(
     """
     ship = load_ship(source, directory)
     hull = _describe_hull(ship, needs_hull)
-    text = "\n".join([f"{FORMAT} {VERSION}", *_describe_body(ship), *_describe_machines(ship), *hull])
-    content = f"{text}\n".encode("utf-8", "replace")
-    return content + f"crc32 {crc32(content):08x}\n".encode()
+    return seal([f"{FORMAT} {VERSION}", *_describe_body(ship), *_describe_machines(ship), *hull])
 
 
 def _describe_body(ship: Ship) -> list[str]:
     return [
-        f"name {_quote(repr(ship.name))}",
-        f"warning {_quote('; '.join(ship.suspicious))}",
+        f"name {quote(repr(ship.name))}",
+        f"warning {quote('; '.join(ship.suspicious))}",
         _table("size", ship, SIZE),
-        _reals("r_bg", ship.r_bg),
-        _reals("M", ship.M.ravel()),
-        _reals("M_A", ship.M_A.ravel()),
-        *(_reals(f"inverse_{free}", free_inverse(ship.M, free).ravel()) for free in FREE),
+        reals("r_bg", ship.r_bg),
+        reals("M", ship.M.ravel()),
+        reals("M_A", ship.M_A.ravel()),
+        *(reals(f"inverse_{free}", free_inverse(ship.M, free).ravel()) for free in FREE),
         _table("windage", compute_windage(ship), WINDAGE),
         _or_refusal("seakeeping", lambda: _table("seakeeping", compute_seakeeping(ship), SEAKEEPING)),
     ]
@@ -111,12 +108,12 @@ def _describe_series(ship: Ship) -> str:
     if ship.propeller is None:
         return "series none\ntorque none"
     propeller = Propeller(ship, ship.propeller)
-    series = _reals("series", propeller.series)
+    series = reals("series", propeller.series)
     limit = propeller.limit_torque(ship.engine) if ship.engine is not None else None
     if limit is None:
         return f"{series}\ntorque none"
-    torque = _reals("torque", (limit.root, limit.per_speed))
-    return "\n".join([series, torque, _reals("most", limit.most), _reals("least", limit.least)])
+    torque = reals("torque", (limit.root, limit.per_speed))
+    return "\n".join([series, torque, reals("most", limit.most), reals("least", limit.least)])
 
 
 def _describe_hull(ship: Ship, needed: bool) -> list[str]:
@@ -125,11 +122,8 @@ def _describe_hull(ship: Ship, needed: bool) -> list[str]:
     except (ShipError, HostError) as error:
         if needed:
             raise
-        return [f"hull refused {_quote(_explain_refusal(ship, error))}"]
-    lines = [f"hull {len(hull.parts)} {hull.reach.hex()}"]
-    for part, planes in zip(hull.parts, hull.planes, strict=True):
-        lines += [_reals("part", part.ravel()), _reals("planes", planes.ravel())]
-    return lines
+        return [f"hull refused {quote(_explain_refusal(ship, error))}"]
+    return describe_hull(hull)
 
 
 def _explain_refusal(ship: Ship, error: ShipError | HostError) -> str:
@@ -146,19 +140,9 @@ def _or_refusal(key: str, describe: Callable[[], str]) -> str:
     try:
         return describe()
     except ShipError as error:
-        return f"{key} refused {_quote(str(error))}"
+        return f"{key} refused {quote(str(error))}"
 
 
 def _table(key: str, table: object, names: tuple[str, ...]) -> str:
     """A line of named numbers."""
-    return f"{key} none" if table is None else _reals(key, (getattr(table, name) for name in names))
-
-
-def _reals(key: str, values: Iterable[float]) -> str:
-    return " ".join([key, *(float(value).hex() for value in values)])
-
-
-def _quote(text: str) -> str:
-    """Text in double quotes, in one line and without NUL, which ends text in C."""
-    text = text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n").replace("\r", "\\r")
-    return '"' + text.replace("\0", "\N{REPLACEMENT CHARACTER}") + '"'
+    return f"{key} none" if table is None else reals(key, (getattr(table, name) for name in names))

@@ -33,7 +33,7 @@ def numbers_of(content: bytes, key: str) -> list[float]:
 
 def test_every_number_is_exact() -> None:
     ship = load_ship("kvlcc2")
-    assert KVLCC2.startswith(b"shipcollision prepared ship 1\n")
+    assert KVLCC2.startswith(b"shipcollision prepared ship 2\n")
     assert numbers_of(KVLCC2, "size") == [ship.L_pp, ship.L_oa, ship.B, ship.T, ship.mass, ship.rho]
     assert numbers_of(KVLCC2, "M") == ship.M.ravel().tolist()
     assert numbers_of(KVLCC2, "M_A") == ship.M_A.ravel().tolist()

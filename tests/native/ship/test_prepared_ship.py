@@ -50,8 +50,8 @@ def test_a_name_is_read_as_it_is() -> None:
         (b"", "some.ship is no prepared ship: write one with `shipcollision prepare SHIP`"),
         (b"[ship]\nname = 'x'\n", "some.ship is no prepared ship: write one with `shipcollision prepare SHIP`"),
         (
-            KVLCC2.replace(b"ship 1", b"ship 2", 1),
-            "some.ship is a prepared ship of version 2, this FMU reads version 1: prepare the ship with the "
+            KVLCC2.replace(b"ship 2", b"ship 3", 1),
+            "some.ship is a prepared ship of version 3, this FMU reads version 2: prepare the ship with the "
             "shipcollision that built the FMU, or build the FMU again",
         ),
         (
@@ -71,7 +71,7 @@ def test_a_name_is_read_as_it_is() -> None:
             "some.ship is damaged: line 5 must be the key 'r_bg' with its values" + AGAIN,
         ),
         (
-            seal(b"shipcollision prepared ship 1\n"),
+            seal(b"shipcollision prepared ship 2\n"),
             "some.ship is damaged: line 2 must be the key 'name' with its values" + AGAIN,
         ),
     ],
