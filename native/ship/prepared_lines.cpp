@@ -10,7 +10,7 @@ namespace {
 
 constexpr char CHECKSUM[] = "crc32 ";
 constexpr size_t LAST_LINE = sizeof CHECKSUM - 1 + 8 + 1;  // eight digits and the end of the line
-constexpr int MOST_PARTS = 10000;
+constexpr long long MOST_PARTS = 10000;
 constexpr size_t LONGEST_FILE = size_t{64} << 20;  // bytes; a hull of ten thousand vertices has one million
 constexpr size_t LONGEST_PATH = 4400;              // bytes; no system opens a path of more than 4096
 
@@ -109,7 +109,7 @@ bool PreparedLines::check(const PreparedKind& kind, const char* file, Text& why)
   return false;
 }
 
-int PreparedLines::read_count(const char* key, int most) {
+int PreparedLines::read_count(const char* key, long long most) {
   long long count = 0;
   if (begin(key) && !(reader_.whole(count) && 0 <= count && count <= most && reader_.is_end_of_line())) refuse(key);
   return is_good() ? static_cast<int>(count) : 0;

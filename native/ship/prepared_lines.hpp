@@ -45,7 +45,7 @@ class PreparedLines {
   }
 
   // A whole number from 0 to `most`; 0 where it is not.
-  int read_count(const char* key, int most);
+  int read_count(const char* key, long long most);
 
   template <typename Numbers>
   void read(const char* key, Numbers& numbers) {

@@ -12,10 +12,14 @@ native/collision/prepared_obstacles.cpp reads such files.
 
 from __future__ import annotations
 
+from pathlib import Path
+
+from ..errors import InputError
+from ..ship.loading.toml import read_toml
 from ..ship.prepared_lines import describe_hull, quote, reals, seal
 from .obstacles import Obstacle, read_obstacles
 
-__all__ = ["FORMAT", "SUFFIX", "VERSION", "prepare_obstacles"]
+__all__ = ["FORMAT", "SUFFIX", "VERSION", "is_obstacle_file", "prepare_obstacles"]
 
 FORMAT = "shipcollision prepared obstacles"
 """Begin of the first line."""
@@ -24,6 +28,22 @@ VERSION = 1
 
 SUFFIX = ".obstacles"
 """Suffix of the files."""
+
+
+def is_obstacle_file(path: str) -> bool:
+    """Whether a path is that of a TOML file of obstacles, all of whose tables say their kind and shape, and not of a
+    ship."""
+    if not (path.endswith(".toml") and Path(path).is_file()):
+        return False
+    content = read_toml(Path(path), InputError)
+    tables = content["obstacles"] if set(content) == {"obstacles"} else content
+    return (
+        isinstance(tables, dict) and bool(tables) and "ship" not in tables and all(map(_is_obstacle, tables.values()))
+    )
+
+
+def _is_obstacle(table: object) -> bool:
+    return isinstance(table, dict) and "shape" in table and "kind" in table
 
 
 def prepare_obstacles(text: str) -> bytes:

@@ -42,7 +42,7 @@ def put(points: object, width: int) -> list[float]:
 
 def test_polygons_and_their_common_corners() -> None:
     random = np.random.default_rng(1)
-    sets = [(draw_points(random), draw_points(random)) for _ in range(2000)]
+    sets = [(draw_points(random), draw_points(random)) for _ in range(800)]
     polygons = [put(convex_polygon(map(tuple, p.tolist())), 2 * MOST) for p, _ in sets]
     found = evaluate("geometry", "polygon", [fill(p, 2 * MOST) for p, _ in sets], 1 + 2 * MOST)
     assert np.array_equal(found, polygons, equal_nan=True)
@@ -64,7 +64,7 @@ def draw_part(random: np.random.Generator, side: float, normal: Array) -> Array:
 
 def test_contact_manifolds_and_plan_overlaps() -> None:
     random, rows, expected = np.random.default_rng(2), [], []
-    for _ in range(1000):
+    for _ in range(500):
         normal = random.normal(0.0, 1.0, 3)
         normal /= np.linalg.norm(normal)
         depth = float(random.choice([0.05, 1.0]))
