@@ -173,22 +173,28 @@ def _split_replacement(text: str) -> tuple[str, str]:
 
 @click.command()
 @click.argument("ship", type=SHIP)
-@click.option("--out", type=PATH, metavar="FILE", help="[default: NAME.ship]")
+@click.option("--out", type=PATH, metavar="FILE", help="[default: NAME.ship, NAME.obstacles]")
 def prepare(ship: str, out: Path | None) -> None:
-    """Write a ship as native FMUs read it.
+    """Write a ship, or obstacles, as native FMUs read them.
 
-    SHIP is a shipped ship or the path of a TOML file. A native FMU has no Python to read TOML with: its parameter
-    `ship` takes the path of the file that is written here. Prepare a ship again when its TOML or mesh file changes.
+    SHIP is a shipped ship, the path of its TOML file, or that of a TOML file of obstacles. A native FMU has no Python
+    to read TOML with: its parameters `ship` and `obstacles` take the path of the file that is written here. Prepare it
+    again when the TOML or mesh file changes.
     """
+    from ..collision.prepared_obstacles import SUFFIX as OF_OBSTACLES
+    from ..collision.prepared_obstacles import is_obstacle_file, prepare_obstacles
     from ..files import check_writable, write_file
-    from ..manoeuvring.prepared_ship import SUFFIX, prepare_ship
+    from ..manoeuvring.prepared_ship import SUFFIX as OF_SHIP
+    from ..manoeuvring.prepared_ship import prepare_ship
     from ..ship.loading.library import load_ship
 
-    place = out if out is not None else Path(f"{Path(ship).stem}{SUFFIX}")
-    _check_names(ship, place, SUFFIX)
-    content = prepare_ship(ship, needs_hull=True)
+    are_obstacles = is_obstacle_file(ship)
+    suffix = OF_OBSTACLES if are_obstacles else OF_SHIP
+    place = out if out is not None else Path(f"{Path(ship).stem}{suffix}")
+    _check_names(ship, place, suffix)
+    content = prepare_obstacles(ship) if are_obstacles else prepare_ship(ship, needs_hull=True)
     check_writable(place.parent)
-    for note in load_ship(ship).suspicious:
+    for note in () if are_obstacles else load_ship(ship).suspicious:
         say(f"note: {note}", err=True)
     say(str(write_file(place, content)))
 

@@ -27,6 +27,7 @@ DOCUMENTS = sorted(
 _LINK = re.compile(r"\]\(([^)\s]+)\)")
 _SOURCE = re.compile(r"(?<![\w/.-])([\w./-]*\w\.(?:py|c|toml|js|mjs))(?:::(\w+))?(?![\w(])")
 _OWN_NAMES = {
+    "harbour.toml",
     "my.toml",
     "mine.toml",
     "my/ship.toml",
