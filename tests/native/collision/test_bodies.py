@@ -5,9 +5,11 @@ from __future__ import annotations
 import ctypes
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import reduce
+from functools import cache, reduce
 from math import pi
 from pathlib import Path
+from random import Random
+from zlib import crc32
 
 import numpy as np
 import pytest
@@ -59,12 +61,15 @@ SHIPS = {
 NAMES = tuple(SHIPS)
 
 
+prepare = cache(prepare_ship)
+
+
 def open_bodies(folder: Path, ships: dict[str, ShipParameters], obstacles: str) -> str:
     """Prepare the bodies in native code; why they are refused, or nothing."""
     places, numbers = [], []
     for name, ship in ships.items():
         places.append(folder / f"{name}.ship")
-        places[-1].write_bytes(prepare_ship(ship.ship))
+        places[-1].write_bytes(prepare(ship.ship))
         fender = ship.fender
         feedback = SHIP_FEEDBACKS.index("ledger" if ship.feedback == "common" else ship.feedback)
         numbers.append([
@@ -80,7 +85,7 @@ def open_bodies(folder: Path, ships: dict[str, ShipParameters], obstacles: str) 
     return message.value.decode()
 
 
-def prepare(folder: Path, obstacles: str) -> list[Body]:
+def prepare_both(folder: Path, obstacles: str) -> list[Body]:
     """The bodies in both languages."""
     place = folder / "harbour.obstacles"
     place.write_bytes(prepare_obstacles(obstacles))
@@ -106,7 +111,7 @@ def describe(body: Body, row: Array) -> list[float]:
 
 
 def test_bodies(tmp_path: Path) -> None:
-    bodies = prepare(tmp_path, OBSTACLES.format(fender=FENDER))
+    bodies = prepare_both(tmp_path, OBSTACLES.format(fender=FENDER))
     random = np.random.default_rng(1)
     motions = random.normal(0.0, 1.0, (40, 9)) * [0.2, 0.1, pi, 5.0, 1.0, 0.1, 0.02, 0.01, 0.02]
     for i, body in enumerate(bodies):
@@ -188,7 +193,7 @@ def meet(
 )
 def test_proximity_and_the_schedule_of_a_step(count: int, fender: str, tmp_path: Path) -> None:
     """Candidates, near pairs, clearance, every stop of a step with the pairs examined there, and the poses after it."""
-    bodies = prepare(tmp_path, OBSTACLES.format(fender=fender))
+    bodies = prepare_both(tmp_path, OBSTACLES.format(fender=fender))
     random, detector = np.random.default_rng(count), Detector([body.hull for body in bodies])
     rows = []
     for _ in range(count):
@@ -242,3 +247,19 @@ def test_refusals_of_bodies_and_obstacles(tmp_path: Path) -> None:
         "vlcc.fender: stiffness = 1000000.0 N/m, damping = -1.0 N s/m, thickness = 1.0 m is no fender: stiffness and "
         "thickness must be positive, damping not negative; all 0 for none"
     )
+
+
+def test_damaged_obstacles_are_refused(tmp_path: Path) -> None:
+    """With a checksum that is right, obstacles may come out; what is read never leaves its place."""
+    random, place, refused = Random(1), tmp_path / "a.obstacles", 0
+    content = prepare_obstacles(OBSTACLES.format(fender=FENDER))[: -len("crc32 01234567\n")]
+    for _ in range(100):
+        damaged = bytearray(content)
+        for _ in range(random.randrange(1, 4)):
+            begin = random.randrange(len(damaged))
+            damaged[begin : begin + random.choice([0, 1, 1, 30])] = random.randbytes(random.choice([0, 1, 1, 5]))
+        place.write_bytes(bytes(damaged) + f"crc32 {crc32(damaged):08x}\n".encode())
+        said = open_bodies(tmp_path, {"vlcc": SHIPS["vlcc"]}, str(place))
+        assert said == "" or said.startswith(f"obstacles: {place} is ")
+        refused += said != ""
+    assert refused > 50

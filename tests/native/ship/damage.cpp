@@ -8,6 +8,7 @@
 
 #include "../../../native/manoeuvring/model.hpp"
 #include "../../../native/numbers/crc32.hpp"
+#include "../../../native/ship/prepared_ship.hpp"
 
 using namespace shipcollision;
 
@@ -65,8 +66,21 @@ void seal(char* content, size_t size) {
 }
 
 struct Count {
-  int started = 0, refused = 0, steps = 0;
+  int started = 0, refused = 0, steps = 0, hulls = 0;
 };
+
+// Reads the hull, and looks at the last of all that it holds.
+void read_hull(const char* path, Count& count) {
+  PreparedShip* ship = new PreparedShip;
+  HullMesh hull;
+  Text why;
+  if (load_prepared_ship(path, "", *ship, why, &hull) && hull.part_count() > 0) {
+    const HullPart last = hull.part(hull.part_count() - 1);
+    const double sum = last.corners[last.corner_count - 1][2] + last.planes[last.plane_count - 1].offset;
+    count.hulls += isfinite(sum);
+  }
+  delete ship;
+}
 
 void sail(const char* path, bool hydrodynamics, Random& random, Count& count) {
   constexpr int FREEDOMS[] = {3, 4, 6};
@@ -113,7 +127,8 @@ int main(int arguments, char** values) {
     write_file(values[2], content, size);
     sail(values[2], true, random, count);
     sail(values[2], false, random, count);
+    read_hull(values[2], count);
   }
-  printf("%d started, %d refused, %d steps\n", count.started, count.refused, count.steps);
+  printf("%d started, %d refused, %d steps, %d hulls\n", count.started, count.refused, count.steps, count.hulls);
   return 0;
 }
