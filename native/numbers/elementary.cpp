@@ -13,7 +13,6 @@ namespace shipcollision {
 
 namespace {
 
-constexpr double INFINITE = __builtin_inf();
 constexpr double NOT_A_NUMBER = __builtin_nan("");
 
 // A number as an unevaluated sum.

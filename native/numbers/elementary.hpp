@@ -4,6 +4,7 @@
 namespace shipcollision {
 
 constexpr double PI = 3.141592653589793;
+constexpr double INFINITE = __builtin_inf();
 
 double sin(double x);
 double cos(double x);
