@@ -5,7 +5,6 @@ What property tests draw depends on the test itself and on nothing else.
 
 from __future__ import annotations
 
-import gc
 from collections.abc import Callable, Iterator
 from functools import cache
 from pathlib import Path
@@ -97,12 +96,6 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     config.stash[LEFT_OUT] = [(item.nodeid, names) for item, names in unmet.items() if names]
     config.hook.pytest_deselected(items=[item for item, names in unmet.items() if names])
     items[:] = [item for item, names in unmet.items() if not names]
-
-
-def pytest_collection_finish() -> None:
-    """The garbage collector need not look through 300 000 objects of the collected tests again and again."""
-    gc.collect()
-    gc.freeze()
 
 
 def pytest_sessionfinish(session: pytest.Session) -> None:
