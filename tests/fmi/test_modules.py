@@ -167,7 +167,10 @@ PROGRAMS = ("coacd_process", "manifold_process", "self_crossing")
 LATER = {
     "ship/kinetic_energy.py": "for summaries and pages; the room ship travels whole",
     "ship/ship_state.py": "for helms and tracks; the room ship travels whole",
-    "manoeuvring/prepared_ship.py": "for `shipcollision prepare`; the files of the room travel all",
+    **dict.fromkeys(
+        ("manoeuvring/prepared_ship.py", "collision/prepared_obstacles.py", "ship/prepared_lines.py"),
+        "for `shipcollision prepare`; the files of the room travel all",
+    ),
     "files.py": "imported with the first ship whose hull is a mesh file",
     **{f"ship/hull/{name}.py": "imported with the first ship whose hull is a mesh file" for name in MESH_FILES},
     **{f"ship/hull/{name}.py": "runs in a process of its own" for name in PROGRAMS},
