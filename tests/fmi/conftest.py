@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 import importlib.util
-import json
 import sys
-from collections import defaultdict
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import ModuleType
-from typing import Any
 
 import pytest
-from fmpy import extract, read_model_description
-from fmpy.fmi2 import FMU2Slave, byref, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
+from fmpy import extract
 
 from shipcollision_fmu.fmi.builder.package import build_fmus, fmu_bytes
 from shipcollision_fmu.fmi.variable_access import VariableAccess
+
+from .hosts import Host, Host3
 
 DISCARD, ERROR = 2, 3
 DUMMY = Path(__file__).with_name("Dummy.py")
@@ -100,91 +98,6 @@ def real_unpacked(
     }
 
 
-class Host:
-    """An instance, its variables by name, and what it logged as (status, message).
-
-    refusal: the status of a step that the standard calls an error; Python's wrapper has Discard alone to answer with.
-    """
-
-    refusal = 0
-
-    def __init__(self, unpacked: Path, name: str, logging: bool = True) -> None:
-        description = read_model_description(str(unpacked))
-        self.references = {variable.name: variable.valueReference for variable in description.modelVariables}
-        self.kinds: dict[str, list[int]] = defaultdict(list)
-        for variable in description.modelVariables:
-            self.kinds[variable.type].append(variable.valueReference)
-        self.messages: list[tuple[int, str]] = []
-        self.categories: list[str] = []
-        callbacks = fmi2CallbackFunctions()
-        callbacks.logger = fmi2CallbackLoggerTYPE(self._take)
-        callbacks.allocateMemory = defaultCallbacks.allocateMemory
-        callbacks.freeMemory = defaultCallbacks.freeMemory
-        self.fmu = FMU2Slave(
-            guid=description.guid,
-            unzipDirectory=str(unpacked),
-            modelIdentifier=description.coSimulation.modelIdentifier,
-            instanceName=name,
-        )
-        self.fmu.instantiate(callbacks=callbacks, loggingOn=logging)
-        self.dll: Any = self.fmu.dll
-        self.component: Any = self.fmu.component
-
-    def _take(self, env: Any, who: bytes, status: int, category: bytes | None, message: bytes) -> None:
-        self.messages.append((status, message.decode()))
-        self.categories.append((category or b"").decode())
-
-    def free(self) -> None:
-        if self.component is not None:
-            self.fmu.freeInstance()
-            self.component = None
-
-    def reference(self, *names: str) -> list[int]:
-        return [self.references[name] for name in names]
-
-    def reals(self, *names: str) -> list[float]:
-        values: list[float] = self.fmu.getReal(self.reference(*names))
-        return values
-
-    def place(self) -> list[float]:
-        return self.reals("place.x", "place.y", "place.z")
-
-    def begin(self, start: float = 0.0, stop: float | None = None) -> int:
-        """Through initialisation; the status of its end."""
-        self.fmu.setupExperiment(startTime=start, stopTime=stop)
-        self.fmu.enterInitializationMode()
-        status: int = self.dll.fmi2ExitInitializationMode(self.component)
-        return status
-
-    def step(self, k: int, h: float = 0.1) -> int:
-        status: int = self.dll.fmi2DoStep(self.component, k * h, h, 1)
-        return status
-
-    def everything(self) -> str:
-        """All values, exactly."""
-        return json.dumps([
-            self.fmu.getReal(self.kinds["Real"]),
-            self.fmu.getInteger(self.kinds["Integer"] + self.kinds["Enumeration"]),
-            self.fmu.getBoolean(self.kinds["Boolean"]),
-            [text.decode() for text in self.fmu.getString(self.kinds["String"])],
-        ])  # fmt: skip
-
-    def saved(self) -> bytes:
-        """The whole state as bytes."""
-        state = self.fmu.getFMUstate()
-        try:
-            data: bytes = self.fmu.serializeFMUstate(state)
-        finally:
-            self.fmu.freeFMUstate(state)
-        return data
-
-    def restore(self, data: bytes) -> int:
-        state = self.fmu.deSerializeFMUstate(data)
-        status: int = self.dll.fmi2SetFMUstate(self.component, state)
-        self.dll.fmi2FreeFMUstate(self.component, byref(state))
-        return status
-
-
 OF_PYTHON = pytest.mark.parametrize("form", ["Python"], indirect=True)
 """Marks what the wrapper of Python alone does, or does in its own way; tests/native/fmi has native code's."""
 
@@ -200,15 +113,29 @@ def form(request: pytest.FixtureRequest) -> str:
 def host(form: str, request: pytest.FixtureRequest) -> Iterator[Callable[..., Host]]:
     """Makes instances of the dummy FMU, and frees them."""
     made: list[Host] = []
-    python, native = (
-        (lambda: request.getfixturevalue("unpacked")),
-        lambda: request.getfixturevalue("native_dummies")["2"],
-    )
-    dummy: Path = python() if form == "Python" else native()
+    fixture = request.getfixturevalue
+    dummy: Path = fixture("unpacked") if form == "Python" else fixture("native_dummies")["2"]
 
     def make(name: str = "instance", *, logging: bool = True, at: Path = dummy) -> Host:
         made.append(Host(at, name, logging))
         made[-1].refusal = DISCARD if form == "Python" else ERROR
+        return made[-1]
+
+    yield make
+    for instance in made:
+        instance.free()
+
+
+@pytest.fixture
+def host3(form: str, request: pytest.FixtureRequest) -> Iterator[Callable[..., Host3]]:
+    """Makes instances of the dummy FMU for FMI 3.0, with arrays or without, and frees them."""
+    made: list[Host3] = []
+    fixture = request.getfixturevalue
+
+    def make(name: str = "instance", flavour: str = "3") -> Host3:
+        python = {"3": "unpacked3", "3-scalar": "unpacked_scalar"}
+        folder: Path = fixture(python[flavour]) if form == "Python" else fixture("native_dummies")[flavour]
+        made.append(Host3(folder, name))
         return made[-1]
 
     yield make

@@ -5,12 +5,11 @@ Of the slave in Python and of its twin in C++, but for what the wrapper of Pytho
 
 from __future__ import annotations
 
-import json
 import math
 import signal
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from ctypes import byref, c_bool, c_double, c_size_t, c_uint, c_void_p
 from pathlib import Path
 from typing import Any
@@ -19,95 +18,13 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 from fmpy import read_model_description, simulate_fmu
-from fmpy.fmi3 import FMU3Slave
 from fmpy.validation import validate_fmu
 
 from .conftest import OF_PYTHON
+from .hosts import Host
 
 OK, WARNING, DISCARD, ERROR, FATAL = 0, 1, 2, 3, 4
 Make = Callable[..., Any]
-
-
-class Host3:
-    """An instance, its variables by name, and what it logged as (status, message)."""
-
-    def __init__(self, unpacked: Path, name: str) -> None:
-        description = read_model_description(str(unpacked))
-        self.variables = {variable.name: variable for variable in description.modelVariables}
-        self.messages: list[tuple[int, str]] = []
-        self.fmu = FMU3Slave(
-            guid=description.guid,
-            unzipDirectory=str(unpacked),
-            modelIdentifier=description.coSimulation.modelIdentifier,
-            instanceName=name,
-        )
-        log = lambda env, status, category, message: self.messages.append((status, message.decode()))  # noqa: E731  # short, and used once
-        self.fmu.instantiate(loggingOn=True, logMessage=log)
-        self.dll: Any = self.fmu.dll
-        self.component: Any = self.fmu.component
-
-    def free(self) -> None:
-        if self.component is not None:
-            self.fmu.freeInstance()
-            self.component = None
-
-    def reference(self, *names: str) -> list[int]:
-        return [self.variables[name].valueReference for name in names]
-
-    def get(self, *names: str) -> list[Any]:
-        first = self.variables[names[0]]
-        suffix = "Int64" if first.type == "Enumeration" else first.type
-        size = sum(int(np.prod([int(d.start) for d in self.variables[name].dimensions])) for name in names)
-        values: list[Any] = getattr(self.fmu, f"get{suffix}")(self.reference(*names), nValues=size)
-        return values
-
-    def set(self, name: str, *values: Any) -> None:
-        kind = self.variables[name].type
-        getattr(self.fmu, f"set{'Int64' if kind == 'Enumeration' else kind}")(self.reference(name), list(values))
-
-    def begin(self) -> int:
-        self.fmu.enterInitializationMode()
-        status: int = self.dll.fmi3ExitInitializationMode(self.component)
-        return status
-
-    def step(self, k: int, h: float = 0.1) -> int:
-        flags = [c_bool(), c_bool(), c_bool(), c_double()]
-        self.last = flags[3]
-        status: int = self.dll.fmi3DoStep(self.component, k * h, c_double(h), True, *map(byref, flags))
-        return status
-
-    def everything(self) -> str:
-        """All values, exactly."""
-        return json.dumps({name: [str(v) for v in self.get(name)] for name in self.variables})
-
-    def saved(self) -> bytes:
-        state = self.fmu.getFMUState()
-        try:
-            data: bytes = self.fmu.serializeFMUState(state)
-        finally:
-            self.fmu.freeFMUState(state)
-        return data
-
-    def restore(self, data: bytes) -> int:
-        state = self.fmu.deserializeFMUState(data)
-        status: int = self.dll.fmi3SetFMUState(self.component, state)
-        self.fmu.freeFMUState(state)
-        return status
-
-
-@pytest.fixture
-def host(form: str, request: pytest.FixtureRequest) -> Iterator[Callable[..., Host3]]:
-    made: list[Host3] = []
-    fixture = request.getfixturevalue
-    dummy: Path = fixture("unpacked3") if form == "Python" else fixture("native_dummies")["3"]
-
-    def make(name: str = "instance", at: Path = dummy) -> Host3:
-        made.append(Host3(at, name))
-        return made[-1]
-
-    yield make
-    for instance in made:
-        instance.free()
 
 
 def test_the_description_is_valid_and_has_arrays(unpacked3: Path) -> None:
@@ -123,8 +40,8 @@ def test_the_description_is_valid_and_has_arrays(unpacked3: Path) -> None:
     assert all(unknown.dependencies == [] for unknown in description.outputs)
 
 
-def test_start_values_in_the_xml_are_those_of_an_instance(host: Make) -> None:
-    a = host()
+def test_start_values_in_the_xml_are_those_of_an_instance(host3: Make) -> None:
+    a = host3()
     for name, variable in a.variables.items():
         if variable.causality not in ("input", "parameter"):
             assert variable.start is None
@@ -138,10 +55,8 @@ def test_start_values_in_the_xml_are_those_of_an_instance(host: Make) -> None:
             assert [float(value) for value in values] == [float(text) for text in variable.start.split()]
 
 
-def test_runs_with_arrays_as_the_fmi2_slave_does_with_scalars(host: Make, unpacked: Path) -> None:
-    from .conftest import Host
-
-    a, b = host(), Host(unpacked, "two")
+def test_runs_with_arrays_as_the_fmi2_slave_does_with_scalars(host3: Make, unpacked: Path) -> None:
+    a, b = host3(), Host(unpacked, "two")
     try:
         a.set("gain.second", math.pi)
         b.fmu.setReal(b.reference("gain.second"), [math.pi])
@@ -149,21 +64,22 @@ def test_runs_with_arrays_as_the_fmi2_slave_does_with_scalars(host: Make, unpack
         for k in range(20):
             a.set("push", 0.1 * k, -1.0, 1e-300)
             b.fmu.setReal(b.reference("push.x", "push.y", "push.z"), [0.1 * k, -1.0, 1e-300])
-            assert (a.step(k), b.step(k)) == (OK, OK)
+            status, _, last = a.step_from(k * 0.1, 0.1)
+            assert (status, b.step(k)) == (OK, OK)
             assert a.get("place") == b.place()
-        assert a.get("time") == [19 * 0.1 + 0.1]
-        assert a.last.value == 19 * 0.1 + 0.1
+        assert a.get("time") == [last] == [19 * 0.1 + 0.1]
         assert a.get("steps") == [23]
         assert a.get("moving") == [True]
         assert a.get("said") == [f"start {19 * 0.1}"]
+        assert a.get("phase") == [2]
         assert a.get("gain.first", "place") == [0.1, *b.place()]
     finally:
         b.free()
     assert a.messages == []
 
 
-def test_enumerations_count_from_one(host: Make) -> None:
-    a = host()
+def test_enumerations_count_from_one(host3: Make) -> None:
+    a = host3()
     a.set("method", 3)
     assert a.get("method") == [3]
     a.begin()
@@ -173,8 +89,8 @@ def test_enumerations_count_from_one(host: Make) -> None:
 
 
 @OF_PYTHON
-def test_a_second_initialisation_is_fatal(host: Make) -> None:
-    a = host()
+def test_a_second_initialisation_is_fatal(host3: Make) -> None:
+    a = host3()
     a.begin()
     assert a.begin() == FATAL  # initialised already
     assert a.messages[-1][0] == FATAL
@@ -189,16 +105,16 @@ def test_fmpy_simulates_it(unpacked3: Path) -> None:
     )
 
 
-def test_a_reservation_of_the_model_is_logged_as_a_warning_and_the_step_is_made(host: Make) -> None:
-    a = host()
+def test_a_reservation_of_the_model_is_logged_as_a_warning_and_the_step_is_made(host3: Make) -> None:
+    a = host3()
     a.begin()
     a.set("word", "doubt")
     assert a.step(0) == OK
     assert a.messages == [(WARNING, "only 90% right at t = 0.0 s")]
 
 
-def test_what_happens_is_logged_as_an_event_once(host: Make) -> None:
-    a = host()
+def test_what_happens_is_logged_as_an_event_once(host3: Make) -> None:
+    a = host3()
     a.begin()
     a.set("word", "bang")
     a.step(0)
@@ -207,25 +123,30 @@ def test_what_happens_is_logged_as_an_event_once(host: Make) -> None:
     assert a.messages == [(OK, "100% happened at t = 0.0 s")]
 
 
-def test_nan_discards_the_step_and_keeps_the_state_before(host: Make) -> None:
-    a, b = host("a"), host("b")
+def test_nan_discards_the_step_and_keeps_the_state_before(host3: Make, form: str) -> None:
+    a, b = host3("a"), host3("b")
     for instance in (a, b):
         instance.begin()
         instance.step(0)
     before = a.everything()
     a.set("push", 0.0, math.nan, 0.0)
-    assert a.step(1) == DISCARD
-    assert a.last.value == 0.1
+    status, flags, last = a.step_from(0.1, 0.1)
+    assert (status, last) == (DISCARD, 0.1)
+    assert form == "Python" or flags == [False] * 3  # no event, no end, no early return; pythonfmu3 writes one alone
     assert a.messages == [(ERROR, "push = [0.0, nan, 0.0] is not finite at t = 0.1 s; check what is connected to it")]
     a.set("push", 0.0, 0.0, 0.0)
     assert a.everything() == before
-    assert (a.step(1), b.step(1)) == (OK, OK)
+    status, _, last = a.step_from(0.1, math.nan)
+    assert (status, last) == (DISCARD, 0.1)
+    status, _, last = a.step_from(0.1, 0.1)
+    assert (status, last) == (OK, 0.2)
+    assert b.step(1) == OK
     assert a.everything() == b.everything()
 
 
 @OF_PYTHON
-def test_initialisation_that_fails_is_fatal_with_the_reason(host: Make) -> None:
-    a = host()
+def test_initialisation_that_fails_is_fatal_with_the_reason(host3: Make) -> None:
+    a = host3()
     for _ in range(20):  # every exception costs pythonfmu3's wrapper a reference to instance, class and log
         a.set("name", "bad")
         assert a.begin() == FATAL
@@ -270,8 +191,8 @@ REFUSED = [
 
 @OF_PYTHON
 @pytest.mark.parametrize(("call", "reason"), REFUSED)
-def test_a_refused_call_changes_nothing_and_discards_the_next_step(host: Make, call: Any, reason: str) -> None:
-    a = host()
+def test_a_refused_call_changes_nothing_and_discards_the_next_step(host3: Make, call: Any, reason: str) -> None:
+    a = host3()
     a.begin()
     before = a.everything()
     call(a)
@@ -284,8 +205,8 @@ def test_a_refused_call_changes_nothing_and_discards_the_next_step(host: Make, c
 
 
 @OF_PYTHON
-def test_a_reference_that_is_wrong_spoils_its_own_values_alone(host: Make) -> None:
-    a = host()
+def test_a_reference_that_is_wrong_spoils_its_own_values_alone(host3: Make) -> None:
+    a = host3()
     a.begin()
     *place, nothing, number, gain = a.fmu.getFloat64(
         [*a.reference("place"), 99, *a.reference("number", "gain.first")], nValues=6
@@ -302,9 +223,9 @@ def test_a_reference_that_is_wrong_spoils_its_own_values_alone(host: Make) -> No
 
 
 @OF_PYTHON
-def test_time_begins_where_the_first_step_does(host: Make) -> None:
+def test_time_begins_where_the_first_step_does(host3: Make) -> None:
     """pythonfmu3 drops the start time that the host gives; the first step tells it."""
-    a = host()
+    a = host3()
     assert a.get("time") == [0.0]
     a.begin()
     assert a.step(50) == OK
@@ -316,9 +237,8 @@ def test_time_begins_where_the_first_step_does(host: Make) -> None:
     assert message.startswith("a step begins at t = 6 s, but the last one ended at 5.1 s")
 
 
-@OF_PYTHON
-def test_the_scalar_flavour_gives_the_same_values(host: Make, unpacked_scalar: Path) -> None:
-    a, b = host("a"), host("b", unpacked_scalar)
+def test_the_scalar_flavour_gives_the_same_values(host3: Make) -> None:
+    a, b = host3("a"), host3("b", "3-scalar")
     assert (a.begin(), b.begin()) == (OK, OK)
     for k in range(3):
         a.set("push", 0.1 * k, -1.0, 1e-300)
@@ -332,8 +252,8 @@ def test_the_scalar_flavour_gives_the_same_values(host: Make, unpacked_scalar: P
     assert b.messages == []
 
 
-def test_a_step_after_the_end_is_refused(host: Make, form: str) -> None:
-    a = host()
+def test_a_step_after_the_end_is_refused(host3: Make, form: str) -> None:
+    a = host3()
     a.begin()
     a.step(0)
     saved = a.saved()
@@ -350,8 +270,8 @@ def test_a_step_after_the_end_is_refused(host: Make, form: str) -> None:
     assert a.step(0) == OK
 
 
-def test_serialised_state_goes_into_a_fresh_instance_and_keeps_the_time(host: Make) -> None:
-    a, b = host("a"), host("b")
+def test_serialised_state_goes_into_a_fresh_instance_and_keeps_the_time(host3: Make) -> None:
+    a, b = host3("a"), host3("b")
     a.set("gain.second", math.e)
     a.set("method", 2)
     a.begin()
@@ -366,26 +286,20 @@ def test_serialised_state_goes_into_a_fresh_instance_and_keeps_the_time(host: Ma
     for k in range(7, 12):
         assert (a.step(k), b.step(k)) == (OK, OK)
     assert b.everything() == a.everything()
+    assert b.saved() == a.saved()
 
 
-@OF_PYTHON
-def test_a_state_of_the_fmi2_slave_can_be_restored(host: Make, unpacked: Path) -> None:
-    from .conftest import Host
-
-    b = Host(unpacked, "two")
-    try:
-        b.begin()
-        b.step(0)
-        a = host()
-        assert a.restore(b.saved()) == OK
-        assert (a.step(1), b.step(1)) == (OK, OK)
-        assert a.get("place") == b.place()
-    finally:
-        b.free()
+def test_a_state_of_the_fmi2_slave_can_be_restored(host3: Make, host: Make) -> None:
+    a, b = host3(), host()
+    b.begin()
+    b.step(0)
+    assert a.restore(b.saved()) == OK
+    assert (a.step(1), b.step(1)) == (OK, OK)
+    assert a.get("place") == b.place()
 
 
-def test_raw_arrays_of_no_length(host: Make) -> None:
-    a = host()
+def test_raw_arrays_of_no_length(host3: Make) -> None:
+    a = host3()
     a.begin()
     for name in ("Float64", "Int32", "Int64", "Boolean", "String"):
         for call in (f"fmi3Get{name}", f"fmi3Set{name}"):
@@ -442,8 +356,8 @@ def test_all_calls_that_the_wrapper_does_not_have(unpacked3: Path, name: str) ->
 
 
 @pytest.mark.parametrize("name", ["fmi3GetDirectionalDerivative", "fmi3GetOutputDerivatives"])
-def test_other_unsupported_calls_answer_an_error(host: Make, name: str) -> None:
-    a = host()
+def test_other_unsupported_calls_answer_an_error(host3: Make, name: str) -> None:
+    a = host3()
     a.begin()
     call = getattr(a.dll, name)
     call.argtypes = None

@@ -1,41 +1,26 @@
 """Native FMUs answer FMI 3.0 as the standard asks: types, sizes, time, call order, what there is not.
 
-What both versions of FMI have in common is the same code and is tested in test_fmi2.py.
+What the Python FMU does alike is in tests/fmi/test_slave_fmi3.py, what FMI 2.0 has in common in test_fmi2_*.py.
 """
 
 from __future__ import annotations
 
 import ctypes
 import math
-from collections.abc import Callable, Iterator
-from ctypes import byref, c_bool, c_double, c_int32, c_int64, c_size_t, c_uint, c_uint8
+from collections.abc import Callable
+from ctypes import c_bool, c_double, c_int32, c_int64, c_size_t, c_uint, c_uint8
 from ctypes import c_void_p as pointer
-from pathlib import Path
 from typing import Any
 
 import pytest
 
-from tests.fmi.Dummy import INTERFACE
-from tests.fmi.test_slave_fmi3 import Host3
+from tests.fmi.hosts import Host3
 
 from .native_fmus import TOKEN
 
 OK, WARNING, DISCARD, ERROR = range(4)
 Make = Callable[..., Host3]
 TIME, PLACE, STEPS, MOVING, SAID, PHASE, PUSH, NUMBER = range(8)
-
-
-@pytest.fixture
-def host3(native_dummies: dict[str, Path]) -> Iterator[Make]:
-    made: list[Host3] = []
-
-    def make(flavour: str = "3") -> Host3:
-        made.append(Host3(native_dummies[flavour], "one"))
-        return made[-1]
-
-    yield make
-    for instance in made:
-        instance.free()
 
 
 def raw(a: Host3, name: str, *arguments: object) -> int:
@@ -48,33 +33,6 @@ def values(a: Host3, name: str, references: list[int], given: Any, size: int | N
     """fmi3GetX or fmi3SetX."""
     asked = (c_uint * len(references))(*references)
     return raw(a, name, asked, c_size_t(len(references)), given, c_size_t(len(given) if size is None else size))
-
-
-@pytest.mark.parametrize("flavour", ["3", "3-scalar"])
-def test_every_value_is_that_of_the_python_model(host3: Make, flavour: str) -> None:
-    a, python = host3(flavour), INTERFACE.make_access()
-    push = ("push",) if flavour == "3" else ("push.x", "push.y", "push.z")
-    a.set("gain.second", math.pi)
-    python.set_real(python.references(["gain.second"]), [math.pi])
-    assert a.begin() == OK
-    python.initialise()
-    for k in range(30):
-        given = [math.sin(k), k / 7.0, -1e-300]
-        python.set_real(python.references(["push.x", "push.y", "push.z"]), given)
-        if flavour == "3":
-            a.set("push", *given)
-        else:
-            for name, value in zip(push, given, strict=True):
-                a.set(name, value)
-        assert a.step(k) == OK
-        python.do_step(k * 0.1, 0.1)
-    table = {line.name: reference for reference, line in enumerate(python.table)}
-    place = a.get("place") if flavour == "3" else [a.get(f"place.{axis}")[0] for axis in "xyz"]
-    assert place == python.get_real([0, 1, 2])
-    assert a.get("steps") + a.get("phase") == python.get_integer([table["steps"], table["phase"]])
-    assert a.get("moving") == python.get_boolean([table["moving"]])
-    assert a.get("said") == python.get_string([table["said"]])
-    assert a.get("time") == [29 * 0.1 + 0.1]
 
 
 def test_several_variables_in_one_call(host3: Make) -> None:
@@ -190,30 +148,16 @@ def enter(a: Host3, start: float, stop: float | None = None) -> int:
                c_double(stop or 0.0))  # fmt: skip
 
 
-def step(a: Host3, t: float, h: float) -> tuple[int, list[bool], float]:
-    flags, last = [c_bool(True) for _ in range(3)], c_double(-7.0)
-    status = raw(a, "DoStep", c_double(t), c_double(h), c_bool(True), *map(byref, flags), byref(last))
-    return status, [flag.value for flag in flags], last.value
-
-
 def test_start_and_stop_time_are_honoured(host3: Make) -> None:
     a = host3()
     assert enter(a, 100.0, 101.0) == OK
     assert a.get("time") == [100.0]
     assert raw(a, "ExitInitializationMode") == OK
-    assert step(a, 100.0, 0.75) == (OK, [False] * 3, 100.75)
+    assert a.step_from(100.0, 0.75) == (OK, [False] * 3, 100.75)
     assert a.get("time") == [100.75]
-    assert step(a, 100.75, 0.5) == (ERROR, [False] * 3, 100.75)
+    assert a.step_from(100.75, 0.5) == (ERROR, [False] * 3, 100.75)
     assert "ends after the stop time 101 s" in a.messages[-1][1]
-    assert step(a, 100.75, 0.25) == (OK, [False] * 3, 101.0)
-
-
-def test_a_discarded_step_says_where_it_stands(host3: Make) -> None:
-    a = host3()
-    a.begin()
-    assert step(a, 0.0, 0.1)[0] == OK
-    assert step(a, 0.1, math.nan) == (DISCARD, [False] * 3, 0.1)
-    assert step(a, 0.1, 0.1) == (OK, [False] * 3, 0.2)
+    assert a.step_from(100.75, 0.25) == (OK, [False] * 3, 101.0)
 
 
 def test_arguments_that_a_host_leaves_out(host3: Make) -> None:
@@ -231,34 +175,32 @@ def test_a_start_that_is_not_finite_does_not_enter(host3: Make, start: float) ->
 
 def test_the_order_of_calls(host3: Make) -> None:
     a = host3()
-    assert step(a, 0.0, 0.1)[0] == ERROR
+    assert a.step_from(0.0, 0.1)[0] == ERROR
     assert raw(a, "ExitInitializationMode") == ERROR
     assert raw(a, "Terminate") == ERROR
     assert enter(a, 0.0) == OK
     assert enter(a, 0.0) == ERROR
-    assert step(a, 0.0, 0.1)[0] == ERROR
+    assert a.step_from(0.0, 0.1)[0] == ERROR
     assert raw(a, "ExitInitializationMode") == OK
     assert raw(a, "ExitInitializationMode") == ERROR
-    assert step(a, 0.0, 0.1)[0] == OK
+    assert a.step_from(0.0, 0.1)[0] == OK
     assert raw(a, "Terminate") == OK
     assert raw(a, "Terminate") == ERROR
-    assert step(a, 0.1, 0.1)[0] == ERROR
+    assert a.step_from(0.1, 0.1)[0] == ERROR
     assert values(a, "SetFloat64", [PUSH], (c_double * 3)()) == ERROR
     assert a.get("place") != [0.0] * 3
     assert raw(a, "Reset") == OK
     assert a.begin() == OK
 
 
-def test_a_restored_state_has_time_and_phase(host3: Make) -> None:
+def test_a_restored_state_has_the_stop_time(host3: Make) -> None:
     a, b = host3(), host3()
     enter(a, 3.0, 9.0)
     raw(a, "ExitInitializationMode")
-    step(a, 3.0, 0.5)
+    a.step_from(3.0, 0.5)
     assert b.restore(a.saved()) == OK
     assert b.get("time") == [3.5]
-    assert step(b, 3.5, 0.5) == step(a, 3.5, 0.5)
-    assert a.saved() == b.saved()
-    assert step(b, 4.0, 6.0)[0] == ERROR
+    assert b.step_from(3.5, 6.0)[0] == ERROR
 
 
 # Instances. ----------------------------------------------------------------------------------------------------------
