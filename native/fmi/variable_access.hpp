@@ -7,7 +7,7 @@
 #include <stddef.h>
 
 #include "../numbers/text.hpp"
-#include "bytes.hpp"
+#include "../numbers/bytes.hpp"
 #include "model.hpp"
 #include "variables.hpp"
 

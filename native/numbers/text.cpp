@@ -109,6 +109,26 @@ Text& Text::short_number(double number, int digits) {
   return *this;
 }
 
+// A number of 0.d times the last decimal's unit is rounded to one unit or none.
+Text& Text::fixed_number(double number, int decimals) {
+  if (put_special(number)) return *this;
+  Decimal decimal = round_to_decimal(number, MOST_DIGITS);
+  const int digits = decimal.point + decimals;
+  if (digits == 0 && decimal.count > 0 && (decimal.digits[0] > '5' || (decimal.digits[0] == '5' && decimal.count > 1))) {
+    decimal = {"1", 1, decimal.point + 1};
+  } else if (digits <= 0) {
+    decimal = {"", 0, 0};
+  } else if (digits < MOST_DIGITS) {
+    decimal = round_to_decimal(number, digits);
+  }
+  const int point = decimal.count == 0 ? 0 : decimal.point;
+  if (point <= 0) put('0');
+  for (int i = 0; i < point; ++i) put(i < decimal.count ? decimal.digits[i] : '0');
+  if (decimals > 0) put('.');
+  for (int i = point; i < point + decimals; ++i) put(i >= 0 && i < decimal.count ? decimal.digits[i] : '0');
+  return *this;
+}
+
 // The sign, and all of a number that is not finite.
 bool Text::put_special(double number) {
   if (number != number) {

@@ -29,6 +29,7 @@ class Text {
   Text& operator<<(long long number);
   Text& operator<<(double number);                         // as Python's repr: the shortest that reads back the same
   Text& short_number(double number, int digits = 6);       // as Python's format 'g'
+  Text& fixed_number(double number, int decimals);         // as Python's format 'f'
   Text& list(const double* numbers, size_t count);         // as Python's repr of a list
   Text& quote(const char* words);                          // as Python's repr of a string, in single quotes
 

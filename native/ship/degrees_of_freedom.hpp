@@ -20,6 +20,9 @@ inline Six operator+(const Six& p, const Six& q) {
 inline Six operator-(const Six& p, const Six& q) {
   return {{p[0] - q[0], p[1] - q[1], p[2] - q[2], p[3] - q[3], p[4] - q[4], p[5] - q[5]}};
 }
+inline Six operator*(double factor, const Six& p) {
+  return {{factor * p[0], factor * p[1], factor * p[2], factor * p[3], factor * p[4], factor * p[5]}};
+}
 inline double dot(const Six& p, const Six& q) {
   return p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3] + p[4] * q[4] + p[5] * q[5];
 }
@@ -35,6 +38,11 @@ inline Six multiply(const Matrix& rows, const Six& p) {
 inline Three first_three(const Six& p) { return {{p[0], p[1], p[2]}}; }
 inline Three last_three(const Six& p) { return {{p[3], p[4], p[5]}}; }
 inline Six join(const Three& p, const Three& q) { return {{p[0], p[1], p[2], q[0], q[1], q[2]}}; }
+
+inline bool is_same(const Six& p, const Six& q) {
+  return is_same(first_three(p), first_three(q)) && is_same(last_three(p), last_three(q));
+}
+inline bool is_zero(const Six& p) { return is_same(p, Six{}); }
 
 bool is_free(int degrees_of_freedom, int k);
 

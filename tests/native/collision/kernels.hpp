@@ -1,7 +1,7 @@
 // What the files kernels_*.cpp share: parts of native/collision by name, numbers in and numbers out.
 #include <string.h>
 
-#include "../../../native/collision/dynamics/body_state.hpp"
+#include "../../../native/collision/bodies.hpp"
 #include "../../../native/export.hpp"
 
 namespace shipcollision {
@@ -33,7 +33,7 @@ struct Take {
   Numbers all() {
     Numbers numbers;
     static_assert(sizeof numbers % sizeof(double) == 0, "real numbers alone");
-    memcpy(&numbers, in, sizeof numbers);
+    memcpy(static_cast<void*>(&numbers), in, sizeof numbers);
     in += sizeof numbers / sizeof(double);
     return numbers;
   }
@@ -66,5 +66,8 @@ inline BodyState take_state(Take& take) {
   state.fixed = take.real() != 0.0;
   return state;
 }
+
+// Those that were opened last.
+const Bodies& get_kernel_bodies();
 
 }  // namespace shipcollision

@@ -16,6 +16,12 @@ struct World {
 
 World* world = nullptr;
 
+}  // namespace
+
+const Bodies& shipcollision::get_kernel_bodies() { return world->bodies; }
+
+namespace {
+
 // in: number of a body, an attitude, a velocity and rate
 void body(const double* in, double* out) {
   Take take{in};

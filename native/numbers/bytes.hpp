@@ -6,6 +6,8 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "buffer.hpp"
+
 namespace shipcollision {
 
 // Counts bytes, and writes them where it was given memory for them.
@@ -24,10 +26,20 @@ class ByteWriter {
   void value(const T& value) {
     put(&value, sizeof value);
   }
+  template <typename... T>
+  void values(const T&... each) {
+    (value(each), ...);
+  }
   void text(const char* text) {
     const uint32_t size = static_cast<uint32_t>(strlen(text));
     value(size);
     put(text, size);
+  }
+  // The number of entries, and their bytes.
+  template <typename T>
+  void list(const Buffer<T>& entries) {
+    value(entries.size());
+    if (!entries.is_empty()) put(entries.data(), static_cast<size_t>(entries.size()) * sizeof(T));
   }
   // Room for bytes that someone else writes; null while only counting.
   unsigned char* room(size_t size) {
@@ -63,10 +75,26 @@ class ByteReader {
     if (found != nullptr) memcpy(&value, found, sizeof value);
     return found != nullptr;
   }
+  bool value(bool& value) { return flag(value); }
+  template <typename... T>
+  bool values(T&... each) {
+    return (value(each) && ...);
+  }
   bool flag(bool& value) {
     unsigned char read;
     if (!this->value(read) || read > 1) return false;
     value = read == 1;
+    return true;
+  }
+  // False without memory as well.
+  template <typename T>
+  bool list(Buffer<T>& entries) {
+    int count;
+    if (!value(count) || count < 0 || static_cast<size_t>(count) > left_ / sizeof(T) || !entries.resize(count)) {
+      return false;
+    }
+    if (count > 0) memcpy(static_cast<void*>(entries.data()), take(static_cast<size_t>(count) * sizeof(T)),
+                          static_cast<size_t>(count) * sizeof(T));
     return true;
   }
   // A text shorter than `capacity`, with a zero after it.
