@@ -5,6 +5,7 @@ namespace shipcollision {
 namespace {
 
 constexpr double ROUNDING = 0x1p-53;
+constexpr double ORTHOGONAL = 0x1p-50;  // cosine of two rows, which rounding leaves
 constexpr int MOST_TURNS = 60;  // mostly fewer than ten
 
 // Householder's reduction to a matrix with a diagonal and one beside it. reflected: room for a row.
@@ -80,7 +81,7 @@ void orthogonalise_rows(Dense& A) {
       for (int j = i + 1; j < n; ++j) {
         double *p = A[i], *q = A[j];
         const double pp = dot(p, p, columns), qq = dot(q, q, columns), pq = dot(p, q, columns);
-        if (!(abs(pq) > ROUNDING * sqrt(pp) * sqrt(qq))) continue;
+        if (!(abs(pq) > ORTHOGONAL * sqrt(pp) * sqrt(qq))) continue;
         done = 0;
         const double slope = (qq - pp) / (2.0 * pq);
         const double t = copysign(1.0, slope) / (abs(slope) + sqrt(1.0 + slope * slope));
