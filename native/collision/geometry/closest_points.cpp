@@ -8,6 +8,8 @@
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
 
+#include "../../numbers/sort.hpp"
+
 namespace shipcollision {
 
 namespace {
@@ -47,6 +49,77 @@ void find_quaternion(const double R[9], double q[4]) {
   for (int i = 0; i < 4; ++i) q[i] /= size;
 }
 
+// A convex hull that finds the point that Bullet's would find, the foremost of the lowest number, without looking at
+// all: points are in groups, and most groups lie behind the point that was foremost last.
+class GroupedHull : public btConvexHullShape {
+ public:
+  BT_DECLARE_ALIGNED_ALLOCATOR();
+
+  // After the last point.
+  void finish() {
+    optimizeConvexHull();
+    for (int i = 0; i < getNumPoints(); ++i) order_.push_back(i);
+    group(0, getNumPoints());
+    for (int i = 0; i < order_.size(); ++i) points_.push_back(getUnscaledPoints()[order_[i]]);
+    m_shapeType = CUSTOM_CONVEX_SHAPE_TYPE;  // of Bullet's own type, it would search by itself
+  }
+
+  btVector3 localGetSupportingVertexWithoutMargin(const btVector3& direction) const override {
+    const btVector3 along = direction.absolute();
+    int found = last_;
+    btScalar most = points_[found].dot(direction);
+    for (int i = 0; i < groups_.size(); ++i) {
+      const Group& group = groups_[i];
+      if (group.middle.dot(direction) + group.half.dot(along) < most) continue;
+      for (int k = group.begin; k < group.end; ++k) {
+        const btScalar height = points_[k].dot(direction);
+        if (height > most || (height == most && order_[k] < order_[found])) {
+          most = height;
+          found = k;
+        }
+      }
+    }
+    last_ = found;
+    return points_[found];
+  }
+
+ private:
+  static constexpr int LARGEST_GROUP = 12;
+
+  struct Group {
+    btVector3 middle, half;  // of a box around its points
+    int begin, end;          // in points_
+  };
+
+  // Parts what is too large in two along its longest side.
+  void group(int begin, int end) {
+    const btVector3* corners = getUnscaledPoints();
+    btVector3 low = corners[order_[begin]], high = low;
+    for (int i = begin + 1; i < end; ++i) {
+      low.setMin(corners[order_[i]]);
+      high.setMax(corners[order_[i]]);
+    }
+    if (end - begin <= LARGEST_GROUP) {
+      const btVector3 middle = 0.5 * (low + high), half = 0.5 * (high - low);
+      // A little more than the points need, so that rounding leaves none outside.
+      groups_.push_back({middle, half + 1e-13 * (middle.absolute() + half), begin, end});
+      return;
+    }
+    const int axis = (high - low).maxAxis();
+    sort(&order_[begin], end - begin, [corners, axis](int p, int q) {
+      return corners[p][axis] != corners[q][axis] ? corners[p][axis] < corners[q][axis] : p < q;
+    });
+    const int half = (begin + end) / 2;
+    group(begin, half);
+    group(half, end);
+  }
+
+  btAlignedObjectArray<Group> groups_;
+  btAlignedObjectArray<int> order_;  // number of each entry of points_
+  btAlignedObjectArray<btVector3> points_;
+  mutable int last_ = 0;  // what was found last; it makes the search short, and changes no result
+};
+
 struct OneResult : btDiscreteCollisionDetectorInterface::Result {
   bool is_found = false;
   btVector3 normal_on_b;
@@ -72,7 +145,7 @@ struct PlacedHulls::Ship {
     for (int i = 0; i < parts.size(); ++i) delete parts[i];
   }
 
-  btAlignedObjectArray<btConvexHullShape*> parts;
+  btAlignedObjectArray<GroupedHull*> parts;
   btTransform pose = btTransform(btMatrix3x3(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0));
 };
 
@@ -80,12 +153,12 @@ PlacedHulls::PlacedHulls(int ships, const int* parts, const int* corners, const 
     : ships_(new Ship[static_cast<size_t>(ships)]) {
   for (int ship = 0; ship < ships; ++ship) {
     for (int part = 0; part < parts[ship]; ++part, ++corners) {
-      auto* shape = new btConvexHullShape();
+      auto* shape = new GroupedHull();
       shape->setMargin(MARGIN);
       for (int corner = 0; corner < *corners; ++corner, coordinates += 3) {
         shape->addPoint(swap_axes(coordinates), false);
       }
-      shape->optimizeConvexHull();
+      shape->finish();
       ships_[ship].parts.push_back(shape);
     }
   }

@@ -161,10 +161,11 @@ void Support::find_outer_faces(const Closest& closest, const CompoundHull& one, 
       if (!compound.is_outer(number, k)) continue;
       const Three outward = rotate(state.predicted.R, part.planes[k].normal);
       const Three normal = side == 0 ? outward : -outward;
-      double most = -1e300, least = 1e300;
-      for (const Three& corner : in_a_) most = max(most, dot(normal, corner));
-      for (const Three& corner : in_b_) least = min(least, dot(normal, corner));
-      faces_.add({normal, most - least});
+      // The foremost corners of its own part lie in the plane.
+      const double own = part.planes[k].offset + dot(outward, state.predicted.x);
+      double least = 1e300;
+      for (const Three& corner : side == 0 ? in_b_ : in_a_) least = min(least, dot(outward, corner));
+      faces_.add({normal, own - least});
     }
   }
   sort_stably(faces_.data(), faces_.size(), [](const Face& p, const Face& q) { return p.depth < q.depth; });
