@@ -41,6 +41,9 @@ bool check_first_line(const PreparedKind& kind, const char* content, size_t size
   return true;
 }
 
+// A first line that ends in CR LF, or in CR alone: the writer ends each line with LF.
+bool has_other_line_ends(const char* content) { return content[strcspn(content, "\r\n")] == '\r'; }
+
 void put_checksum(Text& text, uint32_t checksum) {
   for (int shift = 28; shift >= 0; shift -= 4) {
     const char digit[2] = {"0123456789abcdef"[checksum >> shift & 15], '\0'};
@@ -49,6 +52,11 @@ void put_checksum(Text& text, uint32_t checksum) {
 }
 
 bool check_checksum(const PreparedKind& kind, const char* content, size_t size, const char* file, Text& why) {
+  if (has_other_line_ends(content)) {
+    why << file << " is damaged: its line ends were changed, as git and editors of Windows do; copy it as a binary "
+        << "file, or " << kind.what << " again with `shipcollision prepare " << kind.argument << "`";
+    return false;
+  }
   const bool is_long_enough = size > LAST_LINE && content[size - LAST_LINE - 1] == '\n';
   const char* last = is_long_enough ? content + size - LAST_LINE : content;
   if (!is_long_enough || !starts_with(last, CHECKSUM)) {
@@ -63,8 +71,9 @@ bool check_checksum(const PreparedKind& kind, const char* content, size_t size, 
     stated << digit;
   }
   if (strcmp(computed.get(), stated.get()) != 0 || last[LAST_LINE - 1] != '\n') {
-    why << file << " is damaged: its checksum is " << computed << ", must be ";
-    why.quote(stated.get()) << "; " << kind.what << " again";
+    why << file << " is damaged: its last line states the checksum ";
+    why.quote(stated.get()) << ", its content gives " << computed << "; " << kind.what
+                            << " again with `shipcollision prepare " << kind.argument << "`";
     return false;
   }
   return true;

@@ -60,7 +60,8 @@ def test_a_name_is_read_as_it_is() -> None:
         ),
         (
             KVLCC2.replace(b"\n", b"\r\n"),
-            "some.ship is damaged: its last line must be its checksum, `crc32` and eight digits" + AGAIN,
+            "some.ship is damaged: its line ends were changed, as git and editors of Windows do; copy it as a binary "
+            "file, or prepare the ship again with `shipcollision prepare SHIP`",
         ),
         (
             seal(KVLCC2[:-15].replace(b"\nM_A ", b"\nM_B ", 1)),
@@ -84,7 +85,10 @@ def test_other_content_is_refused(content: bytes, why: str) -> None:
 def test_one_changed_byte_is_found() -> None:
     content = KVLCC2.replace(b"0x1.4", b"0x1.5", 1)
     found, stated = crc32(content[:-15]), KVLCC2[-9:-1].decode()
-    assert read(content) == f"some.ship is damaged: its checksum is {found:08x}, must be '{stated}'{AGAIN}"
+    assert read(content) == (
+        f"some.ship is damaged: its last line states the checksum '{stated}', its content gives {found:08x}{AGAIN} "
+        "with `shipcollision prepare SHIP`"
+    )
 
 
 def test_damage_of_any_kind_is_refused() -> None:
