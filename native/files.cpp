@@ -79,6 +79,8 @@ bool read_all(int file, size_t limit, char*& bytes, size_t& size) {
 
 }  // namespace
 
+bool has_other_line_ends(const char* content) { return content[strcspn(content, "\r\n")] == '\r'; }
+
 FileContent::~FileContent() { free(bytes_); }
 
 bool FileContent::read(const char* path, size_t limit, Text& why) {

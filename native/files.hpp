@@ -26,4 +26,7 @@ class FileContent {
   size_t size_ = 0;
 };
 
+// Whether the first line ends in CR: the writers end each line with LF alone.
+bool has_other_line_ends(const char* content);
+
 }  // namespace shipcollision

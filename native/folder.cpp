@@ -67,4 +67,21 @@ void list_folder(const char* folder, const char* suffix, Text& names) {
   found.put(names);
 }
 
+bool is_folder(const char* path) {
+#if defined(_WIN32)
+  wchar_t wide[LONGEST_PATH + 1];
+  _wfinddata64_t entry;
+  if (!widen(path, wide) || wcslen(wide) + 2 > LONGEST_PATH) return false;
+  wcscat(wide, L"\\*");
+  const intptr_t search = _wfindfirst64(wide, &entry);
+  if (search == -1) return false;
+  _findclose(search);
+#else
+  DIR* opened = opendir(path);
+  if (opened == nullptr) return false;
+  closedir(opened);
+#endif
+  return true;
+}
+
 }  // namespace shipcollision

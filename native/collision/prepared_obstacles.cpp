@@ -31,7 +31,8 @@ bool PreparedObstacles::open(const char* path, const char* directory, Text& why)
     return false;
   }
   if (!read_prepared_file(path, directory, content_)) {
-    why << "obstacles: file " << path << " does not exist or cannot be read: give the path of prepared obstacles";
+    why << "obstacles: file " << path
+        << (is_prepared_folder(path, directory) ? " is a folder" : " does not exist or cannot be read") << ": give the path of prepared obstacles";
     return false;
   }
   file_.clear();

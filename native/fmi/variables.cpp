@@ -53,9 +53,16 @@ Variables::~Variables() {
 }
 
 bool Variables::read(const char* path, Text& why) {
-  if (!file_.read(path, LARGEST_FILE, why)) return false;
+  if (!file_.read(path, LARGEST_FILE, why)) {
+    why << "; the host must pass the folder `resources` of the unpacked FMU";
+    return false;
+  }
   size_t size = file_.size();
   LineReader first(file_.data(), size);
+  if (strncmp(file_.data(), "shipcollision variables ", 24) == 0 && has_other_line_ends(file_.data())) {
+    why << path << " is damaged: its line ends were changed, as git and editors of Windows do; unpack the FMU again";
+    return false;
+  }
   int version;
   if (!first.next_line() || !first.word("shipcollision") || !first.word("variables") ||
       !read_int(first, 1, INT_MAX, version)) {

@@ -2,6 +2,7 @@
 
 #include <stdint.h>
 
+#include "../folder.hpp"
 #include "../numbers/crc32.hpp"
 #include "../numbers/elementary.hpp"
 
@@ -41,9 +42,6 @@ bool check_first_line(const PreparedKind& kind, const char* content, size_t size
   return true;
 }
 
-// A first line that ends in CR LF, or in CR alone: the writer ends each line with LF.
-bool has_other_line_ends(const char* content) { return content[strcspn(content, "\r\n")] == '\r'; }
-
 void put_checksum(Text& text, uint32_t checksum) {
   for (int shift = 28; shift >= 0; shift -= 4) {
     const char digit[2] = {"0123456789abcdef"[checksum >> shift & 15], '\0'};
@@ -79,15 +77,8 @@ bool check_checksum(const PreparedKind& kind, const char* content, size_t size, 
   return true;
 }
 
-}  // namespace
-
-bool is_absolute(const char* path) {
-  return path[0] == '/' || path[0] == '\\' || (path[0] != '\0' && path[1] == ':');
-}
-
-bool read_below(const char* folder, const char* name, const char* suffix, FileContent& content) {
-  char path[LONGEST_PATH];
-  Text unread;
+// FOLDER/NAME SUFFIX; false for one that is too long.
+bool join(const char* folder, const char* name, const char* suffix, char (&path)[LONGEST_PATH]) {
   const char* const parts[] = {folder, folder[0] == '\0' || ends_with_slash(folder) ? "" : "/", name, suffix};
   size_t size = 0;
   for (const char* part : parts) {
@@ -97,12 +88,30 @@ bool read_below(const char* folder, const char* name, const char* suffix, FileCo
     size += more;
   }
   path[size] = '\0';
-  return content.read(path, LONGEST_FILE, unread);
+  return true;
+}
+
+bool is_below(const char* path, const char* directory) { return directory[0] != '\0' && !is_absolute(path); }
+
+}  // namespace
+
+bool is_absolute(const char* path) {
+  return path[0] == '/' || path[0] == '\\' || (path[0] != '\0' && path[1] == ':');
+}
+
+bool read_below(const char* folder, const char* name, const char* suffix, FileContent& content) {
+  char path[LONGEST_PATH];
+  Text unread;
+  return join(folder, name, suffix, path) && content.read(path, LONGEST_FILE, unread);
 }
 
 bool read_prepared_file(const char* path, const char* directory, FileContent& content) {
-  const bool is_below = directory[0] != '\0' && !is_absolute(path);
-  return (is_below && read_below(directory, path, "", content)) || read_below("", path, "", content);
+  return (is_below(path, directory) && read_below(directory, path, "", content)) || read_below("", path, "", content);
+}
+
+bool is_prepared_folder(const char* path, const char* directory) {
+  char below[LONGEST_PATH];
+  return (is_below(path, directory) && join(directory, path, "", below) && is_folder(below)) || is_folder(path);
 }
 
 bool check_prepared(const PreparedKind& kind, const char* content, size_t size, const char* file, Text& why) {

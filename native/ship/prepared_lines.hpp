@@ -26,6 +26,9 @@ bool read_below(const char* folder, const char* name, const char* suffix, FileCo
 // Reads the file of a path; a relative one is looked for in `directory`, then in the current folder.
 bool read_prepared_file(const char* path, const char* directory, FileContent& content);
 
+// Whether there is a folder, and no file, where read_prepared_file() looks.
+bool is_prepared_folder(const char* path, const char* directory);
+
 // Whether a file is of that kind and version, and as it was written. It ends with a zero after `size` bytes.
 bool check_prepared(const PreparedKind& kind, const char* content, size_t size, const char* file, Text& why);
 

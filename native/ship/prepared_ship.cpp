@@ -89,6 +89,10 @@ bool load_by_path(const char* path, const char* directory, PreparedShip& ship, T
   if (read_prepared_file(path, directory, content)) {
     return read_prepared_ship(content.data(), content.size(), path, ship, why, hull);
   }
+  if (is_prepared_folder(path, directory)) {
+    why << "ship file " << path << " is a folder: give the path of a prepared ship";
+    return false;
+  }
   why << "ship file " << path << " does not exist or cannot be read: give the path of a prepared ship";
   if (!is_absolute(path)) {
     why << " (looked for in ";
@@ -127,8 +131,9 @@ bool load_prepared_ship(const char* name_or_path, const char* directory, Prepare
     return false;
   }
   if (ends_with(name_or_path, ".toml")) {
+    const char* quotes = strpbrk(name_or_path, " \t&;()'") == nullptr ? "" : "\"";
     why << "ship file " << name_or_path << ": a native FMU reads no TOML; write a prepared ship with `shipcollision "
-        << "prepare " << name_or_path << "` and give its path";
+        << "prepare " << quotes << name_or_path << quotes << "` and give its path";
     return false;
   }
   return is_path(name_or_path) ? load_by_path(name_or_path, directory, ship, why, hull)

@@ -289,28 +289,42 @@ def test_a_damaged_table_is_refused(attempt: Try, table: Any) -> None:
         )
 
 
+def test_changed_line_ends_of_the_table_are_named(attempt: Try, table: Any) -> None:
+    folder = table(("p-4", "p-4"))
+    path = folder / "variables.txt"
+    path.write_bytes(path.read_bytes().replace(b"\n", b"\r\n"))
+    assert attempt(str(folder), 3) == (
+        f"{path} is damaged: its line ends were changed, as git and editors of Windows do; unpack the FMU again"
+    )
+
+
+REMEDY = "; the host must pass the folder `resources` of the unpacked FMU"
+
+
 def test_a_table_of_four_gigabytes_is_refused(attempt: Try, tmp_path: Path) -> None:
     path = tmp_path / "variables.txt"
     with path.open("wb") as file:
         file.truncate(2**32)  # a hole, which takes no room
-    assert attempt(str(tmp_path)) == f"{path} is longer than 16777216 bytes: it is not what it should be"
+    assert attempt(str(tmp_path)) == f"{path} is longer than 16777216 bytes: it is not what it should be{REMEDY}"
 
 
 def test_a_folder_in_place_of_the_table_is_refused(attempt: Try, tmp_path: Path) -> None:
     (tmp_path / "variables.txt").mkdir()
-    assert attempt(str(tmp_path)) == f"{tmp_path / 'variables.txt'} cannot be read: it is not a file"
+    assert attempt(str(tmp_path)) == f"{tmp_path / 'variables.txt'} cannot be read: it is not a file{REMEDY}"
 
 
 def test_a_pipe_in_place_of_the_table_is_refused_at_once(attempt: Try, tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "variables.txt")
-    assert attempt(str(tmp_path)) == f"{tmp_path / 'variables.txt'} cannot be read: it is not a file"
+    assert attempt(str(tmp_path)) == f"{tmp_path / 'variables.txt'} cannot be read: it is not a file{REMEDY}"
 
 
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_what_is_logged_is_utf8(attempt: Try, fmi: int) -> None:
     assert attempt(b"/\xff\xe4/\xc3\xb8", fmi) == (
         "/\\xff\\xe4/ø/variables.txt cannot be opened: it is missing, or may not be read"
+        "; the host must pass the folder `resources` of the unpacked FMU"
     )
     assert attempt(b"\x80" * 4000, fmi).endswith(
         "\\x80/variables.txt cannot be opened: it is missing, or may not be read"
+        "; the host must pass the folder `resources` of the unpacked FMU"
     )

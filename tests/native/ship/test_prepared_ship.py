@@ -156,7 +156,8 @@ def test_a_missing_file_says_where_it_was_looked_for(folder: Path) -> None:
     assert start(folder, "/no.ship") == (
         "ship file /no.ship does not exist or cannot be read: give the path of a prepared ship"
     )
-    assert start(folder, str(folder)).endswith("does not exist or cannot be read: give the path of a prepared ship")
+    for path in (str(folder), "../here", f"{folder}/"):
+        assert start(folder, path) == f"ship file {path} is a folder: give the path of a prepared ship"
 
 
 def test_toml_is_refused_with_the_remedy(folder: Path) -> None:
@@ -164,6 +165,7 @@ def test_toml_is_refused_with_the_remedy(folder: Path) -> None:
         "ship file my/ship.toml: a native FMU reads no TOML; write a prepared ship with `shipcollision prepare "
         "my/ship.toml` and give its path"
     )
+    assert "with `shipcollision prepare \"my ship.toml\"` and" in start(folder, "my ship.toml")
     assert start(folder, "") == "ship = '' is no ship: give a name or the path of a prepared ship"
 
 
