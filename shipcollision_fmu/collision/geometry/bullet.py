@@ -65,6 +65,7 @@ def require_dynamics() -> None:
     except HostError as error:
         raise HostError(
             f"response 'bullet' is PyBullet's own dynamics, and {error}; or take response 'pgs' or 'closed_form'"
+            ", as the shipped scenario guan2014_added_mass does"
         ) from error
 
 

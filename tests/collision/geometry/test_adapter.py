@@ -85,7 +85,7 @@ def test_bullets_own_dynamics_are_refused_without_pybullet(make_ship: Callable[.
     said = str(refused.value)
     assert said.startswith("response 'bullet' is PyBullet's own dynamics, and pybullet cannot be imported (")
     assert "CPython 3.10 and 3.11 on Linux (x86-64)" in said
-    assert said.endswith("; or take response 'pgs' or 'closed_form'")
+    assert said.endswith("; or take response 'pgs' or 'closed_form', as the shipped scenario guan2014_added_mass does")
     assert "\n" not in said
     model.parameters.response = "pgs"  # the remedy
     model.initialise()
