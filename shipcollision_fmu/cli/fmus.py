@@ -174,16 +174,19 @@ def _split_replacement(text: str) -> tuple[str, str]:
 @click.command()
 @click.argument("ship", type=SHIP)
 @click.option("--out", type=PATH, metavar="FILE", help="[default: NAME.ship, NAME.obstacles]")
-def prepare(ship: str, out: Path | None) -> None:
+@click.option("--overwrite", is_flag=True, help="Replace a file of other origin, too.")
+def prepare(ship: str, out: Path | None, overwrite: bool) -> None:
     """Write a ship, or obstacles, as native FMUs read them.
 
     SHIP is a shipped ship, the path of its TOML file, or that of a TOML file of obstacles. A native FMU has no Python
     to read TOML with: its parameters `ship` and `obstacles` take the path of the file that is written here. Prepare it
     again when the TOML or mesh file changes.
     """
+    from ..collision.prepared_obstacles import FORMAT as FIRST_OF_OBSTACLES
     from ..collision.prepared_obstacles import SUFFIX as OF_OBSTACLES
     from ..collision.prepared_obstacles import is_obstacle_file, prepare_obstacles
-    from ..files import check_writable, write_file
+    from ..files import check_writable, refuse_other_origin, write_file
+    from ..manoeuvring.prepared_ship import FORMAT as FIRST_OF_SHIP
     from ..manoeuvring.prepared_ship import SUFFIX as OF_SHIP
     from ..manoeuvring.prepared_ship import prepare_ship
     from ..ship.loading.library import load_ship
@@ -192,11 +195,23 @@ def prepare(ship: str, out: Path | None) -> None:
     suffix = OF_OBSTACLES if are_obstacles else OF_SHIP
     place = out if out is not None else Path(f"{Path(ship).stem}{suffix}")
     _check_names(ship, place, suffix)
+    begin = FIRST_OF_OBSTACLES if are_obstacles else FIRST_OF_SHIP
+    if place.is_file() and not (overwrite or _begins_with(place, begin)):
+        refuse_other_origin(place.parent, (place.name,), f"it does not begin with '{begin}'", "file")
     content = prepare_obstacles(ship) if are_obstacles else prepare_ship(ship, needs_hull=True)
     check_writable(place.parent)
     for note in () if are_obstacles else load_ship(ship).suspicious:
         say(f"note: {note}", err=True)
     say(str(write_file(place, content)))
+
+
+def _begins_with(path: Path, begin: str) -> bool:
+    """Whether the file is of that kind; what cannot be read is not."""
+    try:
+        with path.open("rb") as file:
+            return file.read(len(begin)) == begin.encode()
+    except OSError:
+        return False
 
 
 def _check_names(ship: str, place: Path, suffix: str) -> None:
@@ -205,6 +220,8 @@ def _check_names(ship: str, place: Path, suffix: str) -> None:
 
     if Path(ship).is_dir() and ship not in list_ship_names():
         raise click.UsageError(f"{ship} is a folder: give the name of a ship or the path of a TOML file")
+    if Path(ship).is_file() and _begins_with(Path(ship), "PK\x03\x04"):
+        raise click.UsageError(f"{ship} is a zip archive, such as an FMU, and no ship file: give the ship's TOML file")
     if ship.endswith(suffix):
         raise click.UsageError(f"{ship} is called as a prepared ship is: give the TOML file that it was prepared from")
     if place.is_dir():

@@ -137,7 +137,23 @@ def test_the_command_says_what_is_no_source_and_no_place(tmp_path: Path, monkeyp
         assert status != 0
         assert said.startswith(f"error: {reason}")
     assert sorted(path.name for path in tmp_path.rglob("*")) == ["file", "ships"]
+    Path("x.fmu").write_bytes(b"PK\x03\x04\xff\xfe")
+    status, said = called("x.fmu")
+    assert status != 0
+    assert said.startswith("error: x.fmu is a zip archive, such as an FMU, and no ship file: give the ship's TOML file")
+    Path("x.fmu").unlink()
     assert called("kcs", "--out", "ships/kcs.ship") == (0, "ships/kcs.ship\n")
+
+
+def test_the_command_keeps_a_file_of_other_origin(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("kvlcc2.ship").write_text("notes")
+    status, said = called("kvlcc2")
+    assert status != 0
+    assert "holds kvlcc2.ship of other origin (it does not begin with 'shipcollision prepared ship')" in said
+    assert Path("kvlcc2.ship").read_text() == "notes"
+    assert called("kvlcc2", "--overwrite") == called("kvlcc2") == (0, "kvlcc2.ship\n")
+    assert Path("kvlcc2.ship").read_bytes() == KVLCC2
 
 
 def test_a_folder_with_the_name_of_a_ship_does_not_hide_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -165,7 +165,7 @@ def test_toml_is_refused_with_the_remedy(folder: Path) -> None:
         "ship file my/ship.toml: a native FMU reads no TOML; write a prepared ship with `shipcollision prepare "
         "my/ship.toml` and give its path"
     )
-    assert "with `shipcollision prepare \"my ship.toml\"` and" in start(folder, "my ship.toml")
+    assert 'with `shipcollision prepare "my ship.toml"` and' in start(folder, "my ship.toml")
     assert start(folder, "") == "ship = '' is no ship: give a name or the path of a prepared ship"
 
 
