@@ -39,12 +39,12 @@ NEEDED = ("numbers/", "ship/", "memory.", "files.", "folder.", "wide_path.")
 """Of native/, what detection needs beside its own room."""
 
 
-def compile_program(name: str, target: Target, folder: Path) -> Path:
-    """A program of this folder with the sources of detection, for a target; by Zig unless it is this machine."""
+def compile_program(name: str, target: Target, folder: Path, place: Path) -> Path:
+    """A program of a place with the sources of the collision model, for a target; by Zig unless it is this machine."""
     compiler = find_compiler(target, prefer_system=target == find_own_target())
     native, (rest, collision, bullet) = find_native(), list_library_parts(CACHE)
     needed = Part(native, tuple(file for file in rest.files if file.startswith(NEEDED)))
-    parts = [needed, collision, bullet, Part(Path(__file__).parent, (f"{name}.cpp",), includes=(native,))]
+    parts = [needed, collision, bullet, Part(place, (f"{name}.cpp",), includes=(native,))]
     objects = [compile_object(part, file, target, compiler, CACHE / "objects") for part in parts for file in part.files]
     program = folder / f"{name}{'.exe' if target.is_windows else ''}"
     subprocess.run([*compiler.link, *objects, "-o", program], env=os.environ | dict(compiler.environment), check=True)
@@ -61,13 +61,16 @@ def ships(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
     return places
 
 
-def run(platform: str, name: str, arguments: Sequence[str], told: str, folder: Path) -> str:
+def run(
+    platform: str, name: str, arguments: Sequence[str], told: str, folder: Path, place: Path = Path(__file__).parent
+) -> str:
     """What a program for a platform prints."""
-    command = [str(compile_program(name, PLATFORMS[platform].targets[0], folder)), *arguments]
+    command = [str(compile_program(name, PLATFORMS[platform].targets[0], folder, place)), *arguments]
     environment = dict(os.environ)
     if platform == "win64":
-        environment |= {"WINEPREFIX": str(folder / "wine"), "WINEDEBUG": "-all"}
-        if not (folder / "wine").is_dir():
+        prefix = folder.parent / "wine"  # one for all tests of a run
+        environment |= {"WINEPREFIX": str(prefix), "WINEDEBUG": "-all"}
+        if not prefix.is_dir():
             begin = ["wine", "wineboot", "--init"]
             subprocess.run(begin, env=environment, capture_output=True, check=True, timeout=600)
         command = ["wine", *command]
