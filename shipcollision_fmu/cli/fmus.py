@@ -176,7 +176,7 @@ def _split_replacement(text: str) -> tuple[str, str]:
 @click.option("--out", type=PATH, metavar="FILE", help="[default: NAME.ship, NAME.obstacles]")
 @click.option("--overwrite", is_flag=True, help="Replace a file of other origin, too.")
 def prepare(ship: str, out: Path | None, overwrite: bool) -> None:
-    """Write a ship, or obstacles, as native FMUs read them.
+    """Write a ship or obstacles for native FMUs.
 
     SHIP is a shipped ship, the path of its TOML file, or that of a TOML file of obstacles. A native FMU has no Python
     to read TOML with: its parameters `ship` and `obstacles` take the path of the file that is written here. Prepare it
