@@ -83,6 +83,10 @@ class Page:
         drawn: dict[str, Any] = self.run("return replay.drawn()")
         return drawn
 
+    def wait_for_frame(self) -> None:
+        """Waits for what the page has put off to its next frame, such as the numbers beside the curves."""
+        self.driver.execute_async_script("requestAnimationFrame(arguments[arguments.length - 1]);")
+
     def colour(self, point: Any, half: int = 2) -> tuple[float, float, float]:
         """Mean red, green, blue, 0 to 255, of the pixels around where a point in n [m] is in the picture."""
         x, y = self.run("return replay.project(arguments[0])", [float(c) for c in point])

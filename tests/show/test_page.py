@@ -243,6 +243,7 @@ def test_table_keys_and_curves_lead_to_their_times(page: Page, scene: Scene) -> 
 def test_headings_are_those_of_a_compass_and_surge_is_shown(page: Page, scene: Scene, folder: Path) -> None:
     """The bulk carrier of guan2014 heads -33.8 deg, as its yaw angle has it: 326.2 on a compass."""
     page.slide(scene.start)
+    page.wait_for_frame()
     chips = {
         plot.find_element(By.TAG_NAME, "h3").text: [chip.text for chip in plot.find_elements(By.TAG_NAME, "b")]
         for plot in page.driver.find_elements(By.CSS_SELECTOR, ".plot")
