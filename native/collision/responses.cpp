@@ -7,12 +7,6 @@ namespace {
 constexpr double AT_REST = 1e-12;
 constexpr double PRESSING = 2.0;
 
-double find_approach(const Vector& velocity) {
-  double approach = -velocity[0];
-  for (int n = 3; n < velocity.size(); n += 3) approach = max(approach, -velocity[n]);
-  return approach;
-}
-
 // Approach [m/s] below which nothing springs back: LEAST_REBOUNDING_APPROACH, or what other forces make of rest in
 // PRESSING communication steps.
 double find_least_rebounding_approach(const Contact* contacts, int count, const BodyState* states) {
@@ -56,7 +50,7 @@ void PgsResponse::solve(const Contact* contacts, int count, const ContactProblem
   const BodyState* states = problem.states;
   for (int i = 0; i < count; ++i) solution.impulses[i] = {contacts[i], {}};
   approach_velocities(contacts, count, states, velocity_.data());
-  const double approach = find_approach(velocity_);
+  const double approach = find_approach(velocity_.data(), velocity_.size());
   if (approach <= AT_REST || !reserve(count)) return;  // touching, but parting, or stopped in the substep before
   const Dense& W = delassus_.find_operator(contacts, count, states);
   const Dense* H = delassus_.find_held_operator(contacts, count, states);

@@ -179,8 +179,8 @@ def prepare(ship: str, out: Path | None, overwrite: bool) -> None:
     """Write a ship or obstacles for native FMUs.
 
     SHIP is a shipped ship, the path of its TOML file, or that of a TOML file of obstacles. A native FMU has no Python
-    to read TOML with: its parameters `ship` and `obstacles` take the path of the file that is written here. Prepare it
-    again when the TOML or mesh file changes.
+    to read TOML with: its parameter `ship` takes the path of the file that is written here. No native FMU takes
+    obstacles yet. Prepare a file again when the TOML or mesh file changes.
     """
     from ..collision.prepared_obstacles import FORMAT as FIRST_OF_OBSTACLES
     from ..collision.prepared_obstacles import SUFFIX as OF_OBSTACLES

@@ -29,6 +29,7 @@ def ignore_progress(done: int, total: int) -> None:
 
 ANOTHER_CACHE = "make it writable, or name another folder for caches in the environment variable XDG_CACHE_HOME"
 """Remedy in the message about a cache in which nothing can be kept."""
+
 KEPT_DAYS = 30
 """Days after which what no build used is removed from the cache."""
 

@@ -32,6 +32,12 @@ Friction solve_friction_in_disc(const ContactBlock& W, double v_1, double v_2, d
   return {P_1 * share, P_2 * share};
 }
 
+double find_approach(const double* v, int size) {
+  double least = size > 0 ? v[0] : 0.0;
+  for (int n = 3; n < size; n += 3) least = min(least, v[n]);
+  return -least;
+}
+
 double law_residual(const Dense& W, const double* v, double mu, const double* P) {
   const int size = W.rows();
   double worst = 0.0;

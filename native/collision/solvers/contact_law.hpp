@@ -24,6 +24,9 @@ struct Friction {
 // Friction [N s] of maximum dissipation in a disc of that radius [N s].
 Friction solve_friction_in_disc(const ContactBlock& W, double v_1, double v_2, double radius);
 
+// The largest approach speed [m/s] among velocities v, `size` numbers; negative where all part, 0 without a contact.
+double find_approach(const double* v, int size);
+
 // Velocity [m/s] by which impulses P miss the law of contact; v before, any tangents.
 double law_residual(const Dense& W, const double* v, double mu, const double* P);
 

@@ -13,12 +13,6 @@ constexpr int MAX_SWEEPS_OF_MANY = 2;
 constexpr int MAX_ROUNDS = 20;
 constexpr double IMMOBILE = 1e-9;
 
-double find_approach(const double* v, int size) {
-  double least = size > 0 ? v[0] : 0.0;
-  for (int n = 3; n < size; n += 3) least = min(least, v[n]);
-  return -least;
-}
-
 }  // namespace
 
 Turn find_principal_axes(const Dense& W, int contact) {

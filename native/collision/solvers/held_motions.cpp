@@ -35,8 +35,8 @@ void yield_to_friction(const Dense& W, const double* v, double mu, const Dense& 
   fill_zeros(friction.slip.data(), size);
   const double share = find_share(W, H);
   if (!(mu > 0.0 && share > SLIP_TOLERANCE)) return;
-  double approach = LEAST_REBOUNDING_APPROACH, met_friction = 0.0;
-  for (int n = 0; n < size; n += 3) approach = max(approach, -v[n]);
+  const double approach = max(LEAST_REBOUNDING_APPROACH, find_approach(v, size));
+  double met_friction = 0.0;
   const double scale = approach * max(1.0, SLIP_TOLERANCE / (share * SWEEP_TOLERANCE));
   for (int round = 0; round < ROUNDS; ++round) {
     if (!work.is_spent() || !friction.has_start) {

@@ -35,8 +35,7 @@ bool PoissonImpact::reserve(int contacts) {
 Solution PoissonImpact::solve(const Dense& W, const double* v, double mu, double e, const double* start,
                               const double* slip, WorkLimit& work, double* P) {
   const int size = 3 * contacts_;
-  double approach = -v[0];
-  for (int n = 3; n < size; n += 3) approach = max(approach, -v[n]);
+  const double approach = find_approach(v, size);
   const double scale = max(approach, LEAST_REBOUNDING_APPROACH);
   for (int n = 0; n < size; ++n) met_[n] = slip == nullptr ? v[n] : v[n] + slip[n];
   const Solution plastic = gauss_seidel_.solve(W, met_.data(), mu, start, scale, work, P);
