@@ -67,13 +67,13 @@ int ContactPoints::find_same_place(const Point& added, int count, bool only_free
   return nearest;
 }
 
-void ContactPoints::merge_impulses(const Impulse* impulses, const Losses* losses, int count,
+void ContactPoints::merge_impulses(const Impulse* impulses, const Loss* losses, int count,
                                    const Buffer<Numbers>& numbers) {
   const int earlier = points_.size();
   if (!is_free_.fill(earlier, true)) return;
   for (int i = 0; i < count; ++i) {
     Point added;
-    if (!make(impulses[i], losses[i].along + losses[i].across, added)) return;
+    if (!make(impulses[i], losses[i].normal + losses[i].tangential, added)) return;
     const Numbers* of_pair = find_numbers(numbers, added.a, added.b);
     if (of_pair == nullptr) return;  // there was no memory for it
     added.collision = of_pair->collision;

@@ -2,15 +2,11 @@
 #pragma once
 
 #include "collisions.hpp"
+#include "solvers/impact_process.hpp"
 
 namespace shipcollision {
 
 constexpr double SAME_PLACE = 2.0;
-
-// Energy lost at a contact [J], along and across the normal.
-struct Losses {
-  double along, across;
-};
 
 class ContactPoints {
  public:
@@ -25,7 +21,7 @@ class ContactPoints {
   // Begins a communication step.
   void clear();
   // Takes in the impulses of a substep. losses: at each of them.
-  void merge_impulses(const Impulse* impulses, const Losses* losses, int count, const Buffer<Numbers>& numbers);
+  void merge_impulses(const Impulse* impulses, const Loss* losses, int count, const Buffer<Numbers>& numbers);
   // Takes in one impulse more; a fender's without a collision.
   void merge_contact_point(const Impulse& impulse, double energy);
   // Leaves at most so many points.

@@ -16,7 +16,6 @@ Diagnosis::Diagnosis(const Bodies& bodies, const ImpulseLedger* ledgers, const C
     : bodies_(bodies), ledgers_(ledgers), inputs_(inputs), out_(out), motions_(memory), answers_(memory) {
   motions_.fill(bodies.ships(), MotionWatch());
   for (int i = 0; i < bodies.ships(); ++i) answers_.add(AnswerWatch(!answers(bodies[i].feedback)));
-  out_ = DiagnosisOutput();
 }
 
 void Diagnosis::examine(double t, double H, const bool* is_absent, const Buffer<NearPair>& near, bool has_touched,

@@ -11,7 +11,8 @@ namespace shipcollision {
 constexpr int CONNECTED_BY = 3;
 constexpr double OVERLAP = 0.5;
 
-// The watches over the ships. bodies, ledgers, inputs: of the model, which outlive it; out: filled.
+// The watches over the ships. bodies, ledgers, inputs: of the model, which outlive it; out: filled, and
+// cleared by whoever begins a run.
 class Diagnosis {
  public:
   Diagnosis(const Bodies& bodies, const ImpulseLedger* ledgers, const CollisionInputs& inputs, DiagnosisOutput& out,

@@ -79,13 +79,13 @@ void MotionWatch::rest(double t, double H, int steps) {
 }
 
 void MotionWatch::get_state(ByteWriter& bytes) const {
-  bytes.values(next_, still_since_, start_, position_, has_start_, has_position_, speed_, rate_, is_done_, stride_, pause_,
-               changes_, idle_, windows_, suspicion_);
+  bytes.values(next_, still_since_, start_, position_, has_start_, has_position_, speed_, rate_, is_done_, stride_,
+               pause_, changes_, idle_, windows_, suspicion_);
 }
 
 bool MotionWatch::set_state(ByteReader& bytes) {
-  return bytes.values(next_, still_since_, start_, position_, has_start_, has_position_, speed_, rate_, is_done_, stride_, pause_,
-                      changes_, idle_, windows_, suspicion_);
+  return bytes.values(next_, still_since_, start_, position_, has_start_, has_position_, speed_, rate_, is_done_,
+                      stride_, pause_, changes_, idle_, windows_, suspicion_);
 }
 
 }  // namespace shipcollision

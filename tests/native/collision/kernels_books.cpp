@@ -109,21 +109,21 @@ void contacts(const double* in, double* out) {
     const double t = take.real();
     collisions.close_old(t);
     Impulse impulses[3];
-    Losses losses[3];
+    Loss losses[3];
     for (int i = 0; i < 3; ++i) {
       const int a = take.whole(), b = take.whole();
       const Three point = take.all<Three>(), normal = take.all<Three>();
       impulses[i].contact = make_contact(a, b, states, point, take.real(), contact_axes(normal));
       impulses[i].P = take.all<Three>();
-      losses[i] = take.all<Losses>();
+      losses[i] = take.all<Loss>();
       put.real(collisions.is_recorded({a, b}));
-      totals.add_energy(losses[i].along, losses[i].across);
+      totals.add_energy(losses[i].normal, losses[i].tangential);
     }
     Contact each[3] = {impulses[0].contact, impulses[1].contact, impulses[2].contact};
     collisions.register_contacts(t, each, 3, states, numbers);
     points.merge_impulses(impulses, losses, 3, numbers);
     if (instant % 4 == 1) points.merge_contact_point(impulses[1], 3.0);
-    totals.add(losses[0].along * 1e-10, instant, losses[0].along * 1e-5);
+    totals.add(losses[0].normal * 1e-10, instant, losses[0].normal * 1e-5);
     bool is_colliding[3] = {};
     collisions.mark_bodies_in_collision(is_colliding);
     for (bool colliding : is_colliding) put.real(colliding);
