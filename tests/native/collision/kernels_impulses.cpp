@@ -152,6 +152,71 @@ void response(const double* in, double* out) {
   put_twists(put, patch);
 }
 
+// A body as it is within a step: both poses, twists, inertia; 104 numbers.
+BodyState take_moving_body(Take& take) {
+  BodyState state;
+  Matrix inverse{};
+  state.start_at({}, {}, {}, inverse);
+  state.applied = take.all<Pose>();
+  state.predicted = take.all<Pose>();
+  const Six nu = take.all<Six>();
+  take.matrix(state.M_inverse);
+  state.has_velocity_bias = take.real() != 0.0;
+  state.velocity_bias = take.all<Six>();
+  state.has_scheme_error = take.real() != 0.0;
+  state.scheme_error = take.all<Six>();
+  state.fixed = take.real() != 0.0;
+  state.has_held = take.real() != 0.0;
+  state.held = take.all<Rows>();
+  state.set_twist(nu);
+  return state;
+}
+
+// One substep from bodies, contacts and impulses of the substep before, as a running model had them.
+void substep(const double* in, double* out) {
+  Take take{in};
+  Put put{out};
+  Patch patch;
+  ContactCaches caches(patch.memory);
+  for (int bodies = take.whole(); bodies > 0; --bodies) patch.states.add(take_moving_body(take));
+  for (int contacts = take.whole(); contacts > 0; --contacts) {
+    const int a = take.whole(), b = take.whole();
+    const Three point = take.all<Three>();
+    const double gap = take.real();
+    patch.contacts.add(make_contact(a, b, patch.states.data(), point, gap, take.all<Rows>()));
+  }
+  for (int starts = take.whole(); starts > 0; --starts) {
+    const int a = take.whole(), b = take.whole();
+    const Three place = take.all<Three>(), P = take.all<Three>();
+    caches.warm_starts.rows().add({a, b, place, P});
+  }
+  const double mu = take.real(), e = take.real();
+  const int count = patch.contacts.size();
+  caches.work.renew(take.whole(), 0.1);
+  Detector detector(patch.memory);
+  const ContactProblem problem{nullptr, 0, patch.states.data(), detector, mu, e};
+  ContactSolution solution(patch.memory);
+  PgsResponse pgs(patch.memory);
+  pgs.solve(patch.contacts.data(), count, problem, caches, solution);
+  put.real(solution.residual);
+  put.real(solution.sweeps);
+  Passivity passivity(patch.memory);
+  EnergySplit split(patch.memory);
+  SelfStress self_stress(patch.memory);
+  Buffer<Booked> booked(patch.memory);
+  Buffer<Loss> losses(patch.memory);
+  booked.resize(count);
+  losses.resize(count);
+  put.real(passivity.enforce(solution.impulses, patch.states.data()));
+  for (const Impulse& impulse : solution.impulses) put.all(impulse.P);
+  book_impulses(solution.impulses.data(), count, patch.states.data(), booked.data());
+  split.split_losses(booked.data(), count, patch.states.data(), mu, e, losses.data());
+  for (const Loss& loss : losses) put.all(loss);
+  self_stress.remove(solution.impulses.data(), count, patch.states.data(), mu);
+  for (const Impulse& impulse : solution.impulses) put.all(impulse.P);
+  put_twists(put, patch);
+}
+
 // in: W, v, mu, e, whether any motion is held, H
 void losses(const double* in, double* out) {
   Take take{in};
@@ -205,7 +270,7 @@ void caches(const double* in, double* out) {
 
 constexpr Named KERNELS[] = {{"operators", operators},     {"passivity", passivity}, {"energy_split", energy_split},
                              {"self_stress", self_stress}, {"response", response},   {"losses", losses},
-                             {"caches", caches}};
+                             {"caches", caches},           {"substep", substep}};
 
 }  // namespace
 
