@@ -27,6 +27,8 @@ struct WorkLimit {
 // Work that all solves of a communication step may still do.
 class StepWork {
  public:
+  explicit StepWork(double left = INFINITE) : left_(left) {}
+
   // Begins a step of H [s] in which so many ships are near others.
   void renew(int ships, double H);
   // The share of the next solve.
@@ -35,7 +37,7 @@ class StepWork {
   void settle(const WorkLimit& lent);
 
  private:
-  double left_ = INFINITE;
+  double left_;
 };
 
 }  // namespace shipcollision

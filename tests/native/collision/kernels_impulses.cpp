@@ -192,7 +192,7 @@ void substep(const double* in, double* out) {
   }
   const double mu = take.real(), e = take.real();
   const int count = patch.contacts.size();
-  caches.work.renew(take.whole(), 0.1);
+  caches.work = StepWork(take.real());
   Detector detector(patch.memory);
   const ContactProblem problem{nullptr, 0, patch.states.data(), detector, mu, e};
   ContactSolution solution(patch.memory);

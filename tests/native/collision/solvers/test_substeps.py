@@ -16,6 +16,7 @@ from shipcollision_fmu.collision.dynamics.passivity import enforce_passivity
 from shipcollision_fmu.collision.dynamics.self_stress import remove_self_stress
 from shipcollision_fmu.collision.solvers.energy_split import split_losses
 from shipcollision_fmu.collision.solvers.warm_start import WarmStarts
+from shipcollision_fmu.collision.solvers.work_limit import SHARE
 from shipcollision_fmu.ship.frames import Array
 from tests.native.collision.kernels import evaluate
 
@@ -33,7 +34,7 @@ def list_body(state: BodyState) -> list[float]:
 
 
 def list_problem(
-    problem: ContactProblem, warm: WarmStarts, solution: ContactSolution, bodies: list[int]
+    problem: ContactProblem, warm: WarmStarts, work: float, solution: ContactSolution, bodies: list[int]
 ) -> list[float]:
     """A substep as the kernel takes it; bodies: those that touch."""
     contacts, place = [impulse.contact for impulse in solution.impulses], bodies.index
@@ -44,7 +45,7 @@ def list_problem(
     row.append(len(known))
     for a, b, at, P in known:
         row += [place(a), place(b), *at, *P]
-    return [*row, problem.friction, problem.restitution, len(problem.states)]
+    return [*row, problem.friction, problem.restitution, work]
 
 
 def book(problem: ContactProblem, solution: ContactSolution, bodies: list[int]) -> list[Array]:
@@ -69,13 +70,13 @@ def test_each_substep_of_a_run(monkeypatch: pytest.MonkeyPatch) -> None:
 
     def respond(problem: ContactProblem, caches: ContactCaches) -> ContactSolution:
         nonlocal solved
-        warm = dict(caches.warm_starts)
+        warm, work = dict(caches.warm_starts), caches.work.lend().left / SHARE
         solution = responses.respond_pgs(problem, caches)
         if not solution.impulses:
             return solution
         bodies = sorted({body for i in solution.impulses for body in (i.contact.a, i.contact.b)})
         expected, k, n = book(problem, solution, bodies), len(solution.impulses), len(bodies)
-        row = list_problem(problem, warm, solution, bodies)
+        row = list_problem(problem, warm, work, solution, bodies)
         found = evaluate("impulses", "substep", [row], 3 + 8 * k + 12 * n)[0]
         twists = found[3 + 8 * k :].reshape(n, 2, 6)
         native = np.split(found[2 : 3 + 8 * k], [1, 1 + 3 * k, 1 + 5 * k])
