@@ -251,7 +251,7 @@ def draw_all(every: int) -> list[tuple[Patch, int, float]]:
     return [(patch, seed, -float(patch.v[0::3].min())) for patch, seed in patches]
 
 
-EVERY = pytest.mark.parametrize("every", [7, pytest.param(1, marks=pytest.mark.slow)])
+EVERY = pytest.mark.parametrize("every", [7, pytest.param(2, marks=pytest.mark.slow)])
 
 
 @EVERY
