@@ -31,7 +31,7 @@ bool is_same(const char* a, const char* b) {
 }  // namespace
 
 // Number of the signatures below: one more after a change (shipcollision_fmu/toolchain/load.py).
-SHIPCOLLISION_EXPORT int shipcollision_interface() { return 1; }
+SHIPCOLLISION_EXPORT int shipcollision_interface() { return 2; }
 
 // results[i] = f(x[i]) or f(x[i], y[i]) of the elementary function f of that name; false without one.
 SHIPCOLLISION_EXPORT bool shipcollision_elementary(const char* name, const double* x, const double* y, double* results,

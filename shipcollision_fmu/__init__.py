@@ -18,6 +18,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .batch.impact import impact
     from .collision.model import ShipCollision
     from .cosim.run import Run
     from .cosim.simulate import simulate
@@ -35,11 +36,12 @@ __version__ = "0.1.0"
 
 __all__ = [
     "HostError", "InputError", "Run", "Scenario", "ScenarioError", "Ship", "ShipCollision", "ShipCollisionError",
-    "ShipError", "ShipManoeuvring", "StepError", "__version__", "build_fmus", "encounter", "imazu", "load_scenario",
-    "load_ship", "simulate", "traffic_scenario",
+    "ShipError", "ShipManoeuvring", "StepError", "__version__", "build_fmus", "encounter", "imazu", "impact",
+    "load_scenario", "load_ship", "simulate", "traffic_scenario",
 ]  # fmt: skip
 
 _MODULES = {
+    "batch.impact": ("impact",),
     "collision.model": ("ShipCollision",),
     "cosim.run": ("Run",),
     "cosim.simulate": ("simulate",),

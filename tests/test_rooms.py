@@ -26,7 +26,7 @@ NAME = PACKAGE.name
 
 FLOORS = (
     {"cli"},
-    {"packaging"},
+    {"packaging", "batch"},
     {"cosim"},
     {"encounters", "results", "compliance", "show"},
     {"scenario"},

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
-from . import api, columns, commands, estimates, findings, published, rooms, schema, variables
+from . import api, batch, columns, commands, estimates, findings, published, rooms, schema, variables
 
 __all__ = ["PARTS", "filled"]
 
@@ -18,6 +18,7 @@ PARTS: dict[str, Callable[[], str]] = {
     "ShipManoeuvring": variables.ship_manoeuvring,
     "commands": commands.commands,
     "columns": columns.columns,
+    "impacts": batch.impacts,
     "findings": findings.findings,
     "api": api.api,
     "rooms": rooms.rooms,

@@ -509,4 +509,9 @@ bool ShipCollision::set_state(const void* bytes, size_t size, Text& why) {
   return false;
 }
 
+bool ShipCollision::rewind(const void* bytes, size_t size) {
+  ByteReader reader(bytes, size);
+  return run_ != nullptr && run_->set_state(reader) && reader.left() == 0;
+}
+
 }  // namespace shipcollision

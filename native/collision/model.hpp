@@ -45,6 +45,9 @@ class ShipCollision : public OnHeap {
   size_t state_size() const;
   void get_state(void* bytes, size_t size) const;
   bool set_state(const void* bytes, size_t size, Text& why);
+  // The same for bytes that this model itself gave since initialise(), with unchanged parameters of its ships. It asks
+  // for no memory. False for other bytes; the model must then be initialised again.
+  bool rewind(const void* bytes, size_t size);
 
  private:
   struct World;

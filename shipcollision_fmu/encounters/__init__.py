@@ -15,6 +15,6 @@
     units.py               knots
 
 Data flow: Request -> PlannedImpact and ApproachingShip -> Approach (two tracks) -> text -> Scenario.
-Imports from: scenario, manoeuvring (trials, model), collision (model, clipping.py), ship. Used by: cli and users of
-the package.
+Imports from: scenario, manoeuvring (trials, model), collision (model, clipping.py), ship. Used by: batch, cli and
+users of the package.
 """

@@ -36,7 +36,7 @@ from ..ship.ship import Ship
 from ..ship.windage import compute_windage
 from .propeller import Propeller
 
-__all__ = ["FORMAT", "SUFFIX", "VERSION", "prepare_ship"]
+__all__ = ["FORMAT", "SUFFIX", "VERSION", "describe_ship", "prepare_ship"]
 
 FORMAT = "shipcollision prepared ship"
 """Begin of the first line."""
@@ -74,7 +74,11 @@ def prepare_ship(
     The same ship gives the same bytes. Raises ShipError when the ship is refused. When its hull cannot be made, the
     file says so in its place, since the ship model does not need it; with needs_hull, ShipError or HostError is raised.
     """
-    ship = load_ship(source, directory)
+    return describe_ship(load_ship(source, directory), needs_hull=needs_hull)
+
+
+def describe_ship(ship: Ship, *, needs_hull: bool = False) -> bytes:
+    """The content of the prepared file of a loaded ship: see prepare_ship."""
     hull = _describe_hull(ship, needs_hull)
     return seal([f"{FORMAT} {VERSION}", *_describe_body(ship), *_describe_machines(ship), *hull])
 

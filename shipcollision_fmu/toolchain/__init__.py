@@ -12,5 +12,5 @@ install         what puts it there
 load            the library for this machine, opened by ctypes
 
 Data flow: sources -> objects -> library -> ctypes, or bytes for the builder of FMUs. Imports from: files, errors.
-Used by: fmi (the builder), collision (geometry), cli.
+Used by: fmi (the builder), collision (geometry), batch, cli.
 """

@@ -18,7 +18,7 @@ __all__ = ["LIBRARY", "build_own_library", "load_library"]
 
 EXPORTS = ("shipcollision_*",)
 """Names that Python calls."""
-INTERFACE = 1
+INTERFACE = 2
 """Number of the functions' signatures (native/python.cpp); a library with another one is refused."""
 
 FETCHING = "note: pip fetches Bullet's source, 80 MB, once; this takes half a minute or longer"

@@ -63,7 +63,7 @@ def list_library_parts(cache: Path) -> list[Part]:
 
 def list_fmu_parts() -> list[Part]:
     """Of the library inside FMUs: the ship model and the functions of FMI, without what Python alone calls."""
-    files = tuple(file for file in _list_sources(without=("collision",)) if not file.startswith("python"))
+    files = tuple(file for file in _list_sources(without=("batch", "collision")) if not file.startswith("python"))
     return [Part(find_native(), files, includes=(find_fmi_headers(),))]
 
 

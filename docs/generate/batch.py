@@ -1,0 +1,25 @@
+"""The columns of the tables of batches, from the lists that make their types."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from shipcollision_fmu.batch.impact_table import COLUMNS, Column
+
+from .markdown import cell, table
+
+__all__ = ["impacts"]
+
+
+def impacts() -> str:
+    """The columns of the table that impact() returns."""
+    return _describe(COLUMNS)
+
+
+def _describe(columns: Sequence[Column]) -> str:
+    rows = [
+        (f"`{column.name}`", column.type if column.size == 1 else f"{column.size} {column.type}", column.unit,
+         cell(column.meaning))
+        for column in columns
+    ]  # fmt: skip
+    return table(("column", "type", "unit", "meaning"), rows)

@@ -1,0 +1,49 @@
+"""Ships as files that the native library reads, for as long as a call lasts."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from types import TracebackType
+from typing import Any, TypeAlias
+
+from ..manoeuvring.prepared_ship import SUFFIX, describe_ship
+from ..ship.loading.library import load_ship
+from ..ship.ship import Ship
+
+__all__ = ["AnyShip", "PreparedShips", "find_ship"]
+
+AnyShip: TypeAlias = "Ship | str | Path | Mapping[str, Any]"
+"""A ship, its name, the path of its file, or the file's tables."""
+
+
+def find_ship(ship: AnyShip) -> Ship:
+    """The ship that is meant. Raises ShipError when there is none."""
+    return ship if isinstance(ship, Ship) else load_ship(ship)
+
+
+class PreparedShips:
+    """A folder of prepared ships, each written once. It is removed at the end of the context."""
+
+    def __init__(self) -> None:
+        self._folder = TemporaryDirectory(prefix="shipcollision-")
+        self._paths: dict[int, str] = {}
+        self._ships: list[Ship] = []  # kept alive, for their ids are keys
+
+    def __enter__(self) -> PreparedShips:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._folder.cleanup()
+
+    def write(self, ship: Ship) -> str:
+        """The path of the ship's file. Raises ShipError or HostError for a ship without a hull."""
+        if id(ship) not in self._paths:
+            path = Path(self._folder.name, f"{len(self._paths)}{SUFFIX}")
+            path.write_bytes(describe_ship(ship, needs_hull=True))
+            self._paths[id(ship)] = str(path)
+            self._ships.append(ship)
+        return self._paths[id(ship)]
