@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from shipcollision_fmu.collision.dynamics.body_state import BodyState
 from shipcollision_fmu.collision.dynamics.contact import point_jacobian
+from shipcollision_fmu.collision.dynamics.impulse_ledger import ImpulseLedger, Reading
 from shipcollision_fmu.ship.frames import rotation
 from tests.collision.conftest import BOX, NO_ADDED_MASS, World
 
@@ -36,6 +37,19 @@ def test_the_twist_is_that_of_the_pose_at_which_she_takes_impulses(
     np.testing.assert_allclose(point_jacobian(R, r_bg) @ state.nu, v_g, atol=1e-12)  # of CG, by then
     assert state.x is x_0  # contact is detected from the pose received
     assert state.R is R_0
+
+
+def test_a_known_delay_outlasts_an_impulse_that_is_lost_in_rounding() -> None:
+    """1e-9 N s beside 1e9 N s that were issued before: nothing is there that the ship could apply."""
+    ledger, x, R, still = ImpulseLedger(), np.zeros(3), np.eye(3), np.zeros(6)
+
+    def read(applied: np.ndarray) -> Reading:
+        return ledger.read("ledger", x, R, still, applied, 1e-7 * np.eye(6), 100.0, 0.05)
+
+    surge = np.array([1.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+    for applied, issued in ((0.0, 1e9), (0.0, 1e-9)):
+        ledger.close(read(applied * surge), issued * surge, still, x, R)
+    assert read(1e9 * surge).one_step_delay is True
 
 
 def late_impulse(world: MakeWorld, ship: str, V: tuple[float, float], e: float, H: float) -> tuple[World, np.ndarray]:

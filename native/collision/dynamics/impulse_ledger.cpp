@@ -63,16 +63,17 @@ void ImpulseLedger::close(const Reading& reading, const Six& J, const Six& nu, c
     size_[1] += norm(last_three(J)) + norm(pose.x) * linear;
   }
   const bool is_issuing = in_contact || reading.has_deficit;
-  Six out{};
+  Six last_issued{};
   if (is_issuing) {
     Six deficit = reading.deficit;
     if (reading.has_deficit && !is_same(pose, reading.pose)) {
       deficit = wrench_in_b(pose, wrench_in_n(reading.pose, deficit));
     }
-    out = J + deficit;
+    const Six out = J + deficit, before = issued_;
     issued_ = issued_ + out;
+    if (!is_same(issued_, before)) last_issued = out;
   }
-  last_issued_ = out;
+  last_issued_ = last_issued;
   nu_ = nu;
   is_settled_ = !is_issuing && is_zero(reading.pending);
   pose_ = reading.pose;

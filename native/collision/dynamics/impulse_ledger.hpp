@@ -48,7 +48,7 @@ class ImpulseLedger {
  private:
   Six infer_pending(const Six& nu, const Matrix& M_inverse) const;
 
-  Six issued_{}, last_issued_{};  // in all, and by the last step
+  Six issued_{}, last_issued_{};  // in all, and by the last step; the latter is zero where rounding lost it
   Six nu_{};                      // twist at the start of the last step, pending included
   Six applied_{};
   Pose pose_{{}, {{{{1.0, 0.0, 0.0}}, {{0.0, 1.0, 0.0}}, {{0.0, 0.0, 1.0}}}}};

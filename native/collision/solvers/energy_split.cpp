@@ -8,6 +8,7 @@ namespace shipcollision {
 namespace {
 
 constexpr double SAME_DIRECTION = 1e-4;
+constexpr double STOPPED = 1e-6;
 
 bool is_none(const Booked& booked) { return is_same(booked.impulse.P, Three{}); }
 
@@ -24,8 +25,11 @@ bool split_straight(const Booked* booked, int count, Loss* losses) {
     if (is_none(b)) continue;
     const Three& normal = b.impulse.contact.normal;
     const Three before = b.before - dot(normal, b.before) * normal, after = b.after - dot(normal, b.after) * normal;
-    const double sizes = norm(before) * norm(after);
-    if (sizes == 0.0 || dot(before, after) < (1.0 - SAME_DIRECTION) * sizes) return false;
+    const double slip = norm(before), left = norm(after);
+    if (min(slip, left) <= STOPPED * max(slip, left) ||
+        dot(before, after) < (1.0 - SAME_DIRECTION) * slip * left) {
+      return false;
+    }
     const double lost = -0.5 * dot(b.impulse.P, before + after);
     losses[i] = {b.lost - lost, lost};
     along += b.lost - lost;

@@ -76,7 +76,7 @@ class ImpulseLedger:
 
     def __init__(self) -> None:
         self.issued = np.zeros(6)
-        self.last_issued = np.zeros(6)  # the part of it that the last step issued
+        self.last_issued = np.zeros(6)  # the part of it that the last step issued; zero where rounding lost it
         self.is_settled = True  # nothing pending, no deficit, nothing just issued
         self._echo = [0.0] * 6  # impulse_applied of a ship that has applied everything
         self._nu = np.zeros(6)  # twist at the start of the last step, pending included
@@ -127,7 +127,7 @@ class ImpulseLedger:
         """Enter the impulse J (6,) that contact gave in the step. x, R: pose of application; nu: twist at the start."""
         if reading.out_of_range:
             self._issued_n = reading.applied_n + _wrench_in_n(reading.x, reading.R, reading.pending)
-        in_contact, out = J is not NOTHING and bool(J.any()), NOTHING
+        in_contact, out, last_issued = J is not NOTHING and bool(J.any()), NOTHING, NOTHING
         if in_contact:
             w = _wrench_in_n(x, R, J)
             self._issued_n = self._issued_n + w
@@ -138,9 +138,10 @@ class ImpulseLedger:
             if deficit is not NOTHING and x is not reading.x:
                 deficit = _wrench_in_b(x, R, _wrench_in_n(reading.x, reading.R, deficit))
             out = J + deficit
-            self.issued = self.issued + out
+            self.issued, before = self.issued + out, self._echo
             self._echo = self.issued.tolist()
-        self.last_issued, self._nu = out, nu
+            last_issued = NOTHING if self._echo == before else out
+        self.last_issued, self._nu = last_issued, nu
         self.is_settled = out is NOTHING and (reading.pending is NOTHING or not reading.pending.any())
         self._x, self._R, self._applied = reading.x, reading.R, reading.applied
         self._applied_n, self.one_step_delay = reading.applied_n, reading.one_step_delay

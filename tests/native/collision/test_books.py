@@ -84,6 +84,20 @@ def test_ledgers() -> None:
     assert_close(evaluate("books", "ledger", rows, len(expected[0])), expected, CLOSE)
 
 
+def test_a_known_delay_outlasts_an_impulse_that_is_lost_in_rounding() -> None:
+    """1e-9 N s beside 1e9 N s: the last column but five of a step says whether the delay is known."""
+    steps = np.zeros((STEPS, 43))
+    steps[:, 0] = 1.0
+    steps[:, [4, 8, 12, 34, 38, 42]] = 1.0  # upright
+    steps[0, 25], steps[1:, 25] = 1e9, 1e-9
+    row = np.concatenate([[1.0], 1e-7 * np.eye(6).ravel(), [100.0, 0.05], steps.ravel()])
+    expected = run_ledger(row)
+    found = evaluate("books", "ledger", [row], len(expected))[0].reshape(STEPS, -1)
+    delays = 24
+    assert found[:, delays].tolist() == [0.0] + [1.0] * (STEPS - 1)
+    assert_close([found.ravel()], [expected], CLOSE)
+
+
 @pytest.mark.needs("pybullet")
 def test_other_forces(tmp_path: Path) -> None:
     """Of ships that coast by each law, after small and large pushes, and after the time jumped."""

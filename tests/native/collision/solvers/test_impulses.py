@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import dataclass, replace
 from math import nan
 
@@ -145,6 +146,30 @@ def test_the_split_of_the_energy() -> None:
         assert np.abs(found - expected).max() <= CLOSE * np.abs(expected).max()
         shared += bool((expected[:, 1] != 0.0).any())
     assert shared > 60
+
+
+@pytest.mark.parametrize("language", ["Python", "native"])
+def test_a_slip_that_stops_is_split_alike_whichever_way_rounding_leaves_it(language: str) -> None:
+    """Impulses that stop the slip at a contact but for 1e-10 of it, either way."""
+    differ = []
+    for seed in range(1, 60):
+        patch = draw_patch(seed, 2, 1)
+        (contact,), (impulse,), states = patch.contacts, patch.impulses, patch.states
+        W, v = delassus([contact], states), approach_velocities([contact], states)
+        if v[0] > -0.1 or patch.mu == 0.0:
+            continue
+        losses = []
+        for left in (1e-10, -1e-10):
+            P = contact.axes.T @ np.linalg.lstsq(W, np.array([0.0, *(left * v[1:])]) - v, rcond=1e-9)[0]
+            pushed = replace(patch, impulses=[replace(impulse, P=P)], row=[*patch.row[:-5], *P, *patch.row[-2:]])
+            if language == "native":
+                losses.append(run("energy_split", pushed, 2))
+            else:
+                booked = book_impulses(pushed.impulses, [copy(state) for state in states])
+                losses.append(np.array(split_losses(booked, states, patch.mu, patch.e)[0]))
+        differ.append(float(np.abs(losses[0] - losses[1]).max() / np.abs(losses[0]).sum()))
+    assert len(differ) > 15
+    assert max(differ) < 1e-7
 
 
 @pytest.mark.parametrize("count", [400, pytest.param(5000, marks=SLOW)])
