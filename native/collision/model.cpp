@@ -252,20 +252,21 @@ bool ShipCollision::step(double t, double H, Text& why) {
   run.points.clear();
   if (!receive(run, t, H, why)) return false;
   if (run.near->is_empty()) {
-    run.collisions.close_old(t);
-    run.caches.forget_parted([](int, int) { return false; });
     run.is_met.fill(run.is_met.size(), false);
     advance_others(run, H);
-    if (!finish(run, t, H, why)) return false;
+    if (!finish(run, H, why)) return false;
+    run.collisions.close_old(t);
+    run.caches.forget_parted([](int, int) { return false; });
   } else {
     if (!run.save()) return has_memory("the state of the step", why);
-    if (!take_substeps(run, t, H, why) || !finish(run, t, H, why)) {
+    if (!take_substeps(run, t, H, why) || !finish(run, H, why)) {
       run.take_back();
       memory_.is_exhausted = false;
       warning.clear();
       return false;
     }
   }
+  if (run.exchange.has_delayed_speeds()) warn_of_delay(run, t, H);
   publish(run, t, H);
   const bool has_touched = !run.points.is_empty();
   if (t >= run.diagnosis.due() || has_touched) {
@@ -335,8 +336,7 @@ bool ShipCollision::take_substeps(Run& run, double t, double H, Text& why) {
 }
 
 // What can still be refused.
-bool ShipCollision::finish(Run& run, double t, double H, Text& why) {
-  if (run.exchange.has_delayed_speeds()) warn_of_delay(run, t, H);
+bool ShipCollision::finish(Run& run, double H, Text& why) {
   run.points.fit(outputs.contacts.size());
   return run.exchange.find_ends(H, run.states.data(), why) && has_memory("the contact points of the step", why);
 }

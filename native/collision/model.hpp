@@ -59,7 +59,7 @@ class ShipCollision : public OnHeap {
   void give_up(World* world, Run* run);
   bool receive(Run& run, double t, double H, Text& why);
   bool take_substeps(Run& run, double t, double H, Text& why);
-  bool finish(Run& run, double t, double H, Text& why);
+  bool finish(Run& run, double H, Text& why);
   void respond(Run& run, double t, const Pair* pairs, int count);
   void book(Run& run);
   void advance_others(Run& run, double H);

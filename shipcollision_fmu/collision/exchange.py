@@ -2,7 +2,8 @@
 
     receive    the received velocity is corrected by the pending impulses (impulse_ledger.py); what other forces will
                add is estimated (other_forces.py)
-    publish    the impulse of the step is entered in the ledger; pose and twist at the end of the step
+    find ends  pose and twist at the end of the step; here the law of a ship may refuse its motion
+    publish    the impulse of the step is entered in the ledger, and the outputs are filled
 
 Most ships in most steps are *quiet*: nothing pending, no open collision. A quiet ship far from all others gets no state
 (ABSENT stands for it) and merely coasts (ship/coasting_law.py).
@@ -16,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from ..ship.coasting import coast
-from ..ship.coasting_law import CoastingLaw
+from ..ship.coasting_law import CoastingLaw, Motion
 from ..ship.frames import Array, attitude_from_rotation, unwrap_attitude
 from .bodies import Body
 from .dynamics.body_state import NOTHING, BodyState
@@ -102,43 +103,55 @@ class ShipExchange:
         self._readings[i] = reading
         return state
 
-    # -- publish --------------------------------------------------------------------------------------
+    # -- the end of the step --------------------------------------------------------------------------
 
-    def publish(self, t: float, H: float, states: Sequence[BodyState], colliding: Container[int]) -> None:
+    def find_ends(self, H: float, states: Sequence[BodyState]) -> list[Motion]:
+        """Position [m], attitude [rad], velocity and rate in b of the ships at the end of the step.
+
+        Raises StepError where the law of a ship refuses its motion. Nothing changes.
+        """
+        return [
+            self._coast_absent(i, H) if state is ABSENT else self._find_end(i, state, H)
+            for i, state in enumerate(states[: len(self._inputs)])
+        ]
+
+    def _coast_absent(self, i: int, H: float) -> Motion:
+        received, law = self._inputs[i], self._laws[i]
+        if law is None or (  # a course ahead without looking at the law: most ships in most steps
+            law.keeps_course and received.rate == _NO_TURN and received.attitude[:2] == _NO_TILT
+            and received.velocity[1:] == _NO_TILT and received.position[2] == 0.0
+        ):  # fmt: skip
+            course = coast(received.position, received.attitude, received.velocity, received.rate, self._centres[i], H)
+            return (*course, received.rate)
+        return law.coast(received.position, received.attitude, received.velocity, received.rate, H)
+
+    def _find_end(self, i: int, state: BodyState, H: float) -> Motion:
+        nu, received = self._twist_at_the_end(i, state, H), self._inputs[i].attitude
+        attitude = (
+            received if state.R is self._readings[i].R  # it did not turn
+            else unwrap_attitude(attitude_from_rotation(state.R), received[2]).tolist()
+        )  # fmt: skip
+        return state.x.tolist(), attitude, nu[:3], nu[3:]
+
+    def publish(
+        self, t: float, H: float, states: Sequence[BodyState], ends: Sequence[Motion], colliding: Container[int]
+    ) -> None:
         """Close the ledgers of the step that began at t [s], and fill the outputs.
 
-        colliding: bodies in an open collision; for these the received state is kept until the next step.
+        ends: of find_ends(). colliding: bodies in an open collision; for these the received state is kept until the
+        next step.
         """
-        for i, (out, received) in enumerate(zip(self._outputs, self._inputs, strict=True)):
+        for i, (out, received, end) in enumerate(zip(self._outputs, self._inputs, ends, strict=True)):
             state = states[i]
+            out.position[:], out.attitude[:], out.velocity[:], out.rate[:] = end
             if state is ABSENT:
-                law = self._laws[i]
-                if law is None or (  # a course ahead without looking at the law: most ships in most steps
-                    law.keeps_course and received.rate == _NO_TURN and received.attitude[:2] == _NO_TILT
-                    and received.velocity[1:] == _NO_TILT and received.position[2] == 0.0
-                ):  # fmt: skip
-                    out.position[:], out.attitude[:], out.velocity[:] = coast(
-                        received.position, received.attitude, received.velocity, received.rate, self._centres[i], H
-                    )
-                    out.rate[:] = received.rate
-                else:
-                    out.position[:], out.attitude[:], out.velocity[:], out.rate[:] = law.coast(
-                        received.position, received.attitude, received.velocity, received.rate, H
-                    )
                 out.force[:] = _NO_FORCE
                 continue
-            ledger, reading = self.ledgers[i], self._readings[i]
-            ledger.close(reading, state.issued, state.nu_received, state.x_applied, state.R_applied)
+            ledger = self.ledgers[i]
+            ledger.close(self._readings[i], state.issued, state.nu_received, state.x_applied, state.R_applied)
             out.impulse[:] = ledger.issued.tolist()
             out.force[:] = (state.issued / H).tolist() if state.issued is not NOTHING else _NO_FORCE
             self._last_received[i] = _as_received(t, H, received) if i in colliding else None
-            nu = self._twist_at_the_end(i, state, H)
-            out.position[:] = state.x.tolist()
-            out.attitude[:] = (
-                received.attitude if state.R is reading.R  # it did not turn
-                else unwrap_attitude(attitude_from_rotation(state.R), received.attitude[2]).tolist()
-            )  # fmt: skip
-            out.velocity[:], out.rate[:] = nu[:3], nu[3:]
 
     def _twist_at_the_end(self, i: int, state: BodyState, H: float) -> list[float]:
         """Twist (6,) at the end of the step, in b by then. For a ship that adopts it after an impulse the law is asked

@@ -9,7 +9,8 @@ A communication step [t, t + H]:
         advance   the predicted poses of the near bodies, to the first touch of fast pairs or the end of the substep
         respond   to the contacts there, by one of the rival responses (responses.py)
         book      impulses into twists and ledgers, energy lost, contact points
-    publish       poses, twists, impulses, mean forces, contacts, collisions
+    find ends     poses and twists of the ships at the end of the step; from here on nothing can be refused
+    publish       them, impulses, mean forces, contacts, collisions
     diagnose      what was received: is a ship wired wrongly? (diagnosis.py)
 
 Bodies are the ships in the order of the build, then the obstacles (obstacles.py). An obstacle is a body with zero
@@ -29,6 +30,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import StepError
+from ..ship.coasting_law import Motion
 from .bodies import Body, prepare_bodies
 from .checks import check_parameters, check_states, check_step
 from .collisions import Collisions, Numbers
@@ -105,6 +107,7 @@ class ShipCollision:
             {i for i in range(n) if feedbacks[i] == "none"},
             {i for i, body in enumerate(bodies) if body.feedback == PRESCRIBED} if PRESCRIBED in feedbacks else (),
         )
+        self._has_fenders = any(body.fender for body in bodies)
         self._fenders, self._caches, self._totals = FenderLedger(), ContactCaches(), Totals()
         self._diagnosis = Diagnosis(
             bodies, feedbacks, self._exchange.ledgers, self.inputs.ships, self.outputs.diagnosis
@@ -114,7 +117,7 @@ class ShipCollision:
         active = self._exchange.receive_active(0.0, 0.0)
         states = self._exchange.receive_others(0.0, 0.0, active, range(n)) + self._walls
         candidates = self._proximity.find_candidates(states, self.inputs.ships, 0.0, self._absent)
-        self._publish(0.0, 0.0, states, [], candidates)
+        self._publish(0.0, 0.0, states, self._exchange.find_ends(0.0, states), [], candidates)
 
     @property
     def obstacles(self) -> tuple[str, ...]:
@@ -148,18 +151,21 @@ class ShipCollision:
             saved = self._get_mechanics()
             try:
                 points = self._take_substeps(t, H, near, states, detector)
+                ends = self._exchange.find_ends(H, states)
             except Exception:
                 self._set_mechanics(saved)
+                self.warning = ""
                 raise
             self.warning = "; ".join(filter(None, (self.warning, self._totals.describe_unconverged(t, H))))
         else:
             points = []
+            self._advance_others(H, states, ())
+            ends = self._exchange.find_ends(H, states)
             self._collisions.close_old(t)
             self._caches.forget_parted(())
-            self._advance_others(H, states, ())
         if self._exchange.delayed_speeds:
             self._warn_of_delay(t, H, detector)
-        self._publish(t, H, states, points, candidates)
+        self._publish(t, H, states, ends, points, candidates)
         if t >= self._diagnosis.due or points:
             found = self._diagnosis.examine(t, H, self._absent, near, bool(points))
             self.warning = "; ".join(filter(None, (self.warning, found)))
@@ -180,7 +186,7 @@ class ShipCollision:
         met = {i for pair in near for i in pair}
         self._caches.work.renew(sum(not states[i].fixed for i in met), H)
         self._advance_others(H, states, met)
-        fenders = select_fenders(self._bodies, list(near))
+        fenders = select_fenders(self._bodies, list(near)) if self._has_fenders else {}
         schedule = ConservativeAdvancement(
             H, self.parameters.substep, self._bodies, states, detector, self._caches, near, fenders
         )
@@ -251,11 +257,12 @@ class ShipCollision:
     # -- outputs ------------------------------------------------------------------------------------
 
     def _publish(
-        self, t: float, H: float, states: list[BodyState], points: list[ContactPoint], candidates: Sequence[Pair]
-    ) -> None:
-        """Fill the outputs of the step of H [s] that began at t [s]."""
+        self, t: float, H: float, states: list[BodyState], ends: Sequence[Motion], points: list[ContactPoint],
+        candidates: Sequence[Pair],
+    ) -> None:  # fmt: skip
+        """Fill the outputs of the step of H [s] that began at t [s]. ends: of the ships."""
         out = self.outputs
-        self._exchange.publish(t, H, states, self._collisions.bodies_in_collision())
+        self._exchange.publish(t, H, states, ends, self._collisions.bodies_in_collision())
         if points or out.contact_count or out.collision_count != self._collisions.count:
             self._publish_contacts(points)
         self._totals.fill(out)

@@ -36,7 +36,7 @@ from .restoring import Restoring
 from .seakeeping import compute_seakeeping
 from .ship import Ship
 
-__all__ = ["COASTING", "CoastingLaw", "make_coasting"]
+__all__ = ["COASTING", "CoastingLaw", "Motion", "make_coasting"]
 
 COASTING = ("kirchhoff", "free", "straight")
 """The laws by name; the first is the default."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,8 +15,12 @@ from shipcollision_fmu.ship.coasting_law import make_coasting
 from shipcollision_fmu.ship.degrees_of_freedom import free_inverse, level_axes, tilted_inverse
 from shipcollision_fmu.ship.frames import attitude_from_rotation, rotation, rotation_vector
 from shipcollision_fmu.ship.loading.library import load_ship
+from tests.native.collision.kernels import load_kernels
+from tests.native.native_collision import NativeCollision
 from tests.ship_files import ship_toml
 
+LANGUAGES = pytest.mark.parametrize("language", ["Python", "native"], indirect=True)
+"""Marks a test of the world that holds for the model of native/ as well."""
 BULLET = pytest.param("bullet", marks=pytest.mark.needs("pybullet"))
 """The response that only PyBullet gives."""
 BOX = 'shape = "box"\ndepth = 20.0'
@@ -47,6 +52,11 @@ def make_ship(tmp_path: Path) -> Callable[..., str]:
     return make
 
 
+def make_collision(language: str, ships: list[str]) -> Any:
+    """The collision model in Python, or that of native/ behind the same face."""
+    return ShipCollision(ships) if language == "Python" else NativeCollision(load_kernels(), ships)
+
+
 class World:
     """Two ships that coast, coupled to a collision model by the ledger. Their law is known to both: straight, unless
     another one is named (ship/coasting_law.py).
@@ -55,8 +65,9 @@ class World:
     """
 
     def __init__(self, ships: list[str], start: list[dict], *, algorithm: str = "gauss-seidel",
-                 degrees_of_freedom: int = 6, coasting: str = "straight", **parameters: object) -> None:  # fmt: skip
-        self.model = ShipCollision([f"s{i}" for i in range(len(ships))])
+                 degrees_of_freedom: int = 6, coasting: str = "straight", language: str = "Python",
+                 **parameters: object) -> None:  # fmt: skip
+        self.model = make_collision(language, [f"s{i}" for i in range(len(ships))])
         for slot, ship in zip(self.model.parameters.ships, ships, strict=True):
             slot.ship, slot.degrees_of_freedom, slot.coasting = ship, degrees_of_freedom, coasting
         for key, value in parameters.items():
@@ -158,11 +169,17 @@ class World:
 
 
 @pytest.fixture
-def world() -> Iterator[Callable[..., World]]:
+def language(request: pytest.FixtureRequest) -> str:
+    """Which form of the collision model a world has. LANGUAGES runs a test on each."""
+    return getattr(request, "param", "Python")
+
+
+@pytest.fixture
+def world(language: str) -> Iterator[Callable[..., World]]:
     made: list[World] = []
 
     def make(*args: object, **kwargs: object) -> World:
-        made.append(World(*args, **kwargs))  # type: ignore[arg-type]  # passed on
+        made.append(World(*args, language=language, **kwargs))  # type: ignore[arg-type]  # passed on
         return made[-1]
 
     yield make

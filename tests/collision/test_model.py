@@ -12,7 +12,7 @@ import pytest
 from shipcollision_fmu.collision import totals
 from shipcollision_fmu.collision.model import ShipCollision
 from shipcollision_fmu.errors import InputError, StepError
-from tests.collision.conftest import BOX, BULLET, NO_ADDED_MASS, World
+from tests.collision.conftest import BOX, BULLET, LANGUAGES, NO_ADDED_MASS, World
 
 Make = Callable[..., str]
 MakeWorld = Callable[..., World]
@@ -402,6 +402,28 @@ def test_absurd_inputs_end_the_step_and_change_nothing(
     with pytest.raises(StepError, match=message):
         w.model.step(w.t, 0.05)
     assert (w.model.get_state(), repr(w.model.outputs)) == (before, outputs)
+
+
+@LANGUAGES
+@pytest.mark.parametrize("away", [0.0, 3000.0])
+def test_a_step_that_the_law_of_a_far_ship_refuses_changes_nothing(
+    make_ship: Make, world: MakeWorld, away: float
+) -> None:
+    """Two ships in contact, or moved apart since, and a buoy far off that spins as if its rate were in another unit."""
+    far = {"position": [9000.0, 0.0, 0.0], "nu": [0.1, 0, 0, 0, 0, 0.0]}
+    w = world([make_ship("a"), make_ship("b"), "buoy"], [*T_BONE, far], coasting="free", substep=0.05)
+    while not w.model.outputs.contact_active:
+        w.step(0.05)
+    w.send()
+    w.model.inputs.ships[0].position[0] -= away
+    w.model.inputs.ships[2].rate[2] = 400.0
+    before, outputs = w.model.get_state(), repr(w.model.outputs)
+    with pytest.raises(StepError, match=r"a step of 3 s takes .* substeps of a ship that coasts, at most 10000: take"):
+        w.model.step(w.t + 1.0, 3.0)
+    assert (w.model.get_state(), repr(w.model.outputs)) == (before, outputs)
+    w.model.inputs.ships[2].rate[2] = 0.4
+    w.model.step(w.t + 1.0, 3.0)
+    assert w.model.get_state() != before
 
 
 def test_answers_that_did_not_converge_are_counted_and_warned_of_once(

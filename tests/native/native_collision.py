@@ -123,9 +123,14 @@ class NativeCollision:
         return {"bytes": data.raw[:size].hex()} if size else {}
 
     def set_state(self, state: dict[str, Any]) -> None:
-        data = bytes.fromhex(state.get("bytes", ""))
         self._fill_parameters()
-        self._call("set_collision_state", data, ctypes.c_size_t(len(data)))
+        self.restore(bytes.fromhex(state.get("bytes", "")))
+
+    def restore(self, data: bytes) -> None:
+        """Back to the bytes of a state; parameters and outputs stay."""
+        message = self._message()
+        if not self._library.shipcollision_set_collision_state(self._at, data, ctypes.c_size_t(len(data)), *message):
+            raise RefusedError(message[0].value.decode())
 
     def _fill_parameters(self) -> None:
         p = self.parameters
@@ -148,9 +153,10 @@ class NativeCollision:
 
     def _call(self, name: str, *arguments: Any) -> None:
         message = self._message()
-        if not getattr(self._library, f"shipcollision_{name}")(self._at, *arguments, *message):
-            raise RefusedError(message[0].value.decode())
+        is_done = getattr(self._library, f"shipcollision_{name}")(self._at, *arguments, *message)
         self._read_outputs()
+        if not is_done:
+            raise RefusedError(message[0].value.decode())
 
     def _read_outputs(self) -> None:
         out, posts = self.outputs, self._posts[:]
