@@ -18,6 +18,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .batch.encounters import Encounters, run_encounters
     from .batch.impact import impact
     from .collision.model import ShipCollision
     from .cosim.run import Run
@@ -35,12 +36,13 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 __all__ = [
-    "HostError", "InputError", "Run", "Scenario", "ScenarioError", "Ship", "ShipCollision", "ShipCollisionError",
-    "ShipError", "ShipManoeuvring", "StepError", "__version__", "build_fmus", "encounter", "imazu", "impact",
-    "load_scenario", "load_ship", "simulate", "traffic_scenario",
+    "Encounters", "HostError", "InputError", "Run", "Scenario", "ScenarioError", "Ship", "ShipCollision",
+    "ShipCollisionError", "ShipError", "ShipManoeuvring", "StepError", "__version__", "build_fmus", "encounter",
+    "imazu", "impact", "load_scenario", "load_ship", "run_encounters", "simulate", "traffic_scenario",
 ]  # fmt: skip
 
 _MODULES = {
+    "batch.encounters": ("Encounters", "run_encounters"),
     "batch.impact": ("impact",),
     "collision.model": ("ShipCollision",),
     "cosim.run": ("Run",),

@@ -4,16 +4,32 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from shipcollision_fmu.batch.encounter_table import COLLISION_COLUMNS, ENCOUNTER_COLUMNS, SHIP_COLUMNS
 from shipcollision_fmu.batch.impact_table import COLUMNS, Column
 
 from .markdown import cell, table
 
-__all__ = ["impacts"]
+__all__ = ["collisions", "encounters", "impacts", "ships"]
 
 
 def impacts() -> str:
     """The columns of the table that impact() returns."""
     return _describe(COLUMNS)
+
+
+def encounters() -> str:
+    """The columns of the encounters of run_encounters()."""
+    return _describe(ENCOUNTER_COLUMNS)
+
+
+def ships() -> str:
+    """The columns of their ships."""
+    return _describe(SHIP_COLUMNS)
+
+
+def collisions() -> str:
+    """The columns of their collisions."""
+    return _describe(COLLISION_COLUMNS)
 
 
 def _describe(columns: Sequence[Column]) -> str:

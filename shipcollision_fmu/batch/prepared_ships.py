@@ -1,4 +1,4 @@
-"""Ships as files that the native library reads, for as long as a call lasts."""
+"""Ships and obstacles as files that the native library reads, for as long as a call lasts."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ from tempfile import TemporaryDirectory
 from types import TracebackType
 from typing import Any, TypeAlias
 
+from ..collision.prepared_obstacles import SUFFIX as OBSTACLES_SUFFIX
+from ..collision.prepared_obstacles import prepare_obstacles
 from ..manoeuvring.prepared_ship import SUFFIX, describe_ship
 from ..ship.loading.library import load_ship
 from ..ship.ship import Ship
@@ -24,12 +26,13 @@ def find_ship(ship: AnyShip) -> Ship:
 
 
 class PreparedShips:
-    """A folder of prepared ships, each written once. It is removed at the end of the context."""
+    """A folder of prepared ships and obstacles, each written once. It is removed at the end of the context."""
 
     def __init__(self) -> None:
         self._folder = TemporaryDirectory(prefix="shipcollision-")
         self._paths: dict[int, str] = {}
         self._ships: list[Ship] = []  # kept alive, for their ids are keys
+        self._obstacles: dict[str, str] = {}
 
     def __enter__(self) -> PreparedShips:
         return self
@@ -47,3 +50,13 @@ class PreparedShips:
             self._paths[id(ship)] = str(path)
             self._ships.append(ship)
         return self._paths[id(ship)]
+
+    def write_obstacles(self, text: str) -> str:
+        """The path of a file of obstacles, from their TOML text; empty without obstacles."""
+        if not text:
+            return ""
+        if text not in self._obstacles:
+            path = Path(self._folder.name, f"{len(self._obstacles)}{OBSTACLES_SUFFIX}")
+            path.write_bytes(prepare_obstacles(text))
+            self._obstacles[text] = str(path)
+        return self._obstacles[text]

@@ -16,5 +16,5 @@
 
 Data flow: Scenario -> instances and wires (System) -> steps -> Record -> events, summary, bodies (results/) -> Run.
 Imports from: results, show (the page of a run only), scenario, fmi, collision (interface, obstacles), ship. Used by:
-cli, packaging and users of the package.
+batch, cli, packaging and users of the package.
 """

@@ -15,7 +15,7 @@ from .evasion import Evasion
 from .helm import Helm, HelmState, Steering
 from .route import Route
 
-__all__ = ["build_helm"]
+__all__ = ["build_helm", "build_steering"]
 
 RATE_GAIN = 2.0
 """Default K_d / K_p, in lengths sailed: about what a tanker takes to answer its helm. Less, and it overshoots."""
@@ -29,14 +29,20 @@ the gain of a ship that starts at rest would be infinite."""
 def build_helm(start: ShipStart, L_pp: float, ship: Component, step: float) -> Helm:
     """The helm of a ship of length L_pp [m], for a communication step [s]; with a steering if the table asks for it."""
     helm = Helm(ship.reals(ORDERS), dict(schedule_orders(start, step)), step=step)
-    headings = dict(schedule_headings(start, step))
-    if start.route is None and start.evasion is None and all(heading is None for heading in headings.values()):
+    steering = build_steering(start, L_pp)
+    if steering is None:
         return helm
-    route = None if start.route is None else _route(start.route, start, L_pp)
-    evasion = None if start.evasion is None else _evasion(start.evasion)
-    helm.headings, helm.state = headings, HelmState(on_route=route is not None)
-    helm.steering = Steering(_autopilot(start, L_pp), route, evasion)
+    helm.headings = dict(schedule_headings(start, step))
+    helm.state, helm.steering = HelmState(on_route=steering.route is not None), steering
     return helm
+
+
+def build_steering(start: ShipStart, L_pp: float) -> Steering | None:
+    """The steering of a ship of length L_pp [m] besides its timed orders; None if the table asks for none."""
+    if start.route is None and start.evasion is None and all(order.heading_deg is None for order in start.orders):
+        return None
+    route = None if start.route is None else _route(start.route, start, L_pp)
+    return Steering(_autopilot(start, L_pp), route, None if start.evasion is None else _evasion(start.evasion))
 
 
 def _autopilot(start: ShipStart, L_pp: float) -> Autopilot:
