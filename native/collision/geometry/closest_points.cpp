@@ -7,8 +7,9 @@
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
+#include <string.h>
 
-#include "../../numbers/sort.hpp"
+#include "../../numbers/foremost.hpp"
 
 namespace shipcollision {
 
@@ -17,6 +18,11 @@ namespace {
 // Bullet looks no farther than this beyond the distance asked for [m]. Any positive length gives the same results, a
 // larger one takes longer.
 constexpr double BREAKING_THRESHOLD = 0.02;
+
+// Of the latest answers that are kept: how many for each part, and the logarithms of the least and the largest number.
+constexpr int ANSWERS_OF_PART = 4;
+constexpr int LEAST_BITS = 4;
+constexpr int MOST_BITS = 12;
 
 // Bullet fills tables of directions when the first hull is made. This makes one while the library is loaded, by one
 // thread, so that two threads that open their first worlds never write there.
@@ -50,74 +56,28 @@ void find_quaternion(const double R[9], double q[4]) {
 }
 
 // A convex hull that finds the point that Bullet's would find, the foremost of the lowest number, without looking at
-// all: points are in groups, and most groups lie behind the point that was foremost last.
-class GroupedHull : public btConvexHullShape {
+// all.
+class QuickHull : public btConvexHullShape {
  public:
   BT_DECLARE_ALIGNED_ALLOCATOR();
 
   // After the last point.
   void finish() {
     optimizeConvexHull();
-    for (int i = 0; i < getNumPoints(); ++i) order_.push_back(i);
-    group(0, getNumPoints());
-    for (int i = 0; i < order_.size(); ++i) points_.push_back(getUnscaledPoints()[order_[i]]);
+    btAlignedObjectArray<btScalar> coordinates;
+    for (int i = 0; i < getNumPoints(); ++i) {
+      for (int k = 0; k < 3; ++k) coordinates.push_back(getUnscaledPoints()[i][k]);
+    }
+    foremost_.set_up(&coordinates[0], getNumPoints());
     m_shapeType = CUSTOM_CONVEX_SHAPE_TYPE;  // of Bullet's own type, it would search by itself
   }
 
   btVector3 localGetSupportingVertexWithoutMargin(const btVector3& direction) const override {
-    const btVector3 along = direction.absolute();
-    int found = last_;
-    btScalar most = points_[found].dot(direction);
-    for (int i = 0; i < groups_.size(); ++i) {
-      const Group& group = groups_[i];
-      if (group.middle.dot(direction) + group.half.dot(along) < most) continue;
-      for (int k = group.begin; k < group.end; ++k) {
-        const btScalar height = points_[k].dot(direction);
-        if (height > most || (height == most && order_[k] < order_[found])) {
-          most = height;
-          found = k;
-        }
-      }
-    }
-    last_ = found;
-    return points_[found];
+    return getUnscaledPoints()[foremost_.find(direction.x(), direction.y(), direction.z())];
   }
 
  private:
-  static constexpr int LARGEST_GROUP = 12;
-
-  struct Group {
-    btVector3 middle, half;  // of a box around its points
-    int begin, end;          // in points_
-  };
-
-  // Parts what is too large in two along its longest side.
-  void group(int begin, int end) {
-    const btVector3* corners = getUnscaledPoints();
-    btVector3 low = corners[order_[begin]], high = low;
-    for (int i = begin + 1; i < end; ++i) {
-      low.setMin(corners[order_[i]]);
-      high.setMax(corners[order_[i]]);
-    }
-    if (end - begin <= LARGEST_GROUP) {
-      const btVector3 middle = 0.5 * (low + high), half = 0.5 * (high - low);
-      // A little more than the points need, so that rounding leaves none outside.
-      groups_.push_back({middle, half + 1e-13 * (middle.absolute() + half), begin, end});
-      return;
-    }
-    const int axis = (high - low).maxAxis();
-    sort(&order_[begin], end - begin, [corners, axis](int p, int q) {
-      return corners[p][axis] != corners[q][axis] ? corners[p][axis] < corners[q][axis] : p < q;
-    });
-    const int half = (begin + end) / 2;
-    group(begin, half);
-    group(half, end);
-  }
-
-  btAlignedObjectArray<Group> groups_;
-  btAlignedObjectArray<int> order_;  // number of each entry of points_
-  btAlignedObjectArray<btVector3> points_;
-  mutable int last_ = 0;  // what was found last; it makes the search short, and changes no result
+  mutable Foremost foremost_;  // what it keeps makes the search short, and changes no result
 };
 
 struct OneResult : btDiscreteCollisionDetectorInterface::Result {
@@ -145,15 +105,29 @@ struct PlacedHulls::Ship {
     for (int i = 0; i < parts.size(); ++i) delete parts[i];
   }
 
-  btAlignedObjectArray<GroupedHull*> parts;
+  btAlignedObjectArray<QuickHull*> parts;
   btTransform pose = btTransform(btMatrix3x3(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0));
+  int first_part = 0;  // its number among those of all ships
+  Pose placed{};       // as it was given
+  long long times_placed = 0;
+};
+
+// The latest answer for two parts. It holds until one of them is placed elsewhere.
+struct PlacedHulls::Answer {
+  int part_a, part_b;             // among those of all ships
+  long long placed_a, placed_b;  // how often the ships were placed by then
+  double distance;               // up to which was looked
+  bool is_found;
+  Closest found;
 };
 
 PlacedHulls::PlacedHulls(int ships, const int* parts, const int* corners, const double* coordinates)
     : ships_(new Ship[static_cast<size_t>(ships)]) {
   for (int ship = 0; ship < ships; ++ship) {
+    ships_[ship].first_part = parts_;
+    parts_ += parts[ship];
     for (int part = 0; part < parts[ship]; ++part, ++corners) {
-      auto* shape = new GroupedHull();
+      auto* shape = new QuickHull();
       shape->setMargin(MARGIN);
       for (int corner = 0; corner < *corners; ++corner, coordinates += 3) {
         shape->addPoint(swap_axes(coordinates), false);
@@ -162,9 +136,16 @@ PlacedHulls::PlacedHulls(int ships, const int* parts, const int* corners, const 
       ships_[ship].parts.push_back(shape);
     }
   }
+  answer_bits_ = LEAST_BITS;
+  while (1 << answer_bits_ < ANSWERS_OF_PART * parts_ && answer_bits_ < MOST_BITS) ++answer_bits_;
+  answers_ = new Answer[size_t{1} << answer_bits_]();
+  for (int i = 0; i < 1 << answer_bits_; ++i) answers_[i].part_a = -1;
 }
 
-PlacedHulls::~PlacedHulls() { delete[] ships_; }
+PlacedHulls::~PlacedHulls() {
+  delete[] answers_;
+  delete[] ships_;
+}
 
 int PlacedHulls::count_parts(int ship) const { return ships_[ship].parts.size(); }
 
@@ -176,14 +157,44 @@ int PlacedHulls::get_corners(int ship, int part, double* coordinates, int capaci
 }
 
 void PlacedHulls::place(int ship, const double x[3], const double R_nb[9]) {
+  Ship& moved = ships_[ship];
+  if (moved.times_placed > 0 && memcmp(x, moved.placed.x.at, sizeof moved.placed.x) == 0 &&
+      memcmp(R_nb, moved.placed.R.at, sizeof moved.placed.R) == 0) {
+    return;
+  }
+  memcpy(moved.placed.x.at, x, sizeof moved.placed.x);
+  memcpy(moved.placed.R.at, R_nb, sizeof moved.placed.R);
+  ++moved.times_placed;
   double q[4];
   find_quaternion(R_nb, q);
-  btTransform& pose = ships_[ship].pose;
+  btTransform& pose = moved.pose;
   pose.setOrigin(swap_axes(x));
   pose.setRotation(btQuaternion(q[1], q[0], -q[2], q[3]));
 }
 
 bool PlacedHulls::closest_of_parts(int a, int part_a, int b, int part_b, double distance, Closest& found) const {
+  const Ship &one = ships_[a], &other = ships_[b];
+  const int number_a = one.first_part + part_a, number_b = other.first_part + part_b;
+  Answer& answer = find_answer(number_a, number_b);
+  const bool is_known = answer.placed_a == one.times_placed && answer.placed_b == other.times_placed &&
+                        answer.part_a == number_a && answer.part_b == number_b &&
+                        (answer.is_found || distance <= answer.distance);
+  if (!is_known) {
+    answer = {number_a, number_b, one.times_placed, other.times_placed, distance, false, {}};
+    answer.is_found = ask_bullet(a, part_a, b, part_b, distance, answer.found);
+  }
+  if (!answer.is_found || !(answer.found.gap <= distance)) return false;
+  found = answer.found;
+  return true;
+}
+
+PlacedHulls::Answer& PlacedHulls::find_answer(int part_a, int part_b) const {
+  const unsigned number = static_cast<unsigned>(part_a * parts_ + part_b);
+  return answers_[number * 2654435769u >> (32 - answer_bits_)];
+}
+
+// Whether Bullet has found closest points; they may be a little farther apart than `distance`.
+bool PlacedHulls::ask_bullet(int a, int part_a, int b, int part_b, double distance, Closest& found) const {
   const btConvexHullShape* shape_a = ships_[a].parts[part_a];
   const btConvexHullShape* shape_b = ships_[b].parts[part_b];
   const double threshold = distance - 2 * MARGIN;
@@ -197,7 +208,8 @@ bool PlacedHulls::closest_of_parts(int a, int part_a, int b, int part_b, double 
   btGjkPairDetector detector(shape_a, shape_b, &simplex, &penetration);
   OneResult result;
   detector.getClosestPoints(input, result, nullptr);
-  if (!result.is_found || !(result.distance <= threshold)) return false;
+  // Nearer than where Bullet gives up, its result does not depend on `distance`.
+  if (!result.is_found || !(result.distance <= threshold + 0.5 * BREAKING_THRESHOLD)) return false;
   const btVector3 on_a = result.on_b + result.normal_on_b * result.distance;
   double from_b[3];
   swap_axes(result.normal_on_b, from_b);  // Bullet's normal points from B to A

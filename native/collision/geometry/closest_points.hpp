@@ -33,8 +33,15 @@ class PlacedHulls {
 
  private:
   struct Ship;
+  struct Answer;
+
+  Answer& find_answer(int part_a, int part_b) const;
+  bool ask_bullet(int a, int part_a, int b, int part_b, double distance, Closest& found) const;
 
   Ship* ships_;
+  int parts_ = 0;    // of all ships
+  Answer* answers_;  // a table of 2^answer_bits_
+  int answer_bits_;
 };
 
 }  // namespace shipcollision
