@@ -220,7 +220,14 @@ void ConservativeAdvancement::reschedule() {
     const double rest = (count_ - 1 - substep_) * h_;
     for (int i : examined_) {
       Entry& entry = entries_[i];
-      const double gap = detector_.clearance(entry.pair, states_, rest * find_approach_speed(entry));
+      const double approach = find_approach_speed(entry);
+      if (detector_.are_surely_within(entry.pair, states_, min(rest, h_) * approach)) {
+        last_normals_->remove(entry.pair);
+        entry.due = substep_ + 1;
+        entry.is_apart = true;
+        continue;
+      }
+      const double gap = detector_.clearance(entry.pair, states_, rest * approach);
       const int free = count_free_substeps(entry, gap);
       entry.due = free >= NEVER ? NEVER : substep_ + 1 + free;
       entry.is_apart = entry.is_apart || gap > 0.0;

@@ -24,6 +24,10 @@ constexpr int ANSWERS_OF_PART = 4;
 constexpr int LEAST_BITS = 4;
 constexpr int MOST_BITS = 12;
 
+// Parts that are farther apart than asked for by this [m], along a direction that is kept, are not shown to Bullet. In
+// that range its answers are regular: it takes cores nearer than 1e-6 m for touching.
+constexpr double SURELY = 2e-6;
+
 // Bullet fills tables of directions when the first hull is made. This makes one while the library is loaded, by one
 // thread, so that two threads that open their first worlds never write there.
 __attribute__((constructor)) void fill_tables() { const btConvexHullShape first; }
@@ -76,6 +80,12 @@ class QuickHull : public btConvexHullShape {
     return getUnscaledPoints()[foremost_.find(direction.x(), direction.y(), direction.z())];
   }
 
+  // Largest height of a corner along a direction in b [m].
+  double reach_along(const Three& direction) const {
+    const btVector3 along = swap_axes(direction.at);
+    return localGetSupportingVertexWithoutMargin(along).dot(along);
+  }
+
  private:
   mutable Foremost foremost_;  // what it keeps makes the search short, and changes no result
 };
@@ -112,14 +122,91 @@ struct PlacedHulls::Ship {
   long long times_placed = 0;
 };
 
-// The latest answer for two parts. It holds until one of them is placed elsewhere.
+// The latest answer for two parts. It holds until one of them is placed elsewhere. What else is kept makes later
+// answers short, and changes none of them.
 struct PlacedHulls::Answer {
-  int part_a, part_b;             // among those of all ships
+  int part_a, part_b;            // among those of all ships
   long long placed_a, placed_b;  // how often the ships were placed by then
   double distance;               // up to which was looked
   bool is_found;
   Closest found;
+  Three normal_in_a, normal_in_b;  // of a plane between the parts, as either ship carries it
+  double reach_a, reach_b;         // of the parts towards each other along it
+  bool has_points;
+  Three point_in_a, point_in_b;  // of either part
+
+  // Keeps the normal, and the points if they were found, as the ships carry them.
+  void keep(const Ship& one, const QuickHull& of_one, const Ship& other, const QuickHull& of_other,
+            const Three& normal) {
+    normal_in_a = rotate_back(one.placed.R, normal);
+    normal_in_b = rotate_back(other.placed.R, normal);
+    reach_a = of_one.reach_along(normal_in_a);
+    reach_b = of_other.reach_along(-normal_in_b);
+    has_points = is_found;
+    if (!is_found) return;
+    point_in_a = rotate_back(one.placed.R, found.on_a - one.placed.x);
+    point_in_b = rotate_back(other.placed.R, found.on_b - other.placed.x);
+  }
+
+  // Distance [m] that the parts surely have where the ships are now; -INFINITE without any.
+  double find_sure_distance(const Ship& one, const QuickHull& of_one, const Ship& other,
+                            const QuickHull& of_other) const {
+    const Three between = other.placed.x - one.placed.x;
+    const Three by_a = rotate(one.placed.R, normal_in_a), by_b = rotate(other.placed.R, normal_in_b);
+    const double along_a = dot(by_a, between) - reach_a - of_other.reach_along(-rotate_back(other.placed.R, by_a));
+    const double along_b = dot(by_b, between) - reach_b - of_one.reach_along(rotate_back(one.placed.R, by_b));
+    const double most = max(along_a, along_b) - SURELY;
+    return most > 0.0 ? most : -INFINITE;
+  }
+
+  // Whether the points that are kept are now nearer to each other than `distance` [m].
+  bool has_points_within(const Ship& one, const Ship& other, double distance) const {
+    const Three on_a = rotate(one.placed.R, point_in_a), on_b = rotate(other.placed.R, point_in_b);
+    return has_points && norm((other.placed.x - one.placed.x) + (on_b - on_a)) < distance;
+  }
 };
+
+namespace {
+
+// Whether Bullet has found closest points; they may be a little farther apart than `distance`. normal: of the parts, or
+// of a plane between them.
+bool ask_bullet(const btTransform& pose_a, const QuickHull& part_a, const btTransform& pose_b, const QuickHull& part_b,
+                double distance, Closest& found, Three& normal) {
+  const double threshold = distance - 2 * MARGIN;
+  btDiscreteCollisionDetectorInterface::ClosestPointInput input;
+  input.m_transformA = pose_a;
+  input.m_transformB = pose_b;
+  input.m_maximumDistanceSquared = part_a.getMargin() + part_b.getMargin() + BREAKING_THRESHOLD + threshold;
+  input.m_maximumDistanceSquared *= input.m_maximumDistanceSquared;
+  btVoronoiSimplexSolver simplex;
+  btGjkEpaPenetrationDepthSolver penetration;
+  btGjkPairDetector detector(&part_a, &part_b, &simplex, &penetration);
+  OneResult result;
+  detector.getClosestPoints(input, result, nullptr);
+  // Nearer than where Bullet gives up, its result does not depend on `distance`.
+  const bool is_found = result.is_found && result.distance <= threshold + 0.5 * BREAKING_THRESHOLD;
+  // Bullet's normals point from B to A.
+  const btVector3 towards_a = is_found ? result.normal_on_b : detector.getCachedSeparatingAxis();
+  swap_axes(towards_a, normal.at);
+  normal = -normal;
+  if (!is_found) {
+    const double size = norm(normal);
+    normal = size > 0.0 ? (1.0 / size) * normal : Three{};
+    return false;
+  }
+  const btVector3 on_a = result.on_b + result.normal_on_b * result.distance;
+  swap_axes(on_a, found.on_a.at);
+  swap_axes(result.on_b, found.on_b.at);
+  for (int i = 0; i < 3; ++i) {
+    found.on_a[i] -= MARGIN * normal[i];
+    found.on_b[i] += MARGIN * normal[i];
+  }
+  found.normal = normal;
+  found.gap = result.distance + 2 * MARGIN;
+  return true;
+}
+
+}  // namespace
 
 PlacedHulls::PlacedHulls(int ships, const int* parts, const int* corners, const double* coordinates)
     : ships_(new Ship[static_cast<size_t>(ships)]) {
@@ -176,12 +263,25 @@ bool PlacedHulls::closest_of_parts(int a, int part_a, int b, int part_b, double 
   const Ship &one = ships_[a], &other = ships_[b];
   const int number_a = one.first_part + part_a, number_b = other.first_part + part_b;
   Answer& answer = find_answer(number_a, number_b);
-  const bool is_known = answer.placed_a == one.times_placed && answer.placed_b == other.times_placed &&
-                        answer.part_a == number_a && answer.part_b == number_b &&
-                        (answer.is_found || distance <= answer.distance);
-  if (!is_known) {
-    answer = {number_a, number_b, one.times_placed, other.times_placed, distance, false, {}};
-    answer.is_found = ask_bullet(a, part_a, b, part_b, distance, answer.found);
+  const bool has_normal = answer.part_a == number_a && answer.part_b == number_b;
+  const bool is_known = has_normal && answer.placed_a == one.times_placed && answer.placed_b == other.times_placed;
+  if (!is_known || !(answer.is_found || distance <= answer.distance)) {
+    const QuickHull &of_one = *one.parts[part_a], &of_other = *other.parts[part_b];
+    answer.part_a = number_a;
+    answer.part_b = number_b;
+    answer.placed_a = one.times_placed;
+    answer.placed_b = other.times_placed;
+    answer.is_found = false;
+    answer.distance =
+        has_normal ? answer.find_sure_distance(one, of_one, other, of_other) : -INFINITE;
+    if (!(distance <= answer.distance)) {
+      Three normal;
+      answer.distance = distance;
+      answer.is_found = ask_bullet(one.pose, of_one, other.pose, of_other, distance, answer.found, normal);
+      answer.found.part_a = part_a;
+      answer.found.part_b = part_b;
+      answer.keep(one, of_one, other, of_other, normal);
+    }
   }
   if (!answer.is_found || !(answer.found.gap <= distance)) return false;
   found = answer.found;
@@ -193,45 +293,26 @@ PlacedHulls::Answer& PlacedHulls::find_answer(int part_a, int part_b) const {
   return answers_[number * 2654435769u >> (32 - answer_bits_)];
 }
 
-// Whether Bullet has found closest points; they may be a little farther apart than `distance`.
-bool PlacedHulls::ask_bullet(int a, int part_a, int b, int part_b, double distance, Closest& found) const {
-  const btConvexHullShape* shape_a = ships_[a].parts[part_a];
-  const btConvexHullShape* shape_b = ships_[b].parts[part_b];
-  const double threshold = distance - 2 * MARGIN;
-  btDiscreteCollisionDetectorInterface::ClosestPointInput input;
-  input.m_transformA = ships_[a].pose;
-  input.m_transformB = ships_[b].pose;
-  input.m_maximumDistanceSquared = shape_a->getMargin() + shape_b->getMargin() + BREAKING_THRESHOLD + threshold;
-  input.m_maximumDistanceSquared *= input.m_maximumDistanceSquared;
-  btVoronoiSimplexSolver simplex;
-  btGjkEpaPenetrationDepthSolver penetration;
-  btGjkPairDetector detector(shape_a, shape_b, &simplex, &penetration);
-  OneResult result;
-  detector.getClosestPoints(input, result, nullptr);
-  // Nearer than where Bullet gives up, its result does not depend on `distance`.
-  if (!result.is_found || !(result.distance <= threshold + 0.5 * BREAKING_THRESHOLD)) return false;
-  const btVector3 on_a = result.on_b + result.normal_on_b * result.distance;
-  double from_b[3];
-  swap_axes(result.normal_on_b, from_b);  // Bullet's normal points from B to A
-  swap_axes(on_a, found.on_a.at);
-  swap_axes(result.on_b, found.on_b.at);
-  for (int i = 0; i < 3; ++i) {
-    found.normal[i] = -from_b[i];
-    found.on_a[i] -= MARGIN * found.normal[i];
-    found.on_b[i] += MARGIN * found.normal[i];
-  }
-  found.gap = result.distance + 2 * MARGIN;
-  found.part_a = part_a;
-  found.part_b = part_b;
-  return true;
-}
-
 int PlacedHulls::closest(int a, int b, double distance, Closest* found) const {
   int count = 0;
   for (int i = 0; i < count_parts(a); ++i) {
     for (int j = 0; j < count_parts(b); ++j) count += closest_of_parts(a, i, b, j, distance, found[count]);
   }
   return count;
+}
+
+bool PlacedHulls::are_surely_within(int a, int b, double distance) const {
+  const Ship &one = ships_[a], &other = ships_[b];
+  for (int i = 0; i < one.parts.size(); ++i) {
+    for (int j = 0; j < other.parts.size(); ++j) {
+      const Answer& answer = find_answer(one.first_part + i, other.first_part + j);
+      if (answer.part_a == one.first_part + i && answer.part_b == other.first_part + j &&
+          answer.has_points_within(one, other, distance)) {
+        return true;
+      }
+    }
+  }
+  return false;
 }
 
 double PlacedHulls::gap(int a, int b, double cap) const {

@@ -30,13 +30,14 @@ class PlacedHulls {
   int closest(int a, int b, double distance, Closest* found) const;
   // Least distance [m] between two ships, negative in overlap, at most `cap`.
   double gap(int a, int b, double cap) const;
+  // Whether two ships are nearer than `distance` [m] by points that are known already; false says nothing.
+  bool are_surely_within(int a, int b, double distance) const;
 
  private:
   struct Ship;
   struct Answer;
 
   Answer& find_answer(int part_a, int part_b) const;
-  bool ask_bullet(int a, int part_a, int b, int part_b, double distance, Closest& found) const;
 
   Ship* ships_;
   int parts_ = 0;    // of all ships

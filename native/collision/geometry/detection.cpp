@@ -105,6 +105,14 @@ double Detector::clearance(const Pair& pair, const BodyState* states, double cap
   return narrow_phase_->gap(pair.a, pair.b, cap);
 }
 
+bool Detector::are_surely_within(const Pair& pair, const BodyState* states, double distance) {
+  narrow_phase_->place(pair.a, states[pair.a].predicted);
+  narrow_phase_->place(pair.b, states[pair.b].predicted);
+  if (!narrow_phase_->are_surely_within(pair.a, pair.b, distance)) return false;
+  find_touching(pair, states);
+  return lately_touching_.is_empty() && has_lately_;
+}
+
 bool Detector::first_touch(const Pair& pair, const BodyState* states, double h, double speed,
                            const LastNormals& last_normals, double& touch) {
   const double growth = max(2.0 * TOUCH, FAST * thickness(pair));

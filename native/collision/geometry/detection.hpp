@@ -50,6 +50,9 @@ class Detector {
   // Least distance [m] between two hulls, negative in overlap, at most `cap`.
   double clearance(const Pair& pair, const BodyState* states, double cap);
   bool touching(const Pair& pair, const BodyState* states) { return clearance(pair, states, MARGIN) <= 0.0; }
+  // Whether two hulls are apart and nearer than `distance` [m], where that is known without measuring; false says
+  // nothing.
+  bool are_surely_within(const Pair& pair, const BodyState* states, double distance);
   // Least width [m] of the thinner of two hulls.
   double thickness(const Pair& pair) const { return min(widths_[pair.a], widths_[pair.b]); }
 
