@@ -5,8 +5,6 @@ namespace shipcollision {
 namespace {
 
 constexpr double ROUNDING = 0x1p-53;
-constexpr double ORTHOGONAL = 0x1p-50;  // cosine of two rows, which rounding leaves
-constexpr int MOST_TURNS = 60;  // mostly fewer than ten
 
 // Householder's reduction to a matrix with a diagonal and one beside it. reflected: room for a row.
 void make_tridiagonal(Dense& A, double* diagonal, double* beside, double* reflected) {
@@ -47,6 +45,18 @@ bool is_exceeded(const double* diagonal, const double* beside, int n, double x, 
   return pivot < 0.0;
 }
 
+void exchange(double& p, double& q) {
+  const double kept = p;
+  p = q;
+  q = kept;
+}
+
+// Takes off a row what it has along a unit row.
+void take_off(double* row, const double* unit, int columns) {
+  const double along = dot(row, unit, columns);
+  for (int j = 0; j < columns; ++j) row[j] -= along * unit[j];
+}
+
 }  // namespace
 
 double find_largest_eigenvalue(Dense& A, double* work) {
@@ -73,27 +83,28 @@ double find_largest_eigenvalue(Dense& A, double* work) {
   return high;
 }
 
-void orthogonalise_rows(Dense& A) {
+int orthonormalise_rows(Dense& A, double least) {
   const int n = A.rows(), columns = A.columns();
-  for (int turns = 0, done = 0; !done && turns < MOST_TURNS; ++turns) {
-    done = 1;
-    for (int i = 0; i < n; ++i) {
-      for (int j = i + 1; j < n; ++j) {
-        double *p = A[i], *q = A[j];
-        const double pp = dot(p, p, columns), qq = dot(q, q, columns), pq = dot(p, q, columns);
-        if (!(abs(pq) > ORTHOGONAL * sqrt(pp) * sqrt(qq))) continue;
-        done = 0;
-        const double slope = (qq - pp) / (2.0 * pq);
-        const double t = copysign(1.0, slope) / (abs(slope) + sqrt(1.0 + slope * slope));
-        const double c = 1.0 / sqrt(1.0 + t * t), s = c * t;
-        for (int k = 0; k < columns; ++k) {
-          const double x = p[k], y = q[k];
-          p[k] = c * x - s * y;
-          q[k] = s * x + c * y;
-        }
-      }
+  double limit = 0.0;
+  for (int k = 0; k < n; ++k) {
+    int longest = k;
+    double square = dot(A[k], A[k], columns);
+    for (int i = k + 1; i < n; ++i) {
+      const double other = dot(A[i], A[i], columns);
+      if (!(other > square)) continue;
+      longest = i;
+      square = other;
     }
+    double* row = A[k];
+    for (int j = 0; j < columns && longest != k; ++j) exchange(row[j], A[longest][j]);
+    for (int i = 0; i < k; ++i) take_off(row, A[i], columns);  // once more, of what rounding left
+    const double size = sqrt(dot(row, row, columns));
+    if (k == 0) limit = least * size;
+    if (!(size > limit)) return k;
+    for (int j = 0; j < columns; ++j) row[j] /= size;
+    for (int i = k + 1; i < n; ++i) take_off(A[i], row, columns);
   }
+  return n;
 }
 
 }  // namespace shipcollision

@@ -8,8 +8,9 @@ namespace shipcollision {
 // The largest eigenvalue of a symmetric matrix, which is changed. work: three numbers for each row.
 double find_largest_eigenvalue(Dense& A, double* work);
 
-// Turns the rows of a matrix among each other until they are orthogonal (one-sided Jacobi): their lengths are then the
-// singular values of the matrix, in any order, and the rows span what they spanned.
-void orthogonalise_rows(Dense& A);
+// Makes of the rows of a matrix orthonormal ones, which come first and span what they spanned, and returns how many they
+// are. Rows count as dependent when no more than the share `least` of the longest is left of them (Gram and Schmidt, the
+// longest first).
+int orthonormalise_rows(Dense& A, double least);
 
 }  // namespace shipcollision

@@ -6,6 +6,7 @@ namespace {
 constexpr double ROUNDING = 1e-12;  // of heights, as a share of the largest coordinate; more than what they have
 constexpr double BORDER = 1e-9;     // by which cells overlap, as a share of the cube's half edge
 constexpr int CORNERS = 4;
+constexpr int MOST = 65535;  // numbers of two bytes
 
 }  // namespace
 
@@ -13,7 +14,7 @@ void Foremost::set_up(const double* coordinates, int count) {
   count_ = count;
   if (!coordinates_.add(coordinates, 3 * count)) return;
   slack_ = ROUNDING * largest_size(coordinates, 3 * count);
-  if (count <= FEW) return;
+  if (count <= FEW || count > MOST) return;
   constexpr int CELLS = 6 * PARTS * PARTS;
   if (heights_.resize(CORNERS * count) && pool_.reserve(CELLS * IN_CELL)) cells_.fill(CELLS, {0, 0});
 }
@@ -68,7 +69,7 @@ void Foremost::fill(int cell) {
       cells_[cell] = {0, -1};
       return;
     }
-    pool_.add(p);
+    pool_.add(static_cast<unsigned short>(p));
   }
   cells_[cell] = {begin, pool_.size() - begin};
 }

@@ -19,7 +19,7 @@ class Foremost {
     if (cells_[cell].count == 0) fill(cell);
     const Cell& of = cells_[cell];
     if (of.count < 0) return find_among_all(x, y, z);
-    const int* numbers = pool_.data() + of.begin;
+    const unsigned short* numbers = pool_.data() + of.begin;
     int found = numbers[0];
     double most = height(found, x, y, z);
     for (int i = 1; i < of.count; ++i) {
@@ -34,8 +34,8 @@ class Foremost {
 
  private:
   static constexpr int PARTS = 9;    // of an edge of the cube; odd, so that its axes are inside of cells
-  static constexpr int FEW = 12;     // points that are looked at one by one
-  static constexpr int IN_CELL = 8;  // numbers that a cell may have in the mean
+  static constexpr int FEW = 16;     // points that are looked at one by one
+  static constexpr int IN_CELL = 6;  // numbers that a cell may have in the mean
 
   struct Cell {
     int begin, count;  // in pool_; 0 for one not yet asked for, -1 for all points
@@ -69,7 +69,7 @@ class Foremost {
   Memory memory_;
   Buffer<double> coordinates_{memory_}, heights_{memory_};
   Buffer<Cell> cells_{memory_};
-  Buffer<int> pool_{memory_};
+  Buffer<unsigned short> pool_{memory_};
   int count_ = 0;
   double slack_ = 0.0;
 };

@@ -107,17 +107,13 @@ bool SelfStress::find_twists_of_friction(const Impulse* impulses, const BodyStat
 // least = root V'V (T / root), with V orthonormal rows of what moves a ship.
 void SelfStress::find_least() {
   const int size = twists_.columns();
-  orthogonalise_rows(twists_);
-  double largest = 0.0;
-  for (int k = 0; k < twists_.rows(); ++k) largest = max(largest, dot(twists_[k], twists_[k], size));
+  const int rank = orthonormalise_rows(twists_, RANK);
   fill_zeros(least_.data(), size);
-  for (int k = 0; k < twists_.rows(); ++k) {
+  for (int k = 0; k < rank; ++k) {
     const double* V = twists_[k];
-    const double square = dot(V, V, size);
-    if (!(sqrt(square) > RANK * sqrt(largest))) continue;
     double along = 0.0;
     for (int i = 0; i < size; ++i) along += root_[i] > 0.0 ? V[i] * (T_[i] / root_[i]) : 0.0;
-    for (int i = 0; i < size; ++i) least_[i] += along / square * V[i];
+    for (int i = 0; i < size; ++i) least_[i] += along * V[i];
   }
   for (int i = 0; i < size; ++i) least_[i] *= root_[i];
 }

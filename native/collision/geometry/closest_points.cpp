@@ -19,15 +19,6 @@ namespace {
 // larger one takes longer.
 constexpr double BREAKING_THRESHOLD = 0.02;
 
-// Of the latest answers that are kept: how many for each part, and the logarithms of the least and the largest number.
-constexpr int ANSWERS_OF_PART = 4;
-constexpr int LEAST_BITS = 4;
-constexpr int MOST_BITS = 12;
-
-// Parts that are farther apart than asked for by this [m], along a direction that is kept, are not shown to Bullet. In
-// that range its answers are regular: it takes cores nearer than 1e-6 m for touching.
-constexpr double SURELY = 2e-6;
-
 // Bullet fills tables of directions when the first hull is made. This makes one while the library is loaded, by one
 // thread, so that two threads that open their first worlds never write there.
 __attribute__((constructor)) void fill_tables() { const btConvexHullShape first; }
@@ -125,6 +116,10 @@ struct PlacedHulls::Ship {
 // The latest answer for two parts. It holds until one of them is placed elsewhere. What else is kept makes later
 // answers short, and changes none of them.
 struct PlacedHulls::Answer {
+  // Parts that are farther apart than asked for by this [m], along a normal that is kept, are not shown to Bullet. In
+  // that range its answers are regular: it takes cores nearer than 1e-6 m for touching.
+  static constexpr double SURELY = 2e-6;
+
   int part_a, part_b;            // among those of all ships
   long long placed_a, placed_b;  // how often the ships were placed by then
   double distance;               // up to which was looked

@@ -34,6 +34,11 @@ class PlacedHulls {
   bool are_surely_within(int a, int b, double distance) const;
 
  private:
+  // Of the latest answers, how many are kept for each part, and the logarithms of the least and the largest number.
+  static constexpr int ANSWERS_OF_PART = 4;
+  static constexpr int LEAST_BITS = 4;
+  static constexpr int MOST_BITS = 12;
+
   struct Ship;
   struct Answer;
 

@@ -3,6 +3,7 @@
 #include "../../../native/collision/geometry/plan_overlap.hpp"
 #include "../../../native/collision/geometry/thickness.hpp"
 #include "../../../native/collision/dynamics/contact_frame.hpp"
+#include "../../../native/numbers/foremost.hpp"
 #include "kernels.hpp"
 
 using namespace shipcollision;
@@ -36,6 +37,19 @@ void put_points(double* out, const Buffer<Point>& points) {
   Put put{out};
   put.real(points.size());
   for (const Point& point : points) put.all(point);
+}
+
+// in: how many points, and they; how many directions, and they
+void foremost(const double* in, double* out) {
+  Take take{in};
+  const int points = take.whole();
+  Foremost numbers;
+  numbers.set_up(take.in, points);
+  take.in += 3 * points;
+  for (int left = take.whole(); left > 0; --left) {
+    const Three along = take.all<Three>();
+    *out++ = numbers.find(along[0], along[1], along[2]);
+  }
 }
 
 void polygon(const double* in, double* out) {
@@ -149,8 +163,8 @@ void detection(const double* in, double* out) {
   }
 }
 
-constexpr Named KERNELS[] = {{"polygon", polygon}, {"corners", corners}, {"manifold", manifold},
-                             {"near", near},       {"width", width},     {"detection", detection}};
+constexpr Named KERNELS[] = {{"foremost", foremost}, {"polygon", polygon}, {"corners", corners},    {"manifold", manifold},
+                             {"near", near},         {"width", width},     {"detection", detection}};
 
 }  // namespace
 

@@ -57,14 +57,14 @@ void eigenvalue(const double* in, double* out) {
   out[0] = find_largest_eigenvalue(room.W, work.data());
 }
 
-// in: rows, columns, A
-void orthogonal_rows(const double* in, double* out) {
+// in: rows, columns, A; out: how many they are, and the matrix
+void orthonormal_rows(const double* in, double* out) {
   Take take{in};
   Room room;
   const int rows = take.whole(), columns = take.whole();
   take_matrix(take, room.W, rows, columns);
-  orthogonalise_rows(room.W);
-  Put put{out};
+  out[0] = orthonormalise_rows(room.W, 1e-12);
+  Put put{out + 1};
   put_matrix(put, room.W);
 }
 
@@ -212,7 +212,7 @@ void impact(const double* in, double* out) {
 constexpr Named KERNELS[] = {
     {"system", system},
     {"eigenvalue", eigenvalue},
-    {"orthogonal_rows", orthogonal_rows},
+    {"orthonormal_rows", orthonormal_rows},
     {"friction_in_disc", friction_in_disc},
     {"residual", residual},
     {"one_contact", one_contact},

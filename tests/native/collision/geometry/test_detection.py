@@ -44,6 +44,27 @@ def test_least_widths(hulls: list[HullMesh]) -> None:
     assert found == pytest.approx([least_width(hull) for hull in hulls], rel=1e-13)
 
 
+def test_the_foremost_point_is_found_without_looking_at_all(hulls: list[HullMesh]) -> None:
+    """Of equally high ones the first: along normals of flat faces, along axes, and where there is no direction."""
+    random = np.random.default_rng(5)
+    axes = [[x, y, z] for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1)]
+    clouds = [random.normal(size=(count, 3)) for count in (1, 2, 16, 17, 300, 900)]
+    for points in [*clouds, np.round(clouds[4]), *(part for hull in hulls for part in hull.parts)]:
+        directions = np.vstack(
+            [
+                axes,
+                random.normal(size=(200, 3)),
+                random.normal(size=(100, 3)) * [1, 1e-9, 1e-3],
+                np.repeat(random.normal(size=(9, 3)), 9, axis=0) * 10.0 ** random.uniform(-200, 200, (81, 1)),
+            ]
+        )
+        row = [len(points), *points.ravel(), len(directions), *directions.ravel()]
+        (found,) = evaluate("geometry", "foremost", [row], len(directions)).astype(int)
+        x, y, z = np.ascontiguousarray(points).T
+        heights = [x * d[0] + y * d[1] + z * d[2] for d in directions]
+        assert found.tolist() == [int(np.argmax(height)) for height in heights]
+
+
 def draw_pair(random: np.random.Generator, hulls: list[HullMesh]) -> list[float]:
     """A row of the kernel `detection`: hulls that are apart, touch, overlap by little or deeply, and move."""
     a, b = sorted(random.choice(len(hulls), 2, replace=False).tolist())
