@@ -119,7 +119,7 @@ def main() -> None:
     assert target is not None
     with tempfile.TemporaryDirectory() as home:
         layer = write_fmu(Path(home, "layer"), build_test_library(cache), FEEDTHROUGH)
-        library = build_library(SHIP.name, list_fmu_parts(), target, ("fmi2*", "fmi3*"), cache=cache)
+        library = build_library(SHIP.name, list_fmu_parts(SHIP.name, cache), target, ("fmi2*", "fmi3*"), cache=cache)
         ship = write_fmu(Path(home, "ship"), library, SHIP)
         (ship / "resources" / "ships").mkdir()
         (ship / "resources" / "ships" / "kvlcc2.ship").write_bytes(prepare_ship("kvlcc2"))

@@ -101,7 +101,10 @@ def main() -> None:
     platform = next(one.name for one in PLATFORMS.values() if own in one.targets)
     with tempfile.TemporaryDirectory() as home:
         python = prepare(build_fmus(home)["ShipManoeuvring"], Path(home, "python"))
-        native = prepare(build_native_fmus(home, platforms=[platform])["ShipManoeuvring"], Path(home, "native"))
+        native = prepare(
+            build_native_fmus(home, platforms=[platform], names=["ShipManoeuvring"])["ShipManoeuvring"],
+            Path(home, "native"),
+        )
         shown = make_table("", ">Python", ">native", ">ratio", title="ShipManoeuvring, KVLCC2 under helm")
         for degrees_of_freedom in (3, 4, 6):
             one, other = time_steps([python, native], degrees_of_freedom)

@@ -122,6 +122,17 @@ def _fmus_of_the_tests(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Non
 @pytest.fixture(scope="session")
 def native_fmus(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     """ShipManoeuvring without Python for this machine, by flavour: "2", "3" and "3-scalar"."""
+    return build_native_flavours("ShipManoeuvring", tmp_path_factory)
+
+
+@pytest.fixture(scope="session")
+def native_collisions(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    """ShipCollision likewise, for the ships own and target."""
+    return build_native_flavours("ShipCollision", tmp_path_factory)
+
+
+def build_native_flavours(name: str, tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    """An FMU without Python for this machine, by flavour."""
     own = find_own_target()
     platform = next(one.name for one in PLATFORMS.values() if own in one.targets)
     home = tmp_path_factory.mktemp("native-fmus")
@@ -129,7 +140,8 @@ def native_fmus(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(libraries, "native_cache", lambda: NATIVE_CACHE)
         for flavour, fmi, scalar in (("2", 2, False), ("3", 3, False), ("3-scalar", 3, True)):
-            built[flavour] = build_native_fmus(home, fmi=fmi, scalar=scalar, platforms=[platform])["ShipManoeuvring"]
+            made = build_native_fmus(home, fmi=fmi, scalar=scalar, platforms=[platform], names=[name])
+            built[flavour] = made[name]
     return built
 
 

@@ -16,9 +16,9 @@ from shipcollision_fmu.cli import main
 from shipcollision_fmu.cosim import fmu_files
 from shipcollision_fmu.errors import HostError
 from shipcollision_fmu.fmi.builder import native_fmus
-from shipcollision_fmu.toolchain import fmu_binaries
+from shipcollision_fmu.toolchain import fmu_binaries, libraries
 from shipcollision_fmu.toolchain.fmu_binaries import Binary
-from tests.conftest import ENCOUNTER
+from tests.conftest import ENCOUNTER, NATIVE_CACHE
 from tests.ship_files import ship_toml
 
 BARGE = ship_toml()
@@ -168,15 +168,17 @@ def test_build_names_the_ships_and_takes_arrays_apart(folder: Path) -> None:
 
 def test_build_without_python(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     library = Binary("win64", ".dll", b"MZ")
-    monkeypatch.setattr(fmu_binaries, "build_binaries", lambda platforms, report: {2: [library]})
-    monkeypatch.setattr(native_fmus, "build_binaries", lambda platforms, report: {2: [library]})
+    monkeypatch.setattr(fmu_binaries, "build_binaries", lambda name, platforms, report: {2: [library]})
+    monkeypatch.setattr(native_fmus, "build_binaries", lambda name, platforms, report: {2: [library]})
     monkeypatch.setattr(native_fmus, "list_ship_names", lambda: ["buoy"])
+    monkeypatch.setattr(libraries, "native_cache", lambda: NATIVE_CACHE)
     built = called("build", "--native", "--platforms", "win64", "--out", "fmus", "--sources")
-    assert (built.exit_code, built.stdout) == (0, "fmus/ShipManoeuvring.native.fmu\n")
-    assert built.stderr == "note: ShipCollision has no native form yet; `shipcollision build` makes it with Python\n"
-    with zipfile.ZipFile(folder / "fmus" / "ShipManoeuvring.native.fmu") as archive:
-        names = archive.namelist()
-    assert {"binaries/win64/ShipManoeuvring.dll", "sources/fmi/fmi2.cpp"} <= set(names)
+    both = "fmus/ShipCollision.native.fmu\nfmus/ShipManoeuvring.native.fmu\n"
+    assert (built.exit_code, built.stdout, built.stderr) == (0, both, "")
+    for name, own in (("ShipManoeuvring", "manoeuvring/model.cpp"), ("ShipCollision", "collision/model.cpp")):
+        with zipfile.ZipFile(folder / "fmus" / f"{name}.native.fmu") as archive:
+            names = archive.namelist()
+        assert {f"binaries/win64/{name}.dll", "sources/fmi/fmi2.cpp", f"sources/{own}"} <= set(names)
 
 
 def test_ships_and_scenarios_are_listed() -> None:
@@ -280,11 +282,7 @@ def test_a_mistake_is_one_line_and_writes_nothing(
         (["build", "--scalar"], 2, "--scalar is for FMI 3.0: FMI 2.0 has no arrays; add --fmi 3 or leave it out"),
         (["build", "--ships", "own,contact"], 2, "ships: 'contact' is no name for a ship"),
         (["build", "--ships", "own,own"], 2, "ships: 'own' is there twice"),
-        (
-            ["build", "--native", "--ships", "own"],
-            2,
-            "--ships is for ShipCollision, which --native does not build",
-        ),
+        (["build", "--native", "--ships", "own,own"], 1, "ships: 'own' is there twice: give each ship a name of its"),
         (["build", "--platforms", "win64"], 2, "--platforms is for native code: add --native or leave it out (see"),
         (["package", "guan2014", "--osp", "--platforms", "win64"], 2, "--platforms is for native code: add --native"),
         (["build", "--sources"], 2, "--sources is for native code: add --native or leave it out (see"),

@@ -56,11 +56,8 @@ bool Instance::open(const Request& request, Text& why) {
   path[size] = '\0';
   logger_.name_fmu(variables_.fmu());
   if (!confirm_request(request, why)) return false;
-  model_ = make_model(variables_.fmu(), path);
-  if (model_ == nullptr) {
-    why << "this library cannot make the model " << variables_.fmu() << ": build the FMU again";
-    return false;
-  }
+  model_ = make_model(variables_, path, why);
+  if (model_ == nullptr) return false;
   return access_.connect(variables_, *model_, &experiment_.time, why);
 }
 

@@ -26,6 +26,11 @@ class Model : public OnHeap {
   // The value at the path of a line of the table ("outputs.position"), entry `index` of the list there, or -1.
   virtual bool find(const char* path, int index, Place& place) = 0;
 
+  // For a model that asks which Reals the host ever set, by their paths: none so far, and one more.
+  virtual bool asks_for_inputs_set() const { return false; }
+  virtual void forget_inputs_set() {}
+  virtual void note_input_set(const char* /*path*/) {}
+
   // Reads parameters and start values, computes the outputs of the start. May be called again.
   virtual bool initialise(Text& why) = 0;
   virtual bool step(double t, double h, Text& why) = 0;
@@ -42,8 +47,12 @@ class Model : public OnHeap {
   virtual const char* event(size_t) const { return ""; }
 };
 
-// A model for the FMU of that name, which finds its files in the folder `resources`. Null for a name that is none, and
-// when there is no memory.
-Model* make_model(const char* fmu, const char* resources);
+class Variables;
+
+// A model for the FMU of that table, which finds its files in the folder `resources`. Null, and why, for another FMU's
+// table, and when there is no memory. The library of each FMU has the one model that the FMU is named after.
+Model* make_model(const Variables& variables, const char* resources, Text& why);
+// Refuses the table of another FMU.
+Model* refuse_model(const Variables& variables, Text& why);
 
 }  // namespace shipcollision

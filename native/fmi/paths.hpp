@@ -31,4 +31,37 @@ inline bool find_path(const Path* paths, size_t path_count, void* base, const ch
   return false;
 }
 
+// The same for paths that begin with `prefix`; those of the lines go on from there.
+template <size_t COUNT>
+bool find_in(const Path (&paths)[COUNT], const char* prefix, void* base, const char* path, int index, Place& place) {
+  const size_t size = strlen(prefix);
+  return strncmp(path, prefix, size) == 0 && find_path(paths, COUNT, base, path + size, index, place);
+}
+
+// The rest of a path behind `prefix`, the number of an entry of a list of `count`, and a dot: null for another path.
+inline const char* find_entry(const char* prefix, const char* path, int count, int& entry) {
+  const size_t size = strlen(prefix);
+  if (strncmp(path, prefix, size) != 0) return nullptr;
+  const char* next = path + size;
+  const char* const number = next;
+  entry = 0;
+  while (*next >= '0' && *next <= '9' && entry < count) entry = 10 * entry + (*next++ - '0');
+  return next > number && entry < count && *next == '.' ? next + 1 : nullptr;
+}
+
+// The value at a path within an entry of a list of structures: PREFIX NUMBER . REST.
+template <typename Structure, size_t COUNT>
+bool find_in_list(const Path (&paths)[COUNT], const char* prefix, Structure* entries, int count, const char* path,
+                  int index, Place& place) {
+  int entry;
+  const char* rest = find_entry(prefix, path, count, entry);
+  return rest != nullptr && find_path(paths, COUNT, entries + entry, rest, index, place);
+}
+
+#define REAL(structure, member) {#member, Kind::real, offsetof(structure, member), 0, nullptr, 0}
+#define REALS(structure, member) \
+  {#member, Kind::real, offsetof(structure, member), sizeof(structure::member) / sizeof(double), nullptr, 0}
+#define INTEGER(structure, member) {#member, Kind::integer, offsetof(structure, member), 0, nullptr, 0}
+#define STRING(structure, member) {#member, Kind::string, offsetof(structure, member), 0, nullptr, 0}
+
 }  // namespace shipcollision

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "paths.hpp"
+#include "variables.hpp"
 
 namespace shipcollision {
 
@@ -10,10 +11,6 @@ namespace {
 
 // In the order of the enumeration Coasting.
 const char* const COASTING[] = {"kirchhoff", "free", "straight"};
-
-#define REAL(structure, member) {#member, Kind::real, offsetof(structure, member), 0, nullptr, 0}
-#define REALS(structure, member) \
-  {#member, Kind::real, offsetof(structure, member), sizeof(structure::member) / sizeof(double), nullptr, 0}
 
 const Path PARAMETERS[] = {
     {"ship", Kind::string, offsetof(ShipParameters, ship), 0, nullptr, 0},
@@ -42,12 +39,6 @@ const Path OUTPUTS[] = {
     REALS(ShipOutputs, wind),
 };
 
-template <size_t COUNT>
-bool find_in(const Path (&paths)[COUNT], const char* prefix, void* base, const char* path, int index, Place& place) {
-  const size_t size = strlen(prefix);
-  return strncmp(path, prefix, size) == 0 && find_path(paths, COUNT, base, path + size, index, place);
-}
-
 }  // namespace
 
 ShipManoeuvringFmu::ShipManoeuvringFmu(const char* resources) {
@@ -60,6 +51,13 @@ bool ShipManoeuvringFmu::find(const char* path, int index, Place& place) {
   return find_in(PARAMETERS, "parameters.", &ship_.parameters, path, index, place) ||
          find_in(INPUTS, "inputs.", &ship_.inputs, path, index, place) ||
          find_in(OUTPUTS, "outputs.", &ship_.outputs, path, index, place);
+}
+
+Model* make_model(const Variables& variables, const char* resources, Text& why) {
+  if (strcmp(variables.fmu(), "ShipManoeuvring") != 0) return refuse_model(variables, why);
+  Model* model = new ShipManoeuvringFmu(resources);
+  if (model == nullptr) why << "there is no memory for the model of ShipManoeuvring";
+  return model;
 }
 
 }  // namespace shipcollision

@@ -50,6 +50,7 @@ bool are_same(const char* const* items, size_t count, const char* const* others,
 }  // namespace
 
 VariableAccess::~VariableAccess() {
+  free(is_set_);
   free(cells_);
   free(places_);
   free(entries_);
@@ -63,10 +64,11 @@ bool VariableAccess::connect(const Variables& variables, Model& model, double* t
   const size_t count = variables.scalar_count();
   const bool is_fmi3 = variables.fmi() == 3;
   entry_count_ = is_fmi3 ? variables.array_count() + 1 : count;
+  is_set_ = static_cast<bool*>(calloc(count + 1, sizeof(bool)));
   cells_ = static_cast<Cell*>(calloc(count + 1, sizeof(Cell)));
   places_ = static_cast<Cell*>(calloc(count + 1, sizeof(Cell)));
   entries_ = static_cast<Entry*>(calloc(entry_count_ + 1, sizeof(Entry)));
-  if (cells_ == nullptr || places_ == nullptr || entries_ == nullptr) {
+  if (is_set_ == nullptr || cells_ == nullptr || places_ == nullptr || entries_ == nullptr) {
     why << variables.fmu() << ": there is no memory for its variables";
     return false;
   }
@@ -76,6 +78,7 @@ bool VariableAccess::connect(const Variables& variables, Model& model, double* t
   cells_[count] = {time, nullptr};
   make_entries();
   write_start_values();
+  forget_set();
   ByteWriter values;
   put_values(values, false);
   fresh_size_ = values.size();
@@ -181,7 +184,10 @@ bool VariableAccess::set_reals(const Reference* references, size_t count, const 
   for (size_t i = 0; i < count; i++) {
     const Entry& entry = entries_[references[i]];
     const Cell* place = places_ + entry.first;
-    for (unsigned j = 0; j < entry.size; j++) as_real(place[j].address) = *values++;
+    for (unsigned j = 0; j < entry.size; j++) {
+      as_real(place[j].address) = *values++;
+      note_set(place[j]);
+    }
   }
   note_written();
   return true;
@@ -361,6 +367,28 @@ void VariableAccess::note_written() {
   if (!is_running_) is_dirty_ = true;
 }
 
+void VariableAccess::note_set(const Cell& cell) {
+  bool& is_set = is_set_[cell.variable - variables_->scalars()];
+  if (is_set || !model_->asks_for_inputs_set()) return;
+  is_set = true;
+  model_->note_input_set(cell.variable->path);
+}
+
+void VariableAccess::note_all_set() {
+  model_->forget_inputs_set();
+  for (size_t i = 0; i < variables_->scalar_count(); i++) {
+    if (is_set_[i]) model_->note_input_set(cells_[i].variable->path);
+  }
+}
+
+// As freshly made: what the FMU has start values of its own for was set.
+void VariableAccess::forget_set() {
+  for (size_t i = 0; i < variables_->scalar_count(); i++) {
+    is_set_[i] = model_->asks_for_inputs_set() && cells_[i].variable->is_preset;
+  }
+  note_all_set();
+}
+
 // In time. ------------------------------------------------------------------------------------------------------------
 
 bool VariableAccess::compute_outputs(Text& why) {
@@ -390,6 +418,7 @@ bool VariableAccess::step(double t, double h, Text& why) {
 void VariableAccess::reset() {
   ByteReader fresh(fresh_, fresh_size_);
   take_values(fresh, false);
+  forget_set();
   parameters_size_ = 0;
   is_read_ = false;
   is_dirty_ = true;
@@ -407,6 +436,7 @@ void VariableAccess::save(ByteWriter& bytes) const {
   bytes.value(static_cast<uint32_t>(size));
   if (unsigned char* room = bytes.room(size); room != nullptr && size > 0) model_->get_state(room);
   put_values(bytes, false);
+  bytes.put(is_set_, variables_->scalar_count());
 }
 
 bool VariableAccess::restore(ByteReader& bytes, bool is_running, Text& why) {
@@ -444,7 +474,7 @@ bool VariableAccess::write_all(ByteReader& bytes, bool is_running, Text& why) {
   if (is_read) {
     if (!read_again(parameters, parameters_size, why) || !model_->set_state(state, state_size, why)) return false;
   }
-  if (!take_values(bytes, false)) {
+  if (!take_values(bytes, false) || !take_set(bytes)) {
     why << name() << ": the values of this saved state cannot be read";
     return false;
   }
@@ -452,6 +482,14 @@ bool VariableAccess::write_all(ByteReader& bytes, bool is_running, Text& why) {
   if (!is_read) parameters_size_ = 0;
   is_dirty_ = is_dirty;
   is_running_ = is_running;
+  return true;
+}
+
+bool VariableAccess::take_set(ByteReader& bytes) {
+  for (size_t i = 0; i < variables_->scalar_count(); i++) {
+    if (!bytes.flag(is_set_[i])) return false;
+  }
+  note_all_set();
   return true;
 }
 

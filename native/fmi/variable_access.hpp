@@ -87,9 +87,13 @@ class VariableAccess {
   const char* type_name(Kind kind) const;
   const char* type_name(Type type) const;
   void note_written();
+  void note_set(const Cell& cell);
+  void note_all_set();
   bool compute_outputs(Text& why);
 
   void write_start_values();
+  void forget_set();
+  bool take_set(ByteReader& bytes);
   void put_values(ByteWriter& bytes, bool parameters_alone) const;
   bool take_values(ByteReader& bytes, bool parameters_alone) const;
   bool write_all(ByteReader& bytes, bool is_running, Text& why);
@@ -97,6 +101,7 @@ class VariableAccess {
 
   const Variables* variables_ = nullptr;
   Model* model_ = nullptr;
+  bool* is_set_ = nullptr;       // in the order of the table: Reals that were ever set, if the model asks
   Cell* cells_ = nullptr;        // in the order of the table
   Cell* places_ = nullptr;       // in the order of the entries
   Entry* entries_ = nullptr;     // by value reference

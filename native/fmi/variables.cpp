@@ -43,9 +43,15 @@ bool read_count(LineReader& lines, const char* key, int most, int& count) {
   return lines.next_line() && lines.word(key) && read_int(lines, 0, most, count) && lines.is_end_of_line();
 }
 
+bool refuse_memory(Text& why) {
+  why << " (there is no memory for it)";
+  return false;
+}
+
 }  // namespace
 
 Variables::~Variables() {
+  free(ships_);
   free(scalars_);
   free(items_);
   free(arrays_);
@@ -69,9 +75,9 @@ bool Variables::read(const char* path, Text& why) {
     why << path << " is not the table of variables of an FMU: unpack the FMU again";
     return false;
   }
-  if (version != 1) {
+  if (version != 2) {
     why << path << " has version " << version
-        << " of its format, and this library reads version 1: build the FMU again";
+        << " of its format, and this library reads version 2: build the FMU again";
     return false;
   }
   if (!confirm_digest(size)) {
@@ -106,17 +112,17 @@ bool Variables::confirm_digest(size_t& size) const {
 }
 
 bool Variables::read_lines(LineReader& lines, Text& why) {
+  ships_ = static_cast<const char**>(calloc(count_texts() + 1, sizeof(const char*)));
+  if (ships_ == nullptr) return refuse_memory(why);
   if (!read_head(lines, why)) return false;
   const int most = static_cast<int>(file_.size() / SHORTEST_LINE);
   int count;
   if (!read_count(lines, "scalars", most, count)) return false;
-  if (!allocate(static_cast<size_t>(count), file_.size())) {
-    why << " (there is no memory for it)";
-    return false;
-  }
+  if (!allocate(static_cast<size_t>(count))) return refuse_memory(why);
   for (; scalar_count_ < static_cast<unsigned>(count); scalar_count_++) {
     if (!lines.next_line() || !read_scalar(lines, scalars_[scalar_count_]) || !lines.is_end_of_line()) return false;
   }
+  if (!read_presets(lines)) return false;
   int arrays;
   if (!read_count(lines, "references", count, arrays)) return false;
   for (; array_count_ < static_cast<unsigned>(arrays); array_count_++) {
@@ -132,16 +138,31 @@ bool Variables::read_head(LineReader& lines, Text& why) {
     why << " (FMI 2 or 3)";
     return false;
   }
-  return read_text(lines, "tag", tag_) && read_text(lines, "build", build_) && read_text(lines, "token", token_);
+  return read_text(lines, "tag", tag_) && read_text(lines, "build", build_) && read_text(lines, "token", token_) &&
+         read_ships(lines);
 }
 
-bool Variables::allocate(size_t scalars, size_t size) {
-  size_t quotes = 0;  // at least two for each item of an Enumeration
-  for (size_t i = 0; i < size; i++) quotes += file_.data()[i] == '"' ? 1 : 0;
+bool Variables::read_ships(LineReader& lines) {
+  if (!lines.next_line() || !lines.word("ships")) return false;
+  while (!lines.is_end_of_line()) {
+    if (!lines.text(ships_[ship_count_])) return false;
+    ship_count_++;
+  }
+  return true;
+}
+
+// No more texts than that are in the file.
+size_t Variables::count_texts() {
+  size_t quotes = 0;
+  for (size_t i = 0; i < file_.size(); i++) quotes += file_.data()[i] == '"' ? 1 : 0;
+  return quotes / 2;
+}
+
+bool Variables::allocate(size_t scalars) {
   scalars_ = static_cast<Variable*>(calloc(scalars + 1, sizeof(Variable)));
   arrays_ = static_cast<ArrayVariable*>(calloc(scalars + 1, sizeof(ArrayVariable)));
   elements_ = static_cast<unsigned*>(calloc(scalars + 1, sizeof(unsigned)));
-  items_ = static_cast<const char**>(calloc(quotes / 2 + 1, sizeof(const char*)));
+  items_ = static_cast<const char**>(calloc(count_texts() + 1, sizeof(const char*)));
   return scalars_ != nullptr && arrays_ != nullptr && elements_ != nullptr && items_ != nullptr;
 }
 
@@ -188,6 +209,16 @@ bool Variables::read_items(LineReader& lines, Variable& scalar) {
   return scalar.item_count > 0 && (!scalar.has_start || static_cast<size_t>(scalar.whole_start) <= scalar.item_count);
 }
 
+bool Variables::read_presets(LineReader& lines) {
+  if (!lines.next_line() || !lines.word("presets")) return false;
+  while (!lines.is_end_of_line()) {
+    int scalar;
+    if (!read_int(lines, 0, static_cast<long long>(scalar_count_) - 1, scalar)) return false;
+    scalars_[scalar].is_preset = true;
+  }
+  return true;
+}
+
 // The elements are different scalars of one kind and causality.
 bool Variables::read_array(LineReader& lines, ArrayVariable& array) {
   if (!lines.text(array.name)) return false;
@@ -204,6 +235,11 @@ bool Variables::read_array(LineReader& lines, ArrayVariable& array) {
     if (last.kind != first.kind || last.causality != first.causality) return false;
   }
   return array.size > 0;
+}
+
+Model* refuse_model(const Variables& variables, Text& why) {
+  why << "this library cannot make the model " << variables.fmu() << ": build the FMU again";
+  return nullptr;
 }
 
 }  // namespace shipcollision

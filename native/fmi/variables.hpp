@@ -19,6 +19,7 @@ struct Variable {
   int index;  // -1: the path ends at the value itself
   Kind kind;
   Causality causality;
+  bool is_preset;  // the start value is of this FMU alone
   bool has_start;
   int whole_start;  // of an Integer, a Boolean, and an Enumeration (from 1)
   double real_start;
@@ -49,6 +50,8 @@ class Variables {
   const char* tag() const { return tag_; }
   const char* build() const { return build_; }
   const char* token() const { return token_; }
+  const char* const* ships() const { return ships_; }
+  int ship_count() const { return ship_count_; }
   const Variable* scalars() const { return scalars_; }
   unsigned scalar_count() const { return scalar_count_; }
   // Of FMI 3.0; without them each scalar is a variable.
@@ -60,7 +63,10 @@ class Variables {
   bool confirm_digest(size_t& size) const;
   bool read_lines(LineReader& lines, Text& why);
   bool read_head(LineReader& lines, Text& why);
-  bool allocate(size_t scalars, size_t size);
+  bool read_ships(LineReader& lines);
+  bool read_presets(LineReader& lines);
+  size_t count_texts();
+  bool allocate(size_t scalars);
   bool read_scalar(LineReader& lines, Variable& scalar);
   bool read_start(LineReader& lines, Variable& scalar);
   bool read_items(LineReader& lines, Variable& scalar);
@@ -72,6 +78,8 @@ class Variables {
   const char* tag_ = "";
   const char* build_ = "";
   const char* token_ = "";
+  const char** ships_ = nullptr;
+  int ship_count_ = 0;
   Variable* scalars_ = nullptr;
   unsigned scalar_count_ = 0;
   const char** items_ = nullptr;

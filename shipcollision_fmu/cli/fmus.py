@@ -26,9 +26,9 @@ PLATFORMS = click.option(
     "--ships", metavar="NAME,...",
     help="Ships of ShipCollision; one is enough where it meets obstacles.  [default: own,target]",
 )  # fmt: skip
-@click.option("--native", is_flag=True, help="ShipManoeuvring in C++, for hosts without Python.")
+@click.option("--native", is_flag=True, help="In C++, for hosts without Python.")
 @PLATFORMS
-@click.option("--sources", is_flag=True, help="With --native: the FMU brings its C++ sources, too.")
+@click.option("--sources", is_flag=True, help="With --native: the FMUs bring their C++ sources, too.")
 def build(
     out: Path, fmi: str, scalar: bool, ships: str | None, native: bool, platforms: str | None, sources: bool
 ) -> None:
@@ -39,50 +39,57 @@ def build(
     that do not pass arrays, such as OMSimulator and Ecos, --scalar makes ShipCollision.fmi3-scalar.fmu and
     ShipManoeuvring.fmi3-scalar.fmu.
 
-    With --native it is ShipManoeuvring.native.fmu, one file for all platforms, which needs no Python in the host. It
-    is compiled by Zig, from the extra `native`; a C++ compiler of the system does for its own platform.
+    With --native they are ShipCollision.native.fmu and ShipManoeuvring.native.fmu, each one file for all platforms,
+    which need no Python in the host. They are compiled by Zig, from the extra `native`; a C++ compiler of the system
+    does for its own platform. pip fetches the source of Bullet, 80 MB, once.
     """
     if scalar and fmi != "3":
         raise click.UsageError("--scalar is for FMI 3.0: FMI 2.0 has no arrays; add --fmi 3 or leave it out")
+    names = ("own", "target") if ships is None else _split(ships)
     if native:
-        if ships is not None:
-            raise click.UsageError("--ships is for ShipCollision, which --native does not build: leave one of them out")
-        _build_native(out, int(fmi), scalar, platforms, sources)
+        _build_native(out, names, int(fmi), scalar, platforms, sources)
         return
     if platforms is not None or sources:
         option = "--sources" if platforms is None else "--platforms"
         raise click.UsageError(f"{option} is for native code: add --native or leave it out")
-    _build_python(out, int(fmi), scalar, "own,target" if ships is None else ships)
+    _build_python(out, names, int(fmi), scalar)
 
 
-def _build_python(out: Path, fmi: int, scalar: bool, ships: str) -> None:
+def _build_python(out: Path, ships: tuple[str, ...], fmi: int, scalar: bool) -> None:
     """The FMUs that run Python."""
     from ..fmi.builder.package import build_fmus
 
-    for path in build_fmus(out, ships=_split(ships), fmi=fmi, scalar=scalar).values():
+    for path in build_fmus(out, ships=ships, fmi=fmi, scalar=scalar).values():
         say(str(path))
 
 
-def _build_native(out: Path, fmi: int, scalar: bool, platforms: str | None, sources: bool) -> None:
-    """The FMUs that have a native form."""
+def _build_native(
+    out: Path, ships: tuple[str, ...], fmi: int, scalar: bool, platforms: str | None, sources: bool
+) -> None:
+    """The FMUs without Python."""
+    from ..collision.ship_names import check_ship_names
     from ..files import check_writable
     from ..fmi.builder.native_fmus import build_native_fmus
 
+    check_ship_names(ships)
     check_writable(out)
-    built = build_native_fmus(out, fmi=fmi, scalar=scalar, platforms=_compile(platforms), sources=sources)
+    chosen = _compile(platforms)
+    built = build_native_fmus(out, ships=ships, fmi=fmi, scalar=scalar, platforms=chosen, sources=sources)
     for path in built.values():
         say(str(path))
-    say("note: ShipCollision has no native form yet; `shipcollision build` makes it with Python", err=True)
 
 
 def _compile(platforms: str | None) -> tuple[str, ...]:
     """The platforms of an option, all without it. Their libraries are compiled into the cache, with progress."""
     from ..toolchain import fmu_binaries
     from ..toolchain import platforms as known
+    from ..toolchain.sources import FMUS
 
     chosen = tuple(known.PLATFORMS) if platforms is None else _split(platforms)
-    with progress("native code") as report:
-        fmu_binaries.build_binaries(fmu_binaries.choose_platforms(chosen), report)
+    targets = fmu_binaries.choose_platforms(chosen)
+    for name in FMUS:
+        with progress(f"native code of {name}") as report:
+            fmu_binaries.build_binaries(name, targets, report)
     return chosen
 
 
@@ -179,8 +186,8 @@ def prepare(ship: str, out: Path | None, overwrite: bool) -> None:
     """Write a ship or obstacles for native FMUs.
 
     SHIP is a shipped ship, the path of its TOML file, or that of a TOML file of obstacles. A native FMU has no Python
-    to read TOML with: its parameter `ship` takes the path of the file that is written here. No native FMU takes
-    obstacles yet. Prepare a file again when the TOML or mesh file changes.
+    to read TOML with: its parameters `ship` and `obstacles` take the path of the file that is written here. Prepare a
+    file again when the TOML or mesh file changes.
     """
     from ..collision.prepared_obstacles import FORMAT as FIRST_OF_OBSTACLES
     from ..collision.prepared_obstacles import SUFFIX as OF_OBSTACLES

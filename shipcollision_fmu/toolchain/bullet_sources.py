@@ -16,7 +16,9 @@ from pathlib import Path
 
 from ..errors import HostError
 
-__all__ = ["BULLET", "DEFINES", "SHAPES", "find_bullet_sources", "has_bullet_sources"]
+__all__ = [
+    "BULLET", "DEFINES", "FILES", "LICENCE", "SHAPES", "VERSION", "find_bullet_sources", "has_bullet_sources",
+]  # fmt: skip
 
 BULLET = "pybullet==3.2.7"
 """Bullet 3.26. Another version may round otherwise, and then the library's bits are no longer PyBullet's."""
@@ -25,6 +27,7 @@ SHA_256 = "042879db8d101ac7590dee475fc6aded508b85fe1273fdbbfde1d88bd200e14f"
 """Of the archive, the same on every mirror."""
 DEFINES = ("BT_USE_DOUBLE_PRECISION",)
 """As PyBullet is compiled; without it Bullet calculates with 32 bits."""
+VERSION = "Bullet 3.26"
 
 SHAPES = (
     "BulletCollision/CollisionShapes/btCollisionShape",

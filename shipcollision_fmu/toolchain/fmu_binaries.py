@@ -1,4 +1,4 @@
-"""The libraries inside native FMUs, as files below binaries/. One library serves every FMU, version and flavour."""
+"""The libraries inside native FMUs, as files below binaries/. One serves every version and flavour of an FMU."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ..errors import InputError
+from . import libraries
 from .libraries import Report, build_libraries, ignore_progress
 from .mach_o import join_libraries
 from .platforms import PLATFORMS, Platform
@@ -36,18 +37,21 @@ def choose_platforms(names: Sequence[str]) -> tuple[Platform, ...]:
     return tuple(PLATFORMS[name] for name in dict.fromkeys(names))
 
 
-def build_binaries(platforms: Sequence[Platform], report: Report = ignore_progress) -> dict[int, list[Binary]]:
-    """The libraries by version of FMI.
+def build_binaries(
+    name: str, platforms: Sequence[Platform], report: Report = ignore_progress
+) -> dict[int, list[Binary]]:
+    """The libraries of the FMU of that name, by version of FMI.
 
     The folders of FMI 2.0 hold the universal file of all targets of a platform, those of FMI 3.0 the targets one by
-    one. Raises HostError when nothing here compiles for a target.
+    one. Raises HostError when nothing here compiles for a target, and when Bullet's source is needed and cannot be
+    fetched.
     """
     targets = [target for platform in platforms for target in platform.targets]
-    built = build_libraries("shipcollision", list_fmu_parts(), targets, _EXPORTS, report=report)
+    built = build_libraries(name, list_fmu_parts(name, libraries.native_cache()), targets, _EXPORTS, report=report)
     contents = {target: path.read_bytes() for target, path in built.items()}
     joined = []
     for platform in platforms:
-        libraries = [contents[target] for target in platform.targets]
-        whole = libraries[0] if len(libraries) == 1 else join_libraries(libraries)
+        slices = [contents[target] for target in platform.targets]
+        whole = slices[0] if len(slices) == 1 else join_libraries(slices)
         joined.append(Binary(platform.name, platform.targets[0].suffix, whole))
     return {2: joined, 3: [Binary(target.folder, target.suffix, data) for target, data in contents.items()]}

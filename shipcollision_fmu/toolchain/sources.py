@@ -9,9 +9,22 @@ from pathlib import Path
 from ..errors import HostError, describe_installation
 from .bullet_sources import DEFINES, SHAPES, find_bullet_sources
 
-__all__ = ["Part", "find_fmi_headers", "find_native", "list_fmu_parts", "list_library_parts"]
+__all__ = [
+    "COLLISION", "FMUS", "Part", "find_fmi_headers", "find_native", "list_fmu_parts", "list_library_parts",
+]  # fmt: skip
 
 _WARNINGS = ("-Wall", "-Wextra", "-Werror")
+
+COLLISION = "ShipCollision"
+_FOLDERS = {COLLISION: "collision", "ShipManoeuvring": "manoeuvring"}
+"""Folder of native/ with the model of an FMU, by its name."""
+_OF_FMI = {
+    COLLISION: ("fmi/framed_collision.cpp", "fmi/ship_collision.cpp"),
+    "ShipManoeuvring": ("fmi/ship_manoeuvring.cpp",),
+}
+"""What makes an FMU of it."""
+FMUS = tuple(_FOLDERS)
+"""Names of the FMUs that there are libraries for."""
 
 
 @dataclass(frozen=True)
@@ -52,19 +65,29 @@ def find_fmi_headers() -> Path:
 def list_library_parts(cache: Path) -> list[Part]:
     """Of the library for Python: all models, without the functions of FMI. Bullet's source is kept in `cache`. Raises
     HostError when it cannot be fetched."""
+    return [Part(find_native(), _list_sources(without=("fmi", "collision"))), *_list_collision_parts(cache)]
+
+
+def list_fmu_parts(name: str, cache: Path) -> list[Part]:
+    """Of the library inside the FMU of that name: its model and the functions of FMI, without what Python alone calls.
+    That of ShipCollision has Bullet in it, whose source is kept in `cache`. Raises HostError when it cannot be
+    fetched."""
+    others = tuple(file for fmu, files in _OF_FMI.items() if fmu != name for file in files)
+    found = _list_sources(without=("batch", *_FOLDERS.values()))
+    own = _list_sources(only=_FOLDERS[name]) if name != COLLISION else ()
+    files = sorted(file for file in (*found, *own) if not file.startswith("python") and file not in others)
+    collision = _list_collision_parts(cache) if name == COLLISION else []
+    return [Part(find_native(), tuple(files), includes=(find_fmi_headers(),)), *collision]
+
+
+def _list_collision_parts(cache: Path) -> list[Part]:
+    """The collision model, and Bullet."""
     bullet = find_bullet_sources(cache)
     defines = tuple(f"-D{name}" for name in DEFINES)
     return [
-        Part(find_native(), _list_sources(without=("fmi", "collision"))),
         Part(find_native(), _list_sources(only="collision"), (*_WARNINGS, *defines), (bullet,)),
         Part(bullet, tuple(f"{name}.cpp" for name in SHAPES), ("-w", *defines), (bullet,)),
     ]
-
-
-def list_fmu_parts() -> list[Part]:
-    """Of the library inside FMUs: the ship model and the functions of FMI, without what Python alone calls."""
-    files = tuple(file for file in _list_sources(without=("batch", "collision")) if not file.startswith("python"))
-    return [Part(find_native(), files, includes=(find_fmi_headers(),))]
 
 
 def _list_sources(without: tuple[str, ...] = (), only: str = "") -> tuple[str, ...]:

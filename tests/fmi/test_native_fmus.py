@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import zipfile
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -30,10 +31,13 @@ from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE
 from shipcollision_fmu.manoeuvring.prepared_ship import prepare_ship
 from shipcollision_fmu.ship.loading.library import list_ship_names
+from shipcollision_fmu.toolchain import libraries
+from shipcollision_fmu.toolchain.bullet_sources import DEFINES
 from shipcollision_fmu.toolchain.compilers import find_compiler
 from shipcollision_fmu.toolchain.fmu_binaries import Binary, choose_platforms
 from shipcollision_fmu.toolchain.objects import FLAGS, run
 from shipcollision_fmu.toolchain.platforms import find_own_target
+from tests.conftest import NATIVE_CACHE
 from tests.ship_files import ship_toml
 
 BINARIES = [Binary("linux64", ".so", b"ELF"), Binary("darwin64", ".dylib", b"MACH")]
@@ -41,10 +45,25 @@ BINARIES = [Binary("linux64", ".so", b"ELF"), Binary("darwin64", ".dylib", b"MAC
 FLAVOURS = ("2", "3", "3-scalar")
 
 
+NAMES = ("ShipManoeuvring", pytest.param("ShipCollision", marks=pytest.mark.slow))
+
+
+@pytest.fixture(params=NAMES)
+def built(request: pytest.FixtureRequest) -> dict[str, Path]:
+    """One FMU by flavour."""
+    of: dict[str, Path] = request.getfixturevalue(
+        "native_fmus" if request.param == "ShipManoeuvring" else "native_collisions"
+    )
+    return of
+
+
 @pytest.fixture(autouse=True)
-def _few_ships(monkeypatch: pytest.MonkeyPatch, native_fmus: dict[str, Path]) -> None:
-    """After the real FMUs: the mesh of a shipped ship takes seconds to be cut."""
+def _few_ships(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch, native_fmus: dict[str, Path]) -> None:
+    """After the real FMUs: the mesh of a shipped ship takes seconds to be cut. Bullet's source is there for them."""
+    for fixture in {"built", "native_collisions"} & set(request.fixturenames):
+        request.getfixturevalue(fixture)
     monkeypatch.setattr(builder, "list_ship_names", lambda: ["buoy", "kvlcc2"])
+    monkeypatch.setattr(libraries, "native_cache", lambda: NATIVE_CACHE)
 
 
 def contents(fmu: bytes | Path, tmp_path: Path) -> dict[str, bytes]:
@@ -77,20 +96,20 @@ def test_what_is_in_an_fmu(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(("fmi", "scalar"), [(2, False), (3, False), (3, True)])
 def test_the_description_and_the_table_have_one_token(tmp_path: Path, fmi: int, scalar: bool) -> None:
-    interface = NATIVE_FMUS["ShipManoeuvring"]
-    files = contents(native_fmu_bytes(interface, BINARIES, fmi, scalar), tmp_path)
+    interface, flavour = NATIVE_FMUS["ShipManoeuvring"], {"fmi": fmi, "scalar": scalar}
+    files = contents(native_fmu_bytes(interface, BINARIES, **flavour), tmp_path)
     root = ElementTree.fromstring(files["modelDescription.xml"])
     token = root.get("guid" if fmi == 2 else "instantiationToken")
     assert token is not None
     assert f'token "{token}"\n' in files["resources/variables.txt"].decode()
-    other = contents(native_fmu_bytes(interface, BINARIES, fmi, scalar, start={"substep": 0.01}), tmp_path)
+    other = contents(native_fmu_bytes(interface, BINARIES, **flavour, start={"substep": 0.01}), tmp_path)
     assert f'token "{token}"\n' not in other["resources/variables.txt"].decode()
-    assert native_fmu_bytes(interface, BINARIES, fmi, scalar) == native_fmu_bytes(interface, BINARIES, fmi, scalar)
+    assert native_fmu_bytes(interface, BINARIES, **flavour) == native_fmu_bytes(interface, BINARIES, **flavour)
 
 
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_what_the_description_promises(tmp_path: Path, fmi: int) -> None:
-    files = contents(native_fmu_bytes(NATIVE_FMUS["ShipManoeuvring"], BINARIES, fmi), tmp_path)
+    files = contents(native_fmu_bytes(NATIVE_FMUS["ShipManoeuvring"], BINARIES, fmi=fmi), tmp_path)
     root = ElementTree.fromstring(files["modelDescription.xml"])
     able = root.find("CoSimulation")
     assert able is not None
@@ -102,20 +121,20 @@ def test_what_the_description_promises(tmp_path: Path, fmi: int) -> None:
     assert said == "Name of a ship in the FMU's resources, or path of a prepared ship"
 
 
-def test_every_shipped_ship_is_there(native_fmus: dict[str, Path]) -> None:
-    files = contents(native_fmus["2"], native_fmus["2"].parent)
+def test_every_shipped_ship_is_there(built: dict[str, Path]) -> None:
+    files = contents(built["2"], built["2"].parent)
     assert {f"resources/ships/{name}.ship" for name in list_ship_names()} <= set(files)
 
 
 @pytest.mark.parametrize("flavour", FLAVOURS)
-def test_fmpy_has_no_finding(native_fmus: dict[str, Path], flavour: str) -> None:
-    assert validate_fmu(str(native_fmus[flavour])) == []
+def test_fmpy_has_no_finding(built: dict[str, Path], flavour: str) -> None:
+    assert validate_fmu(str(built[flavour])) == []
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("flavour", FLAVOURS)
-def test_our_validator_has_no_finding(native_fmus: dict[str, Path], flavour: str) -> None:
-    assert [str(one) for one in validate(native_fmus[flavour])] == []
+def test_our_validator_has_no_finding(built: dict[str, Path], flavour: str) -> None:
+    assert [str(one) for one in validate(built[flavour])] == []
 
 
 @pytest.fixture
@@ -137,9 +156,9 @@ def findings_of_the_container_tool(caplog: pytest.LogCaptureFixture) -> Callable
 @pytest.mark.slow
 @pytest.mark.parametrize("flavour", FLAVOURS)
 def test_the_container_tools_own_check_has_no_finding(
-    native_fmus: dict[str, Path], flavour: str, findings_of_the_container_tool: Callable[[Path], list[str]]
+    built: dict[str, Path], flavour: str, findings_of_the_container_tool: Callable[[Path], list[str]]
 ) -> None:
-    assert findings_of_the_container_tool(native_fmus[flavour]) == []
+    assert findings_of_the_container_tool(built[flavour]) == []
 
 
 @pytest.mark.slow
@@ -176,7 +195,7 @@ def for_this_machine(native_fmus: dict[str, Path], monkeypatch: pytest.MonkeyPat
         name = next(name for name in archive.namelist() if name.startswith("binaries/"))
         folder, suffix = name.split("/")[1], Path(name).suffix
         library = Binary(folder, suffix, archive.read(name))
-    monkeypatch.setattr(builder, "build_binaries", lambda platforms: {2: [library], 3: [library]})
+    monkeypatch.setattr(builder, "build_binaries", lambda name, platforms: {2: [library], 3: [library]})
 
 
 def test_the_fmu_of_an_instance_starts_from_its_values_with_its_own_ship(
@@ -196,39 +215,77 @@ def test_the_fmu_of_an_instance_starts_from_its_values_with_its_own_ship(
     assert {one.name: one.start for one in description.modelVariables}["ship"] == "ships/tug.ship"
 
 
-def test_the_collision_has_no_native_form() -> None:
-    with pytest.raises(InputError, match="ShipCollision has no native form: of our models ShipManoeuvring has one"):
-        native_instance_fmu(COLLISION, ("own",), {})
+def test_another_model_has_no_native_form() -> None:
+    other = replace(COLLISION, name="Dummy")
+    with pytest.raises(InputError, match="Dummy has no native form: our models ShipCollision and ShipManoeuvring have"):
+        native_instance_fmu(other, ("own",), {})
 
 
+def test_what_is_in_the_fmu_of_the_collision(tmp_path: Path) -> None:
+    interface, ships = NATIVE_FMUS["ShipCollision"], ("tug", "barge")
+    files = contents(native_fmu_bytes(interface, BINARIES, ships, sources=True), tmp_path)
+    assert {"binaries/linux64/ShipCollision.so", "resources/ships/kvlcc2.ship", "sources/collision/model.cpp",
+            "sources/fmi/ship_collision.cpp", "sources/LICENSE.txt"} <= set(files)  # fmt: skip
+    assert not any("python" in name or "manoeuvring/model.cpp" in name for name in files)
+    assert b'ships "tug" "barge"\n' in files["resources/variables.txt"]
+    root = ElementTree.fromstring(files["modelDescription.xml"])
+    said = {one.get("name"): one.get("description") for one in root.iter()}
+    assert said["tug.ship"] == "Ship of tug: a name in the FMU's resources, or path of a prepared ship"
+    assert "TOML" not in str(said["obstacles"])
+    assert b"Bullet 3.26" in files["documentation/licenses/license.txt"]
+    assert b"zlib license" in files["documentation/licenses/bullet.txt"]
+    assert DEFINES[0].encode() in files["sources/README.txt"]
+
+
+@pytest.mark.parametrize("name", ["ShipManoeuvring", "ShipCollision"])
 @pytest.mark.parametrize("fmi", [2, 3])
-def test_sources_travel_and_are_listed(tmp_path: Path, fmi: int) -> None:
-    files = contents(native_fmu_bytes(NATIVE_FMUS["ShipManoeuvring"], BINARIES, fmi, sources=True), tmp_path)
+def test_sources_travel_and_are_listed(tmp_path: Path, name: str, fmi: int) -> None:
+    files = contents(native_fmu_bytes(NATIVE_FMUS[name], BINARIES, fmi=fmi, sources=True), tmp_path)
     listing = files["modelDescription.xml" if fmi == 2 else "sources/buildDescription.xml"]
     listed = [one.get("name") for one in ElementTree.fromstring(listing).iter("File" if fmi == 2 else "SourceFile")]
     there = sorted(name.removeprefix("sources/") for name in files if name.endswith(".cpp"))
     assert sorted(map(str, listed)) == there
-    assert {"fmi/fmi2.cpp", "fmi/fmi3.cpp", "manoeuvring/rudder.cpp"} <= set(there)
-    assert not any("python" in name or name.startswith("collision") for name in there)
+    own, other = ("collision", "manoeuvring") if name == "ShipCollision" else ("manoeuvring", "collision")
+    assert {"fmi/fmi2.cpp", "fmi/fmi3.cpp", f"{own}/model.cpp"} <= set(there)
+    assert not any("python" in name or name.startswith(other) for name in there)
     assert {"sources/fmi2Functions.h", "sources/fmi3Functions.h", "sources/README.txt"} <= set(files)
 
 
-@pytest.mark.slow
-def test_what_is_compiled_from_the_sources_gives_the_same_bits(native_fmus: dict[str, Path], tmp_path: Path) -> None:
-    with zipfile.ZipFile(native_fmus["2"]) as archive:
+OF_SOURCES: dict[str, tuple[str, tuple[str, ...], dict[str, Any]]] = {
+    "ShipManoeuvring": (
+        "native_fmus", (),
+        {"initial.velocity.surge": 5.0, "rudder_order": 0.2, "propeller_order": 1.5, "hydrodynamics": True},
+    ),
+    "ShipCollision": (
+        "native_collisions", tuple(f"-D{name}" for name in DEFINES),
+        {"own.position.north": -194.0, "own.velocity.surge": 5.0, "target.attitude.yaw": 1.0},
+    ),
+}  # fmt: skip
+"""Fixture, flags and start values of a run by FMU: the collision's ships touch."""
+
+
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param("ShipManoeuvring", marks=pytest.mark.slow), pytest.param("ShipCollision", marks=pytest.mark.soak)],
+)
+def test_what_is_compiled_from_the_sources_gives_the_same_bits(
+    name: str, request: pytest.FixtureRequest, tmp_path: Path
+) -> None:
+    fixture, flags, start = OF_SOURCES[name]
+    with zipfile.ZipFile(request.getfixturevalue(fixture)["2"]) as archive:
         library = next(name for name in archive.namelist() if name.startswith("binaries/"))
         binary = Binary(library.split("/")[1], Path(library).suffix, archive.read(library))
     fmu = tmp_path / "with_sources.fmu"
-    fmu.write_bytes(native_fmu_bytes(NATIVE_FMUS["ShipManoeuvring"], [binary], sources=True))
-    start = {"initial.velocity.surge": 5.0, "rudder_order": 0.2, "propeller_order": 1.5, "hydrodynamics": True}
+    fmu.write_bytes(native_fmu_bytes(NATIVE_FMUS[name], [binary], sources=True))
     expected = simulate(fmu, **start)
+    assert name == "ShipManoeuvring" or expected["impact.count"] == 1
     folder = Path(fmpy.extract(str(fmu), str(tmp_path / "unpacked")))
     target = find_own_target()
     assert target is not None
     compiler = find_compiler(target, prefer_system=True)
     files = [path.relative_to(folder / "sources").as_posix() for path in (folder / "sources").rglob("*.cpp")]
     (folder / library).unlink()
-    command = [*compiler.link, "-shared", "-fPIC", *FLAGS, "-I.", "-o", str(folder / library), *files]
+    command = [*compiler.link, "-shared", "-fPIC", *FLAGS, *flags, "-I.", "-o", str(folder / library), *files]
     run(command, compiler, "cannot compile the sources", folder / "sources")
     assert simulate(folder, **start).tolist() == expected.tolist()
 

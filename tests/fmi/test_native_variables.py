@@ -27,17 +27,17 @@ def test_a_line_for_each_scalar_and_each_value_reference(interface: object, fmi:
     data = native_variables(interface, ships, fmi=fmi, token="{1}", build="0.1 ab", scalar=scalar)  # type: ignore[arg-type]  # 2 or 3
     lines = split(data)
     table = interface.table(ships)
-    assert lines[:3] == [["shipcollision", "variables", "1"], ["fmu", interface.name], ["fmi", str(fmi)]]
-    assert lines[4:7] == [["build", "0.1 ab"], ["token", "{1}"], ["scalars", str(len(table))]]
-    for line, variable in zip(lines[7:], table, strict=False):
+    assert lines[:3] == [["shipcollision", "variables", "2"], ["fmu", interface.name], ["fmi", str(fmi)]]
+    assert lines[4:8] == [["build", "0.1 ab"], ["token", "{1}"], ["ships", *ships], ["scalars", str(len(table))]]
+    for line, variable in zip(lines[8:], table, strict=False):
         assert line[:5] == [variable.kind, variable.causality, variable.variability, variable.name, variable.path]
         assert line[5] == ("-" if variable.index is None else str(variable.index))
         assert tuple(line[9:]) == variable.items
         assert (line[6] == "-") == (variable.causality == "output")
     arrays = gather_arrays(table, scalar) if fmi == 3 else ()
-    after = lines[7 + len(table) :]
-    assert after[0] == ["references", str(len(arrays))]
-    assert after[1:-1] == [[array.name, *map(str, array.references)] for array in arrays]
+    after = lines[8 + len(table) :]
+    assert after[:2] == [["presets"], ["references", str(len(arrays))]]
+    assert after[2:-1] == [[array.name, *map(str, array.references)] for array in arrays]
     before, _, digest = data.rpartition(b"crc32 ")
     assert int(digest, 16) == crc32(before)
     assert len(digest) == 9
@@ -55,3 +55,5 @@ def test_start_values_are_exact_and_limits_are_there(dummy: ModuleType, access: 
     assert lines["method"][6:] == ["3", "-", "-", "pgs", "closed_form", "bullet"]
     assert rb' "a \"b\" \\ ' + "ä".encode() + rb'\n" ' in data
     assert split(data)[3] == ["tag", access.tag]
+    presets = next(line for line in split(data) if line[0] == "presets")
+    assert presets[1:] == sorted((str(reference) for reference in access.references(list(starts))), key=int)

@@ -1,4 +1,5 @@
-"""States of the real FMUs, saved and restored through a host in the middle of a collision, exact to the bit.
+"""States of the real FMUs, saved and restored through a host in the middle of a collision, exact to the bit; of those
+with Python inside, and of those without.
 
 Three instances sail guan2014_added_mass; all that they ever output is compared. Also in another process.
 """
@@ -116,10 +117,24 @@ class Encounter:
             wire.outputs.read()
 
 
+FORMS = ["Python", pytest.param("native", marks=pytest.mark.slow)]
+
+
+@pytest.fixture(params=FORMS)
+def fmus(request: pytest.FixtureRequest) -> dict[tuple[str, int], Path]:
+    """Files of both FMUs, by name and version of FMI."""
+    if request.param == "Python":
+        python: dict[tuple[str, int], Path] = request.getfixturevalue("real_fmus")
+        return python
+    found = {"ShipManoeuvring": "native_fmus", "ShipCollision": "native_collisions"}
+    files = {name: request.getfixturevalue(fixture) for name, fixture in found.items()}
+    return {(name, fmi): by_flavour[str(fmi)] for name, by_flavour in files.items() for fmi in (2, 3)}
+
+
 @pytest.fixture
-def encounter(real_fmus: dict[tuple[str, int], Path], _tidy_path: None) -> Iterator[Callable[[int], Encounter]]:
+def encounter(fmus: dict[tuple[str, int], Path], _tidy_path: None) -> Iterator[Callable[[int], Encounter]]:
     with ExitStack() as stack:
-        yield lambda fmi: Encounter(real_fmus, fmi, stack)
+        yield lambda fmi: Encounter(fmus, fmi, stack)
 
 
 @pytest.mark.parametrize(
@@ -186,7 +201,7 @@ with ExitStack() as stack:
 @pytest.mark.slow
 @pytest.mark.parametrize("fmi", [2, pytest.param(3, marks=pytest.mark.slow)])
 def test_a_new_process_goes_on_from_bytes(
-    encounter: Callable[[int], Encounter], real_fmus: dict[tuple[str, int], Path], fmi: int
+    encounter: Callable[[int], Encounter], fmus: dict[tuple[str, int], Path], fmi: int
 ) -> None:
     """From the middle of contact."""
     one, k = encounter(fmi), 0
@@ -197,7 +212,7 @@ def test_a_new_process_goes_on_from_bytes(
     assert one.touching()
     data = one.serialised()
     rest = [one.everything(), *[one.step(j, jacobi) for j in range(k + 1, k + 11)]]
-    fmus = json.dumps([[name, version, str(path)] for (name, version), path in real_fmus.items()])
+    fmus = json.dumps([[name, version, str(path)] for (name, version), path in fmus.items()])
     done = subprocess.run(
         [sys.executable, "-c", GO_ON, Path(__file__).parents[2], fmus, str(fmi), str(k + 1)],
         input=json.dumps([one.hex() for one in data]), capture_output=True, text=True, timeout=600, check=False,

@@ -122,7 +122,7 @@ def test_native_ships_are_prepared_and_the_collision_stays_as_it_is(
     scenario_file: Write, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     library = Binary("linux64", ".so", b"ELF")
-    monkeypatch.setattr(native_fmus, "build_binaries", lambda platforms: {2: [library]})
+    monkeypatch.setattr(native_fmus, "build_binaries", lambda name, platforms: {2: [library]})
     monkeypatch.setattr(native_fmus, "list_ship_names", lambda: ["buoy"])
     scenario = load_scenario(str(scenario_file()))
     own, _, collision = build_system_structure(scenario, native=("linux64",)).instances

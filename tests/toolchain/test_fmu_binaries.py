@@ -9,7 +9,7 @@ import pytest
 from shipcollision_fmu.toolchain import libraries
 from shipcollision_fmu.toolchain.fmu_binaries import build_binaries, choose_platforms
 from shipcollision_fmu.toolchain.platforms import PLATFORMS
-from shipcollision_fmu.toolchain.sources import find_fmi_headers
+from shipcollision_fmu.toolchain.sources import FMUS, find_fmi_headers
 from tests.conftest import NATIVE_CACHE
 from tests.toolchain.binary_files import list_glibc_versions, read_library
 
@@ -27,9 +27,12 @@ def declared(version: int) -> set[str]:
     return set(re.findall(rf"^\s*FMI{version}_Export\s+\w+\s+(fmi{version}\w+);", text, re.MULTILINE))
 
 
-def test_every_platform_exports_fmi_alone_and_needs_the_c_library_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("name", FMUS)
+def test_every_platform_exports_fmi_alone_and_needs_the_c_library_alone(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(libraries, "native_cache", lambda: NATIVE_CACHE)
-    built = build_binaries(choose_platforms(tuple(PLATFORMS)))
+    built = build_binaries(name, choose_platforms(tuple(PLATFORMS)))
     assert {one.folder for one in built[2]} == set(PLATFORMS)
     functions = declared(2) | declared(3)
     assert len(functions) > 100

@@ -51,8 +51,11 @@ shipcollision_fmu {__version__}    MIT    shipcollision_fmu.txt
 """
 
 
-def describe_native_licences() -> str:
-    """Which licence is for what in a native FMU."""
+def describe_native_licences(bullet: str = "") -> str:
+    """Which licence is for what in a native FMU; `bullet` is the version of Bullet that is in it."""
+    collision = f"""{bullet}    Zlib    bullet.txt
+    closest points of hulls in binaries, and BulletCollision and LinearMath in sources
+"""
     return f"""SPDX-License-Identifier: MIT
 
 shipcollision_fmu {__version__}    MIT    shipcollision_fmu.txt
@@ -60,7 +63,7 @@ shipcollision_fmu {__version__}    MIT    shipcollision_fmu.txt
     from name the sources of their numbers
 headers of FMI 2.0 and 3.0    BSD-2-Clause    fmi_headers.txt
     declarations in binaries, and fmi2*.h and fmi3*.h in sources
-
+{collision if bullet else ""}
 Nothing of a compiler's or a system's library is linked into the binaries.
 """
 
@@ -72,7 +75,7 @@ def make_page(
     table = interface.table(ships)
     lines = map(_row, table) if fmi == 2 else map(_array_row, gather_arrays(table, scalar))
     rows = "\n".join(lines)
-    about = _describe_native(fmi, native) if native else _describe_python(interface, fmi)
+    about = _describe_native(ships, fmi, native) if native else _describe_python(interface, fmi)
     return f"""<!DOCTYPE html>
 <html lang="en">
 <head><meta charset="utf-8"><title>{escape(interface.name)}</title><style>{_STYLE}</style></head>
@@ -104,12 +107,12 @@ failure that the Python wrapper can report there; the instance may still be rese
 {_FMI3 if fmi == 3 else ""}"""
 
 
-def _describe_native(fmi: int, platforms: tuple[str, ...]) -> str:
+def _describe_native(ships: tuple[str, ...], fmi: int, platforms: tuple[str, ...]) -> str:
     return f"""<p>It is native code for {escape(", ".join(platforms))}.
 It needs the system's C library alone: glibc 2.17 or later on Linux, Windows 10 or later, macOS 11 or later.</p>
 <p>Ships are read from <code>resources/ships</code>. A ship of your own is a prepared file, which
 <code>shipcollision prepare SHIP</code> writes: give its path as the parameter <code>ship</code>, or put it there and
-give its name.</p>
+give its name.{" Obstacles are a prepared file as well." if ships else ""}</p>
 <p>A call that is refused answers fmi{fmi}Error and changes nothing; the reason is logged. A step that the model cannot
 make answers fmi{fmi}Discard and leaves the state before it. With the environment variable
 <code>SHIPCOLLISION_LOG=stderr</code> the log is printed as well.</p>

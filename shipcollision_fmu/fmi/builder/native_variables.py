@@ -1,14 +1,16 @@
 """The table of variables as a native FMU reads it: resources/variables.txt, which native/fmi/variables.cpp reads.
 
-    shipcollision variables 1               what it is, and the version of this format
+    shipcollision variables 2               what it is, and the version of this format
     fmu "ShipManoeuvring"                   name of the FMU: it decides which model is made
     fmi 3                                   version of FMI that the FMU was built for
     tag "ShipManoeuvring 0123456789abcdef"  name and digest of the table: it must be that of a restored state
     build "0.1.0 0123456789ab"              what built the FMU: it must be that of a restored state
     token "{...}"                           guid (FMI 2.0) or instantiation token (FMI 3.0)
+    ships "own" "target"                    names of the ships of a collision, none for another model
     scalars 2                               lines of the table that follow; the position of a line is its number, from 0
     Real output continuous "position.north" "outputs.position" 0 - - -
     Enumeration parameter fixed "coasting" "parameters.coasting" - 1 - - "kirchhoff" "free"
+    presets 0                               numbers of the scalars whose start value is of this FMU alone
     references 1                            FMI 3.0: variables that follow; 0 in FMI 2.0, where they are the scalars
     "position" 0 1 2                        name, and numbers of its elements, row by row; value references count from 1
     crc32 0123abcd                          zlib.crc32 of all bytes before this line
@@ -52,14 +54,16 @@ def native_variables(
     access = interface.make_access(ships, starts)
     arrays = gather_arrays(access.table, scalar) if fmi == 3 else ()
     lines = [
-        "shipcollision variables 1",
+        "shipcollision variables 2",
         f"fmu {_quote(interface.name)}",
         f"fmi {fmi}",
         f"tag {_quote(access.tag)}",
         f"build {_quote(build)}",
         f"token {_quote(token)}",
+        " ".join(["ships", *map(_quote, ships)]),
         f"scalars {len(access.table)}",
         *(" ".join(_fields(reference, line, access)) for reference, line in enumerate(access.table)),
+        " ".join(["presets", *map(str, sorted(access.references(list(starts or {}))))]),
         f"references {len(arrays)}",
         *(" ".join([_quote(array.name), *map(str, array.references)]) for array in arrays),
     ]

@@ -3,6 +3,7 @@
 
 #include "fmi/model.hpp"
 #include "fmi/paths.hpp"
+#include "fmi/variables.hpp"
 #include "manoeuvring/interface.hpp"
 #include "numbers/elementary.hpp"
 
@@ -151,10 +152,13 @@ class Feedthrough : public Model {
 
 }  // namespace
 
-Model* make_model(const char* fmu, const char*) {
-  if (strcmp(fmu, "Dummy") == 0) return new Dummy;
-  if (strcmp(fmu, "Feedthrough") == 0) return new Feedthrough;
-  return nullptr;
+Model* make_model(const Variables& variables, const char*, Text& why) {
+  const char* fmu = variables.fmu();
+  Model* made = strcmp(fmu, "Dummy") == 0         ? static_cast<Model*>(new Dummy)
+                : strcmp(fmu, "Feedthrough") == 0 ? static_cast<Model*>(new Feedthrough)
+                                                  : refuse_model(variables, why);
+  if (made == nullptr && why.is_empty()) why << "there is no memory for the model of " << fmu;
+  return made;
 }
 
 }  // namespace shipcollision

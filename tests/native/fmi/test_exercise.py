@@ -11,6 +11,7 @@ import pytest
 from fmpy import extract
 
 from shipcollision_fmu.fmi.arrays import gather_arrays
+from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE
 from shipcollision_fmu.toolchain.libraries import native_cache
 from shipcollision_fmu.toolchain.sources import list_fmu_parts
@@ -20,6 +21,8 @@ from .native_fmus import TOKEN, build_exercise
 CACHE = native_cache()
 pytestmark = pytest.mark.needs("g++")
 ADDRESS = ("-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
+CONTACT = (*ADDRESS[1:], "-O1")
+"""For the collision, which is much code; lines have no numbers then."""
 THREAD = ("-g", "-fsanitize=thread")
 
 
@@ -55,6 +58,23 @@ def ships(native_fmus: dict[str, Path], tmp_path_factory: pytest.TempPathFactory
             for name, value in (("rudder_order", 0.2), ("propeller_order", 1.5)):
                 sails.append((rb'("inputs.%s" -) 0x0.0p\+0' % name.encode(), rb"\1 " + value.hex().encode()))
         rewrite_table(folder, (rb'token "[^"]*"', f'token "{TOKEN}"'.encode()), *sails)
+    return folders
+
+
+@pytest.fixture(scope="session")
+def collisions(native_collisions: dict[str, Path], tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    """Unpacked FMUs of the collision likewise; its ships are where they touch in the first step."""
+    table = COLLISION.table(("own", "target"))
+    presets = " ".join(str(k) for k, line in enumerate(table) if line.path.startswith("inputs.ships."))
+    changes = [(rb"\npresets\n", f"\npresets {presets}\n".encode()), (rb'token "[^"]*"', f'token "{TOKEN}"'.encode())]
+    for name, index, value in (("position", 0, -194.9), ("velocity", 0, 5.0)):
+        path = f'("inputs.ships.0.{name}" {index}) ' + r"0x0.0p\+0"
+        changes.append((path.encode(), rb"\1 " + value.hex().encode()))
+    changes.append((rb'("inputs.ships.1.attitude" 2) 0x0.0p\+0', rb"\1 " + (1.0).hex().encode()))
+    folders = {}
+    for flavour in ("2", "3"):
+        folder = folders[flavour] = Path(extract(native_collisions[flavour], tmp_path_factory.mktemp("collision")))
+        rewrite_table(folder, *changes)
     return folders
 
 
@@ -98,23 +118,36 @@ def test_two_threads(native_dummies: dict[str, Path], tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_random_calls_on_the_ship(ships: dict[str, Path], tmp_path: Path) -> None:
-    program = build_exercise(CACHE, tmp_path, *ADDRESS, parts=list_fmu_parts())
+    program = build_exercise(CACHE, tmp_path, *ADDRESS, parts=list_fmu_parts("ShipManoeuvring", CACHE))
     said = run(program, "calls", ships, 0, 3000, len(INTERFACE.table(())) + 5)
     assert re.match(r"3000 sequences, [1-9]\d{4} lines", said)
 
 
 @pytest.mark.slow
 def test_two_threads_with_a_ship_each(ships: dict[str, Path], tmp_path: Path) -> None:
-    program = build_exercise(CACHE, tmp_path, *THREAD, parts=list_fmu_parts())
+    program = build_exercise(CACHE, tmp_path, *THREAD, parts=list_fmu_parts("ShipManoeuvring", CACHE))
     names = [line.name for line in INTERFACE.table(())]
     arrays = [array.name for array in gather_arrays(INTERFACE.table(()))]
     inputs = names.index("force.surge"), arrays.index("force") + 1
     assert run(program, "threads", ships, 7, 50, *inputs) == "2 threads, 50 instances each\n"
 
 
-def assert_flat(said: str) -> None:
-    """Assert that memory is as at the first tenth, and that only the thousand steps without a number were refused."""
-    assert said.startswith("1000000 steps, 1000 refused")
+@pytest.mark.slow
+def test_random_calls_on_a_collision(collisions: dict[str, Path], tmp_path: Path) -> None:
+    program = build_exercise(CACHE, tmp_path, *CONTACT, parts=list_fmu_parts("ShipCollision", CACHE))
+    said = run(program, "calls", collisions, 0, 200, len(COLLISION.table(("own", "target"))) + 5)
+    assert re.match(r"200 sequences, [1-9]\d{2,} lines", said)
+
+
+@pytest.mark.soak
+def test_more_random_calls_on_a_collision(collisions: dict[str, Path], tmp_path: Path) -> None:
+    program = build_exercise(CACHE, tmp_path, *CONTACT, parts=list_fmu_parts("ShipCollision", CACHE))
+    run(program, "calls", collisions, 1000, 100_000, len(COLLISION.table(("own", "target"))) + 5)
+
+
+def assert_flat(said: str, steps: int = 1_000_000) -> None:
+    """Assert that memory is as at the first tenth, and that only each thousandth step, without a number, is refused."""
+    assert said.startswith(f"{steps} steps, {steps // 1000} refused")
     before, after, first, last = (int(size) for size in re.findall(r"(\d+) (?:to|kB)", said))
     assert after - before < 200, said  # kB: the C library's own
     assert last - first < 200, said
@@ -128,12 +161,20 @@ def test_nothing_grows(plain: Path, native_dummies: dict[str, Path]) -> None:
 
 @pytest.mark.slow
 def test_nothing_grows_with_a_ship_that_sails(ships: dict[str, Path], tmp_path: Path) -> None:
-    program = build_exercise(CACHE, tmp_path, parts=list_fmu_parts())
+    program = build_exercise(CACHE, tmp_path, parts=list_fmu_parts("ShipManoeuvring", CACHE))
     names = [line.name for line in INTERFACE.table(())]
     said = run(
         program, "growth", ships, 1_000_000, 10_000, names.index("force.surge"), names.index("position.north"), -1
     )
     assert_flat(said)
+
+
+@pytest.mark.slow
+def test_nothing_grows_with_ships_in_contact(collisions: dict[str, Path], tmp_path: Path) -> None:
+    program = build_exercise(CACHE, tmp_path, parts=list_fmu_parts("ShipCollision", CACHE))
+    names = [line.name for line in COLLISION.table(("own", "target"))]
+    inputs, outputs = names.index("target.impulse_applied.surge"), names.index("target.post.position.north")
+    assert_flat(run(program, "growth", collisions, 10_000, 200, inputs, outputs, -1), 10_000)
 
 
 @pytest.mark.slow

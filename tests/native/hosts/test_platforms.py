@@ -48,7 +48,9 @@ def unpacked(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
         patch.setattr(libraries, "native_cache", lambda: CACHE)
         return {
             flavour: Path(extract(
-                build_native_fmus(home, fmi=fmi, scalar=scalar, platforms=list(TARGETS))["ShipManoeuvring"],
+                build_native_fmus(
+                    home, fmi=fmi, scalar=scalar, platforms=list(TARGETS), names=["ShipManoeuvring"]
+                )["ShipManoeuvring"],
                 home / flavour,
             ))
             for flavour, (fmi, scalar) in FLAVOURS.items()
