@@ -18,7 +18,9 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .batch.encounters import Encounters, run_encounters
+    from .batch.collide import collide
+    from .batch.encounter_tables import Encounters
+    from .batch.encounters import run_encounters
     from .batch.impact import impact
     from .collision.model import ShipCollision
     from .cosim.run import Run
@@ -37,12 +39,14 @@ __version__ = "0.1.0"
 
 __all__ = [
     "Encounters", "HostError", "InputError", "Run", "Scenario", "ScenarioError", "Ship", "ShipCollision",
-    "ShipCollisionError", "ShipError", "ShipManoeuvring", "StepError", "__version__", "build_fmus", "encounter",
-    "imazu", "impact", "load_scenario", "load_ship", "run_encounters", "simulate", "traffic_scenario",
+    "ShipCollisionError", "ShipError", "ShipManoeuvring", "StepError", "__version__", "build_fmus", "collide",
+    "encounter", "imazu", "impact", "load_scenario", "load_ship", "run_encounters", "simulate", "traffic_scenario",
 ]  # fmt: skip
 
 _MODULES = {
-    "batch.encounters": ("Encounters", "run_encounters"),
+    "batch.collide": ("collide",),
+    "batch.encounter_tables": ("Encounters",),
+    "batch.encounters": ("run_encounters",),
     "batch.impact": ("impact",),
     "collision.model": ("ShipCollision",),
     "cosim.run": ("Run",),

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from shipcollision_fmu.batch.encounter_table import COLLISION_COLUMNS, ENCOUNTER_COLUMNS, SHIP_COLUMNS
-from shipcollision_fmu.batch.impact_table import COLUMNS, Column
+from shipcollision_fmu.batch.encounter_columns import COLLISION_COLUMNS, ENCOUNTER_COLUMNS, SHIP_COLUMNS
+from shipcollision_fmu.batch.impact_columns import COLUMNS, Column
 
 from .markdown import cell, table
 

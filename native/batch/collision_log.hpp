@@ -8,7 +8,7 @@
 
 namespace shipcollision {
 
-// What Python reads: see shipcollision_fmu/batch/encounter_table.py. Bodies are numbered from 1, ships first.
+// What Python reads: see shipcollision_fmu/batch/encounter_columns.py. Bodies are numbered from 1, ships first.
 struct CollisionRow {
   int32_t number, ship_a, ship_b, contacts;
   double start, end;

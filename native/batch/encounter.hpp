@@ -41,7 +41,7 @@ enum class EncounterStatus : int32_t { done, refused };
 
 constexpr size_t LONGEST_WORDS = 240;
 
-// What Python reads: see shipcollision_fmu/batch/encounter_table.py.
+// What Python reads: see shipcollision_fmu/batch/encounter_columns.py.
 struct EncounterRow {
   EncounterStatus status;
   int32_t steps, collisions, unconverged, scaled, nearest_a, nearest_b, unused;

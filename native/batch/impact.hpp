@@ -26,7 +26,7 @@ enum class ImpactStatus : int32_t { done, out_of_range, not_closing, no_contact,
 
 constexpr size_t LONGEST_REASON = 240;
 
-// What Python reads: see shipcollision_fmu/batch/impact_table.py.
+// What Python reads: see shipcollision_fmu/batch/impact_columns.py.
 struct ImpactRow {
   ImpactStatus status;
   int32_t contacts;

@@ -1,10 +1,12 @@
 """Many cases in one call of the native library (native/batch): structured arrays come out.
 
     impact.py          impact(): the contact alone, for arrays of angles, places and speeds
-      impact_table.py      columns of its table, with units and meanings
+      impact_columns.py      columns of its table, with units and meanings
       native_impacts.py    the calls of the library
-    encounters.py      run_encounters(): whole scenarios, without tables over time
-      encounter_table.py   columns of its three tables
+    collide.py         collide(): whole collisions of coasting ships, for the same arrays
+    encounters.py      run_encounters(): whole scenarios
+      encounter_columns.py columns of the three tables of both
+      encounter_tables.py  Encounters: the tables, from the rows of the library
       encounter_case.py    a scenario as the library reads it
       native_encounters.py the calls of the library, and the structures that it reads
     prepared_ships.py  ships and obstacles as files that the library reads

@@ -21,11 +21,12 @@ import numpy.typing as npt
 from ..encounters.plan_contact import cut_section, find_contact_height
 from ..errors import ScenarioError
 from ..ship.hull.hull import build_hull
-from .impact_table import CASES
+from ..ship.ship import Ship
+from .impact_columns import CASES
 from .native_impacts import ImpactShip, NativeImpacts
 from .prepared_ships import AnyShip, PreparedShips, find_ship
 
-__all__ = ["impact"]
+__all__ = ["check_freedom", "fill_cases", "impact", "run_cases"]
 
 FREEDOMS = (3, 4, 6)
 """Degrees of freedom that a ship may have."""
@@ -62,11 +63,9 @@ def impact(
     the reason. Raises ScenarioError for arguments that do not fit together, ShipError for a ship that is refused,
     HostError when there is no native library and no compiler.
     """
-    if degrees_of_freedom not in FREEDOMS:
-        raise ScenarioError(
-            f"impact: degrees_of_freedom = {degrees_of_freedom!r} must be 3 (surge, sway, yaw), 4 (and roll) or 6"
-        )
-    cases = _fill_cases(
+    check_freedom("impact", degrees_of_freedom)
+    cases = fill_cases(
+        "impact",
         {
             "angle_deg": angle_deg, "at": at, "own_speed": own_speed, "own_sway": own_sway,
             "own_yaw_rate": own_yaw_rate, "target_speed": target_speed, "target_sway": target_sway,
@@ -75,26 +74,34 @@ def impact(
         },
         side,
     )  # fmt: skip
-    with PreparedShips() as files, closing(_open_impacts(own, target, degrees_of_freedom, files)) as impacts:
-        return impacts.run(cases.ravel()).reshape(cases.shape)
+    with PreparedShips() as files:
+        return run_cases(find_ship(own), find_ship(target), degrees_of_freedom, cases, files)
 
 
-def _fill_cases(numbers: dict[str, npt.ArrayLike], side: npt.ArrayLike) -> npt.NDArray[Any]:
-    """The table of cases, of the shape to which all arguments broadcast."""
+def check_freedom(caller: str, degrees_of_freedom: int) -> None:
+    """Raises ScenarioError for a number of degrees of freedom that no ship has."""
+    if degrees_of_freedom not in FREEDOMS:
+        raise ScenarioError(
+            f"{caller}: degrees_of_freedom = {degrees_of_freedom!r} must be 3 (surge, sway, yaw), 4 (and roll) or 6"
+        )
+
+
+def fill_cases(caller: str, numbers: dict[str, npt.ArrayLike], side: npt.ArrayLike) -> npt.NDArray[Any]:
+    """The table of cases, of the shape to which all arguments broadcast; what is not given is zero."""
     sides = np.asarray(side)
     is_starboard = sides == "starboard"
     unknown = sides[~(is_starboard | (sides == "port"))]
     if unknown.size:
-        raise ScenarioError(f"impact: side = {unknown.flat[0].item()!r} must be port or starboard")
+        raise ScenarioError(f"{caller}: side = {unknown.flat[0].item()!r} must be port or starboard")
     try:
         arrays = {name: np.asarray(value, dtype=np.float64) for name, value in numbers.items()}
     except (TypeError, ValueError) as error:
-        raise ScenarioError(f"impact: an argument is no array of numbers: {error}") from None
+        raise ScenarioError(f"{caller}: an argument is no array of numbers: {error}") from None
     try:
         shape = np.broadcast_shapes(sides.shape, *(array.shape for array in arrays.values()))
     except ValueError:
         given = ", ".join(f"{name} {array.shape}" for name, array in arrays.items() if array.shape)
-        raise ScenarioError(f"impact: the shapes do not broadcast to one: {given}, side {sides.shape}") from None
+        raise ScenarioError(f"{caller}: the shapes do not broadcast to one: {given}, side {sides.shape}") from None
     cases = np.zeros(shape, CASES)
     for name, array in arrays.items():
         cases[name] = array
@@ -102,13 +109,19 @@ def _fill_cases(numbers: dict[str, npt.ArrayLike], side: npt.ArrayLike) -> npt.N
     return cases
 
 
-def _open_impacts(own: AnyShip, target: AnyShip, degrees_of_freedom: int, files: PreparedShips) -> NativeImpacts:
-    ships = [find_ship(own), find_ship(target)]
-    paths = [files.write(ship) for ship in ships]
-    hulls = [build_hull(ship.L_oa, ship.B, ship.T, ship.hull) for ship in ships]
+def run_cases(
+    own: Ship, target: Ship, degrees_of_freedom: int, cases: npt.NDArray[Any], files: PreparedShips
+) -> npt.NDArray[Any]:
+    """The rows of the cases, of their shape."""
+    with closing(_open_impacts(own, target, degrees_of_freedom, files)) as impacts:
+        return impacts.run(cases.ravel()).reshape(cases.shape)
+
+
+def _open_impacts(own: Ship, target: Ship, degrees_of_freedom: int, files: PreparedShips) -> NativeImpacts:
+    hulls = [build_hull(ship.L_oa, ship.B, ship.T, ship.hull) for ship in (own, target)]
     deck = find_contact_height(*hulls)
     own_ship, target_ship = (
-        ImpactShip(path, degrees_of_freedom, ship.L_oa, ship.hull.trim_x, cut_section(hull, deck))
-        for ship, path, hull in zip(ships, paths, hulls, strict=True)
+        ImpactShip(files.write(ship), degrees_of_freedom, ship.L_oa, ship.hull.trim_x, cut_section(hull, deck))
+        for ship, hull in zip((own, target), hulls, strict=True)
     )
     return NativeImpacts(own_ship, target_ship)

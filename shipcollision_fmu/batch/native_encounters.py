@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..toolchain.load import load_library
-from .encounter_table import COLLISION_ROW, ENCOUNTER_ROW, SHIP_ROW
+from .encounter_columns import COLLISION_ROW, ENCOUNTER_ROW, SHIP_ROW
 
 __all__ = [
     "REAL",

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from ..errors import ShipError
 from ..ship.frames import Array
 from ..toolchain.load import load_library
-from .impact_table import IMPACTS
+from .impact_columns import IMPACTS
 
 __all__ = ["ImpactShip", "NativeImpacts"]
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from shipcollision_fmu import ScenarioError, load_scenario, run_encounters, simulate
-from shipcollision_fmu.batch.encounter_table import COLLISION_ROW, ENCOUNTER_ROW, SHIP_ROW
+from shipcollision_fmu.batch.encounter_columns import COLLISION_ROW, ENCOUNTER_ROW, SHIP_ROW
 from shipcollision_fmu.batch.native_encounters import EncounterCase, EncounterShip
 from shipcollision_fmu.fmi.names import STATE
 from shipcollision_fmu.scenario.scenario import Scenario, parse_scenario

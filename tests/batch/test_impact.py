@@ -11,7 +11,7 @@ import numpy.typing as npt
 import pytest
 
 from shipcollision_fmu import impact, load_ship
-from shipcollision_fmu.batch.impact_table import CASES, IMPACTS
+from shipcollision_fmu.batch.impact_columns import CASES, IMPACTS
 from shipcollision_fmu.collision.model import ShipCollision
 from shipcollision_fmu.encounters.plan_contact import cut_section, find_contact_height, find_contacts, locate_place
 from shipcollision_fmu.errors import ScenarioError, ShipError

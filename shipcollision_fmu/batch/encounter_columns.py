@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .impact_table import LONGEST_REASON, Column, real
+from .impact_columns import LONGEST_REASON, Column, real
 
 __all__ = [
     "COLLISION_COLUMNS", "COLLISION_ROW", "ENCOUNTER_COLUMNS", "ENCOUNTER_ROW", "ENCOUNTER_STATUS", "SHIP_COLUMNS",
