@@ -19,10 +19,19 @@ from tests.native.collision.kernels import load_kernels
 from tests.native.native_collision import NativeCollision
 from tests.ship_files import ship_toml
 
-LANGUAGES = pytest.mark.parametrize("language", ["Python", "native"], indirect=True)
-"""Marks a test of the world that holds for the model of native/ as well."""
+NATIVE = pytest.param("native", marks=pytest.mark.slow)
+LANGUAGES = pytest.mark.parametrize("language", ["Python", NATIVE], indirect=True)
+"""Marks a test of the world that holds for the model of native/ as well, which has its turn in the slow stage."""
+QUICK_LANGUAGES = pytest.mark.parametrize("language", ["Python", "native"], indirect=True)
+"""The same without the slow stage."""
 BULLET = pytest.param("bullet", marks=pytest.mark.needs("pybullet"))
 """The response that only PyBullet gives."""
+FORMS = pytest.mark.parametrize(
+    ("language", "response"), [("Python", "pgs"), pytest.param("native", "pgs", marks=pytest.mark.slow),
+                               pytest.param("Python", "bullet", marks=pytest.mark.needs("pybullet"))],
+    indirect=["language"],
+)  # fmt: skip
+"""Marks a test of the world that holds for PyBullet's own response, too."""
 BOX = 'shape = "box"\ndepth = 20.0'
 SHIP = 'shape = "parametric"\ndepth = 20.0\nbow_length = 40.0\nstern_length = 50.0'
 NO_ADDED_MASS = "m_x = 0.0\nm_y = 0.0\nm_z = 0.0\nj_x = 0.0\nj_y = 0.0\nj_z = 0.0\nz_y = 0.0"
@@ -152,6 +161,17 @@ class World:
     def energy(self, i: int) -> float:
         """Kinetic energy of a ship [J]."""
         return float(0.5 * self.motion(i) @ self.M[i] @ self.motion(i))
+
+    def know_delays(self) -> None:
+        """From the start on, the model knows that every ship takes impulses one step late."""
+        if isinstance(self.model, ShipCollision):
+            for ledger in self.model._exchange.ledgers:
+                ledger.one_step_delay = True
+            return
+        state = bytearray.fromhex(self.model.get_state()["bytes"])
+        for i in range(len(self.x)):  # 50 numbers of the ledger are before its delay, and two flags after it
+            state[406 * i + 400] = 2
+        self.model.restore(bytes(state))
 
     def run(self, duration: float, H: float) -> World:
         for _ in range(round(duration / H)):

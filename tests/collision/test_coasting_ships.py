@@ -33,8 +33,14 @@ BASIN = "".join(
 
 
 @pytest.mark.parametrize(
-    ("degrees_of_freedom", "duration"),
-    [(3, 80.0), (6, 60.0), *(pytest.param(n, 3600.0, marks=pytest.mark.slow) for n in (3, 4, 6))],
+    ("language", "degrees_of_freedom", "duration"),
+    [
+        ("Python", 3, 80.0),
+        ("Python", 6, 60.0),
+        *(pytest.param("native", n, 60.0, marks=pytest.mark.slow) for n in (3, 4, 6)),
+        *(pytest.param("Python", n, 3600.0, marks=pytest.mark.slow) for n in (3, 4, 6)),
+    ],
+    indirect=["language"],
 )
 @pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
 def test_a_ship_in_a_closed_basin_gains_no_energy(

@@ -12,7 +12,7 @@ import pytest
 from shipcollision_fmu.collision import totals
 from shipcollision_fmu.collision.model import ShipCollision
 from shipcollision_fmu.errors import InputError, StepError
-from tests.collision.conftest import BOX, BULLET, LANGUAGES, NO_ADDED_MASS, World
+from tests.collision.conftest import BOX, FORMS, LANGUAGES, NO_ADDED_MASS, QUICK_LANGUAGES, World
 
 Make = Callable[..., str]
 MakeWorld = Callable[..., World]
@@ -47,6 +47,7 @@ def balance(world: World) -> float:
     return worst
 
 
+@LANGUAGES
 @pytest.mark.parametrize("algorithm", ALGORITHMS)
 def test_head_on_equal_boxes_end_together(make_ship: Make, world: MakeWorld, algorithm: str) -> None:
     """Plastic central impact: both go on with the mean velocity; lost: 1/2 (m/2) (relative speed)^2, m with water."""
@@ -62,6 +63,7 @@ def test_head_on_equal_boxes_end_together(make_ship: Make, world: MakeWorld, alg
     assert w.model.outputs.impact.angle == pytest.approx(pi)
 
 
+@LANGUAGES
 @pytest.mark.parametrize("e", [0.0, 0.3, 1.0])
 def test_head_on_restitution(make_ship: Make, world: MakeWorld, e: float) -> None:
     box = make_ship("box", BOX)
@@ -70,7 +72,7 @@ def test_head_on_restitution(make_ship: Make, world: MakeWorld, e: float) -> Non
 
 
 @pytest.mark.parametrize("algorithm", ALGORITHMS)
-@pytest.mark.parametrize("response", ["pgs", BULLET])
+@FORMS
 def test_oblique_impact_balances_and_loses_energy(
     make_ship: Make, world: MakeWorld, algorithm: str, response: str
 ) -> None:
@@ -85,6 +87,7 @@ def test_oblique_impact_balances_and_loses_energy(
     assert max(w.work) <= 1e-9 * abs(sum(w.work))
 
 
+@QUICK_LANGUAGES
 def test_sequential_master_conserves_virtual_momentum_to_rounding(make_ship: Make, world: MakeWorld) -> None:
     """Applied at the pose at which it was booked, the impulse changes the sum of R M nu by nothing; the energy that the
     ships lose is the energy that the model says."""
@@ -105,6 +108,7 @@ def test_sequential_master_conserves_virtual_momentum_to_rounding(make_ship: Mak
     assert w.model.outputs.energy.dissipated == pytest.approx(lost_by_ships, rel=1e-9)
 
 
+@LANGUAGES
 @pytest.mark.parametrize("algorithm", ALGORITHMS)
 def test_both_masters_end_at_the_same_velocities(make_ship: Make, world: MakeWorld, algorithm: str) -> None:
     ships = [make_ship("a"), make_ship("b", mass=25e6)]
@@ -116,6 +120,7 @@ def test_both_masters_end_at_the_same_velocities(make_ship: Make, world: MakeWor
         assert np.all(np.abs(other.nu[i] - sequential.nu[i]) <= 0.02 * scale)
 
 
+@LANGUAGES
 def test_a_communication_step_four_times_longer_ends_alike(make_ship: Make, world: MakeWorld) -> None:
     ships = [make_ship("a"), make_ship("b", mass=25e6)]
     fine, coarse = world(ships, T_BONE).run(4.0, 0.025), world(ships, T_BONE).run(4.0, 0.1)
@@ -125,6 +130,7 @@ def test_a_communication_step_four_times_longer_ends_alike(make_ship: Make, worl
         assert np.all(np.abs(coarse.nu[i] - fine.nu[i]) <= 0.02 * scale)
 
 
+@LANGUAGES
 def test_no_approach_is_left_after_a_plastic_impact(make_ship: Make, world: MakeWorld) -> None:
     w = world([make_ship("a"), make_ship("b", mass=25e6)], T_BONE)
     clearances = []
@@ -134,6 +140,7 @@ def test_no_approach_is_left_after_a_plastic_impact(make_ship: Make, world: Make
     assert min(clearances) > -0.1  # closing speed 4 m/s x substep 0.01 s, and the turning that follows
 
 
+@LANGUAGES
 def test_swapping_the_ships_changes_names_only(make_ship: Make, world: MakeWorld) -> None:
     a, b = make_ship("a"), make_ship("b", mass=25e6)
     one, two = world([a, b], T_BONE).run(3.0, 0.05), world([b, a], T_BONE[::-1]).run(3.0, 0.05)
@@ -141,6 +148,7 @@ def test_swapping_the_ships_changes_names_only(make_ship: Make, world: MakeWorld
         np.testing.assert_allclose(one.nu[i], two.nu[1 - i], atol=1e-6)
 
 
+@LANGUAGES
 def test_mirror_image_mirrors_the_answer(make_ship: Make, world: MakeWorld) -> None:
     mirror_x, mirror_nu = np.array([1, -1, 1]), np.array([1, -1, 1, -1, 1, -1])
     mirrored = [
@@ -157,6 +165,7 @@ def test_mirror_image_mirrors_the_answer(make_ship: Make, world: MakeWorld) -> N
         np.testing.assert_allclose(two.nu[i], one.nu[i] * mirror_nu, atol=1e-5)
 
 
+@LANGUAGES
 def test_turning_and_shifting_the_world_changes_nothing(make_ship: Make, world: MakeWorld) -> None:
     turn, shift = 1.1, np.array([3000.0, -7000.0, 0.0])
     c, s = np.cos(turn), np.sin(turn)
@@ -175,6 +184,7 @@ def test_turning_and_shifting_the_world_changes_nothing(make_ship: Make, world: 
         np.testing.assert_allclose(two.nu[i], one.nu[i], atol=1e-5)
 
 
+@LANGUAGES
 def test_far_ships_are_left_alone_and_clearance_is_capped(make_ship: Make, world: MakeWorld) -> None:
     far = [HEAD_ON[0], {**HEAD_ON[1], "position": [5000.0, 0.0, 0.0]}]
     box = make_ship("box", BOX)
@@ -184,6 +194,7 @@ def test_far_ships_are_left_alone_and_clearance_is_capped(make_ship: Make, world
     np.testing.assert_array_equal(w.applied, np.zeros((2, 6)))
 
 
+@QUICK_LANGUAGES
 def test_ships_in_three_degrees_of_freedom_take_no_roll(make_ship: Make, world: MakeWorld) -> None:
     ships = [make_ship("a"), make_ship("b", mass=25e6)]
     flat = [
@@ -198,6 +209,7 @@ def test_ships_in_three_degrees_of_freedom_take_no_roll(make_ship: Make, world: 
     assert max(w.work) <= 1e-9 * abs(sum(w.work))
 
 
+@LANGUAGES
 def test_contact_points_add_up_to_the_ledger(make_ship: Make, world: MakeWorld) -> None:
     w = world([make_ship("a"), make_ship("b", mass=25e6)], T_BONE)
     P, energy = np.zeros(3), 0.0
@@ -223,6 +235,7 @@ def test_contact_points_add_up_to_the_ledger(make_ship: Make, world: MakeWorld) 
     assert energy == pytest.approx(w.model.outputs.energy.dissipated, rel=1e-12)
 
 
+@LANGUAGES
 def test_events_of_one_incident(make_ship: Make, world: MakeWorld) -> None:
     w = world([make_ship("a"), make_ship("b", mass=25e6)], T_BONE).run(8.0, 0.05)
     out = w.model.outputs
@@ -235,6 +248,7 @@ def test_events_of_one_incident(make_ship: Make, world: MakeWorld) -> None:
 # -- what the ship models answer --------------------------------------------------------------------
 
 
+@LANGUAGES
 def test_each_first_contact_is_one_line(make_ship: Make, world: MakeWorld) -> None:
     """Two strike the one between them in the same step: two lines, once. After the first, plastic impact of equal
     ships the one in the middle moves on with 3/2 m/s, so the other closes at 4 + 3/2 m/s."""
@@ -259,6 +273,7 @@ def test_each_first_contact_is_one_line(make_ship: Make, world: MakeWorld) -> No
     assert "closing at 5.50 m/s" in lines[0][1]
 
 
+@LANGUAGES
 def test_none_issues_one_impact_per_collision(make_ship: Make, world: MakeWorld) -> None:
     """A ship model that ignores the impulse sails on through; it is told once."""
     box = make_ship("box", BOX)
@@ -273,6 +288,7 @@ def test_none_issues_one_impact_per_collision(make_ship: Make, world: MakeWorld)
     assert w.model.outputs.collision_count == 1
 
 
+@LANGUAGES
 @pytest.mark.parametrize("algorithm", ALGORITHMS)
 @pytest.mark.parametrize("feedback", ["force", "state"])
 def test_answers_without_an_echo_are_seen_in_the_velocity(
@@ -341,7 +357,7 @@ def test_bullet_answers_a_wall_of_two_parts_as_one(make_ship: Make, world: MakeW
 # -- the whole state --------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("response", ["pgs", BULLET])
+@FORMS
 def test_saved_state_repeats_every_bit_in_the_middle_of_a_contact(
     make_ship: Make, world: MakeWorld, response: str
 ) -> None:
@@ -361,6 +377,7 @@ def test_saved_state_repeats_every_bit_in_the_middle_of_a_contact(
     assert runs[0] == runs[1] == runs[2]
 
 
+@LANGUAGES
 def test_two_models_do_not_disturb_each_other(make_ship: Make, world: MakeWorld) -> None:
     ships = [make_ship("a"), make_ship("b", mass=25e6)]
     alone = world(ships, T_BONE).run(1.0, 0.05)
@@ -371,6 +388,7 @@ def test_two_models_do_not_disturb_each_other(make_ship: Make, world: MakeWorld)
     assert repr(one.model.outputs) == repr(alone.model.outputs)
 
 
+@LANGUAGES
 def test_jitter_in_the_step_does_not_reach_the_solver(make_ship: Make, world: MakeWorld) -> None:
     ships = [make_ship("a"), make_ship("b", mass=25e6)]
     exact, jitter = world(ships, T_BONE), world(ships, T_BONE)
@@ -383,6 +401,7 @@ def test_jitter_in_the_step_does_not_reach_the_solver(make_ship: Make, world: Ma
 # -- refusals ---------------------------------------------------------------------------------------
 
 
+@LANGUAGES
 @pytest.mark.parametrize(
     ("quantity", "value", "message"),
     [
@@ -404,7 +423,7 @@ def test_absurd_inputs_end_the_step_and_change_nothing(
     assert (w.model.get_state(), repr(w.model.outputs)) == (before, outputs)
 
 
-@LANGUAGES
+@QUICK_LANGUAGES
 @pytest.mark.parametrize("away", [0.0, 3000.0])
 def test_a_step_that_the_law_of_a_far_ship_refuses_changes_nothing(
     make_ship: Make, world: MakeWorld, away: float

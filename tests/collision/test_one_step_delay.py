@@ -13,7 +13,7 @@ from shipcollision_fmu.collision.dynamics.body_state import BodyState
 from shipcollision_fmu.collision.dynamics.contact import point_jacobian
 from shipcollision_fmu.collision.dynamics.impulse_ledger import ImpulseLedger, Reading
 from shipcollision_fmu.ship.frames import rotation
-from tests.collision.conftest import BOX, NO_ADDED_MASS, World
+from tests.collision.conftest import BOX, LANGUAGES, NO_ADDED_MASS, World
 
 Make = Callable[..., str]
 MakeWorld = Callable[..., World]
@@ -61,8 +61,7 @@ def late_impulse(world: MakeWorld, ship: str, V: tuple[float, float], e: float, 
         for x, y, psi, u, v, r in ((0.0, 0.0, 0.0, 0.0, 0.0, 0.01), (20.0, -125.0, 1.3, 0.5, 3.0, -0.012))
     ]  # fmt: skip
     w = world([ship, ship], start, algorithm="jacobi", degrees_of_freedom=3, friction=0.3, restitution=e, substep=0.05)
-    for ledger in w.model._exchange.ledgers:
-        ledger.one_step_delay = True
+    w.know_delays()
     while not (w.work and w.work[-1]):
         w.step(H)
         assert w.t < 20.0
@@ -70,6 +69,7 @@ def late_impulse(world: MakeWorld, ship: str, V: tuple[float, float], e: float, 
     return w, R @ J[:3]
 
 
+@LANGUAGES
 @pytest.mark.parametrize("V", [(8.0, 0.0), (0.0, 8.0)])
 @pytest.mark.parametrize("e", [0.0, 1.0])
 def test_ships_that_go_on_together_feel_the_same(

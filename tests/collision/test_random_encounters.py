@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from math import atan2, cos, degrees, isfinite, pi, sin
 
@@ -84,8 +84,9 @@ def encounter(rng: random.Random) -> tuple[list[str], list[dict], dict]:
 class Balance:
     """Wrenches that the ships of a world took, in n about its origin: of two that meet alone the sum is nothing."""
 
-    def __init__(self, w: World) -> None:
-        self.w, self.sum, self.size = w, np.zeros(6), np.zeros(2)
+    def __init__(self, w: World, names: Sequence[str]) -> None:
+        self.w, self.reach = w, [REACH[name] for name in names]
+        self.sum, self.size = np.zeros(6), np.zeros(2)
         self.quiet, self.out_of_range = 0, False
 
     def look(self, H: float) -> None:
@@ -105,14 +106,14 @@ class Balance:
         ):  # a parallel one: once all is applied, of ships that do not go far
             assert np.abs(self.sum[:3]).max() <= 1e-10 * self.size[0]
             assert np.abs(self.sum[3:]).max() <= 1e-10 * self.size[1]
-        for nu, body in zip(self.w.nu, self.w.model._bodies, strict=False):
-            self.out_of_range |= H * (np.linalg.norm(nu[3:]) + np.linalg.norm(nu[:3]) / body.reach) > 0.1
+        for nu, reach in zip(self.w.nu, self.reach, strict=True):
+            self.out_of_range |= H * (np.linalg.norm(nu[3:]) + np.linalg.norm(nu[:3]) / reach) > 0.1
 
     def pending(self) -> list[np.ndarray]:
         return [np.array(o.impulse) - a for o, a in zip(self.w.model.outputs.ships, self.w.applied, strict=True)]
 
 
-def check(world: MakeWorld, seed: int, coasting: str = "straight") -> bool:
+def check(world: MakeWorld, seed: int, coasting: str = "straight", **more: object) -> bool:
     """Run one encounter; whether the hulls touched. Nothing is NaN, and no energy is gained.
 
     With a sequential master in no step, but what a fender held before; without a fender the energy lost is what the
@@ -126,12 +127,12 @@ def check(world: MakeWorld, seed: int, coasting: str = "straight") -> bool:
     duration = parameters.pop("time")
     if coasting == "kirchhoff" and parameters["degrees_of_freedom"] > 3:
         coasting = "free"  # the ships of Guan et al. (2014) have masses that do not float
-    w = world(names, starts, **{"coasting": coasting, **parameters})
+    w = world(names, starts, **{"coasting": coasting, **parameters, **more})
     sequential, alone = parameters["algorithm"] == "gauss-seidel", not parameters["obstacles"]
     kind = "plastic" if parameters["restitution"] == 0.0 else "ships" if SMALL.isdisjoint(names) else "small"
     most = 1e-9 if sequential else PARALLEL[kind]
     kinetic = w.energy(0) + w.energy(1)
-    H, spent, touched, balance = 0.2, 0.0, False, Balance(w)
+    H, spent, touched, balance = 0.2, 0.0, False, Balance(w, names)
     for _ in range(round(duration / H)):
         held, had = w.model.outputs.fender.stored, replace(w.model.outputs.energy)
         w.step(H)
@@ -164,6 +165,13 @@ def test_ten_random_encounters(world: MakeWorld) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("language", ["native"], indirect=True)
+@pytest.mark.parametrize("coasting", ["straight", "kirchhoff"])
+def test_random_encounters_without_python(world: MakeWorld, coasting: str) -> None:
+    assert sum(check(world, seed, coasting, response="pgs") for seed in range(20)) > 5
+
+
+@pytest.mark.slow
 def test_random_encounters_of_ships_that_coast_by_kirchhoffs_equations(world: MakeWorld) -> None:
     assert sum(check(world, seed, "kirchhoff") for seed in range(40)) > 10
 
@@ -187,7 +195,7 @@ def test_a_parallel_master_that_is_known_gains_nothing_and_loses_what_the_model_
         while w.t < duration:
             w.step(H)
             assert w.work[-1] <= 1e-9 * kinetic, (seed, w.t, w.work[-1])
-            if not any(waiting.any() for waiting in Balance(w).pending()):
+            if not any(waiting.any() for waiting in Balance(w, names).pending()):
                 assert abs(w.model.outputs.energy.dissipated + sum(w.work)) <= 1e-9 * kinetic, (seed, w.t)
         touched += w.model.outputs.collision_count > 0
         w.model.close()
