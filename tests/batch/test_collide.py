@@ -16,8 +16,8 @@ SCENARIO = """
 [scenario]
 name = "case"
 description = "a case of collide()"
-duration = 9.0
-step = 0.1
+duration = 7.0
+step = 0.2
 """
 SHIP = """
 [ships.{name}]
@@ -34,7 +34,7 @@ coasting = "{coasting}"
 def test_a_collision_is_that_of_a_scenario_from_the_same_start() -> None:
     """Which a start written in degrees is to rounding; its impact is that of impact(), at the time asked for."""
     arguments = {"own_speed": 6.0, "target_speed": 2.0, "target_sway": 0.4, "restitution": 0.2, "heading_deg": 30.0}
-    result = collide("kvlcc2", "kcs", ANGLES, PLACES, **arguments, before=1.0, after=8.0, step=0.1)
+    result = collide("kvlcc2", "kcs", ANGLES, PLACES, **arguments, before=1.0, after=6.0, step=0.2)
     rows = impact("kvlcc2", "kcs", ANGLES, PLACES, **arguments).ravel()
     assert result.encounters["status"].tolist() == [0] * 6
     firsts = result.collisions[result.collisions["number"] == 1]

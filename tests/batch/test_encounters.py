@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,14 +16,14 @@ from shipcollision_fmu.batch.native_encounters import EncounterCase, EncounterSh
 from shipcollision_fmu.fmi.names import STATE
 from shipcollision_fmu.scenario.scenario import Scenario, parse_scenario
 from shipcollision_fmu.toolchain.load import load_library
-from tests.batch.native_run import simulate_native
+from tests.batch.native_run import simulate_native, simulate_native_fmus
 
 COASTING = """
 [scenario]
 name = "coasting"
 description = "two ships coast into each other"
 duration = 5.0
-step = 0.1
+step = 0.25
 
 [ships.own]
 ship = "kvlcc2"
@@ -49,7 +50,7 @@ STEERED = """
 name = "steered"
 description = "three ships between a quay and each other, in wind and current"
 duration = 14.0
-step = 0.2
+step = 0.5
 algorithm = "jacobi"
 
 [environment]
@@ -147,6 +148,19 @@ def test_an_encounter_is_a_run_of_the_native_models(text: str) -> None:
     compare_with_run(scenario, run, 0.0)
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("text", [COASTING, COASTING.replace("[ships.own]", 'algorithm = "jacobi"\n[ships.own]')])
+def test_an_encounter_is_a_run_of_the_native_fmus(
+    text: str, native_fmus: dict[str, Path], native_collisions: dict[str, Path]
+) -> None:
+    """To the bit, through FMPy."""
+    scenario = parse_scenario(text, "test")
+    run = simulate_native_fmus(scenario, native_fmus["2"], native_collisions["2"])
+    assert len(run.events["collisions"]) >= 1
+    compare_with_run(scenario, run, 0.0)
+
+
+@pytest.mark.slow
 def test_a_shipped_scenario_is_as_in_python() -> None:
     scenario = load_scenario("guan2014_added_mass")
     compare_with_run(scenario, simulate(scenario, in_process=True), 1e-9)
@@ -159,8 +173,8 @@ def test_an_encounter_depends_on_its_scenario_alone() -> None:
         parse_scenario(COASTING.replace("speed = 7.0", "speed = 5.0"), "test"),
     )
     alone = [run_encounters([scenario], tracks=True) for scenario in (one, other)]
-    together = [one, other, parse_scenario(STEERED.replace("14.0", "1.0").replace("{time = 3.0", "{time = 0.4").replace(
-        "{time = 9.0", "{time = 0.8"), "test"), other, one]  # fmt: skip
+    together = [one, other, parse_scenario(STEERED.replace("14.0", "1.0").replace("{time = 3.0", "{time = 0.5").replace(
+        "{time = 9.0", "{time = 1.0"), "test"), other, one]  # fmt: skip
     with ThreadPoolExecutor(2) as pool:
         runs = list(pool.map(lambda _: run_encounters(together, tracks=True), range(2)))
     for run in runs:
@@ -195,7 +209,7 @@ def test_a_refused_encounter_has_its_reason() -> None:
     assert reasons[1].startswith("collision: ")
     assert "closed_form" in reasons[1]
     assert reasons[3].startswith(
-        "collision: a step of 0.1 s takes 1e+05 substeps of 1e-06 s, at most 10000 where hulls"
+        "collision: a step of 0.25 s takes 2.5e+05 substeps of 1e-06 s, at most 10000 where hulls"
     )
     assert set(rows.ships["case"]) == {1, 2, 3}
 

@@ -64,10 +64,10 @@ def is_close(a: Any, b: Any, relative: float = 1e-9) -> bool:
 @pytest.mark.parametrize(("own", "degrees_of_freedom"), [("kcs", 3), pytest.param("kvlcc2", 6, marks=pytest.mark.slow)])
 def test_an_impact_is_one_step_of_the_collision_model(own: str, degrees_of_freedom: int) -> None:
     """The Python model, given the same states, answers the same."""
-    arguments = draw_cases(12)
+    arguments = draw_cases(9)
     rows = impact(own, "kcs", **arguments, degrees_of_freedom=degrees_of_freedom)
     model, is_done = ShipCollision(("own", "target")), rows["status"] == 0
-    assert is_done.sum() >= 8
+    assert is_done.sum() >= 6
     for parameters, ship in zip(model.parameters.ships, (own, "kcs"), strict=True):
         parameters.ship, parameters.degrees_of_freedom = ship, degrees_of_freedom
     first = None
@@ -119,7 +119,7 @@ def test_ships_touch_at_the_place() -> None:
 
 def test_momentum_and_energy() -> None:
     """Impulses are opposite, and of the same moment about any point; they are what the twists gain; energy is lost."""
-    rows = take(impact("kvlcc2", "kcs", **draw_cases(400)), 300)
+    rows = take(impact("kvlcc2", "kcs", **draw_cases(200)), 150)
     totals, moments, lost = [], [], np.zeros(len(rows))
     for name, ship in (("own", load_ship("kvlcc2")), ("target", load_ship("kcs"))):
         M = ship.M[np.ix_(FREE, FREE)]
@@ -156,7 +156,7 @@ def test_a_central_impact_has_the_closed_solution(restitution: float) -> None:
 
 def test_symmetries() -> None:
     """Another heading, a common velocity and the mirror change nothing but the frame."""
-    arguments = draw_cases(200)
+    arguments = draw_cases(120)
     rows = impact("kvlcc2", "kvlcc2", **arguments)
     turned = impact("kvlcc2", "kvlcc2", **{**arguments, "heading_deg": arguments["heading_deg"] - 77.0})
     mirrored = impact("kvlcc2", "kvlcc2", **{
@@ -172,7 +172,7 @@ def test_symmetries() -> None:
         "target_speed": arguments["target_speed"] + drift * np.cos(course),
         "target_sway": arguments["target_sway"] + drift * np.sin(course),
     })  # fmt: skip
-    assert (rows["status"] == 0).sum() > 150
+    assert (rows["status"] == 0).sum() > 90
     done = rows["status"] == 0
     for other, sign, share in ((turned, 1.0, 1e-6), (moved, 1.0, 1e-6), (mirrored, -1.0, 1e-5)):
         assert (other["status"] == rows["status"]).all()

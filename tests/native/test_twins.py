@@ -5,9 +5,11 @@ from __future__ import annotations
 import re
 from importlib import import_module
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 
+from shipcollision_fmu.encounters import encounter, request, targeting
 from shipcollision_fmu.manoeuvring import prepared_ship
 from shipcollision_fmu.toolchain.sources import find_native
 
@@ -15,13 +17,14 @@ NATIVE = find_native()
 ELSEWHERE = {
     "ship/prepared_ship": "manoeuvring/prepared_ship",  # Python writes what it has computed, C++ reads it
     "ship/tables": "ship/tables/manoeuvring",
+    "batch/plan_contact": "encounters/plan_contact",
 }
 """Twins that are not at the same place."""
 FILES = sorted(
     path.relative_to(NATIVE).as_posix()
     for room in ("ship", "manoeuvring", "collision")
     for path in (NATIVE / room).rglob("*.?pp")
-)
+) + ["batch/plan_contact.cpp"]
 _CONSTANT = re.compile(r"^constexpr (?:double|int) ([A-Z][A-Z_]*) = ([-+.e\d]+);", re.MULTILINE)
 CONSTANTS = [
     (file, name, float(value))
@@ -54,6 +57,15 @@ def test_each_constant_is_that_of_the_twin(file: str, name: str, value: float) -
         assert twin[name] == pytest.approx(value, rel=1e-15, abs=0.0)  # some are tangents
     else:
         assert name in {"ROLL", "PITCH", "BREAKING_THRESHOLD"} or name.startswith(("SERIES", "TORQUE"))
+
+
+@pytest.mark.parametrize(
+    ("name", "module"),
+    [("SLOWEST_CLOSING", encounter), ("GRAZING", encounter), ("FASTEST", request), ("OVERLAP", targeting)],
+)
+def test_an_impact_is_refused_and_placed_as_an_encounter(name: str, module: ModuleType) -> None:
+    constants = dict(_CONSTANT.findall((NATIVE / "batch/impact.cpp").read_text("utf-8")))
+    assert float(constants[name]) == vars(module)[name]
 
 
 @pytest.mark.parametrize(
