@@ -1,16 +1,34 @@
 /* A host in C: the three instances of a packaged encounter, stepped in parallel through the C interface of FMI 2.0.
  *
- *     cc -O2 -o host examples/host.c -ldl
+ *     cc -O2 -o host examples/host.c -ldl     on Linux; on Windows any compiler of C, without -ldl
  *     ./host FOLDER STEP STEPS SHIP SHIP      FOLDER holds SHIP/ and collision/: FMUs of a package, unpacked
  *
- * The FMUs start from the scenario's values, so that no parameter is set here. The FMUs run Python: docs/guide/hosts.md
- * says what the process needs. For real use take the headers of the FMI standard; these are the few declarations used below. */
+ * The FMUs start from the scenario's values, so that no parameter is set here. Where they run Python, docs/guide/hosts.md
+ * says what the process needs; native ones need nothing. For real use take the headers of the FMI standard; these are the
+ * few declarations used below. */
 
-#include <dlfcn.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#if defined(_WIN32)
+#include <windows.h>
+#define LIBRARY "%s/%s/binaries/win64/%s.dll"
+static void *load(const char *path) { return (void *)LoadLibraryA(path); }
+static void *find(void *library, const char *name) { return (void *)GetProcAddress((HMODULE)library, name); }
+static const char *explain(const char *path) { return path; }
+#else
+#include <dlfcn.h>
+#if defined(__aarch64__)
+#define LIBRARY "%s/%s/binaries/aarch64-linux/%s.so"
+#else
+#define LIBRARY "%s/%s/binaries/linux64/%s.so"
+#endif
+static void *load(const char *path) { return dlopen(path, RTLD_NOW | RTLD_LOCAL); }
+static void *find(void *library, const char *name) { return dlsym(library, name); }
+static const char *explain(const char *path) { return (void)path, dlerror(); }
+#endif
 
 typedef void *Component;
 typedef int Status; /* 0 ok, 1 warning, 2 discard, 3 error, 4 fatal, 5 pending */
@@ -90,7 +108,7 @@ static unsigned reference(const Slave *slave, const char *prefix, const char *na
 }
 
 static void *function(void *library, const char *name) {
-  void *found = dlsym(library, name);
+  void *found = find(library, name);
   if (!found) die("no function", name);
   return found;
 }
@@ -103,9 +121,9 @@ static Slave started(const char *folder, const char *name) {
   slave.description = contents(path);
   attribute(slave.description, "guid=\"", guid, sizeof guid);
   attribute(slave.description, "modelIdentifier=\"", model, sizeof model);
-  snprintf(path, sizeof path, "%s/%s/binaries/linux64/%s.so", folder, name, model);
-  void *library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
-  if (!library) die("cannot load", dlerror());
+  snprintf(path, sizeof path, LIBRARY, folder, name, model);
+  void *library = load(path);
+  if (!library) die("cannot load", explain(path));
   Component (*instantiate)(const char *, int, const char *, const char *, const Callbacks *, int, int);
   Status (*setup)(Component, int, double, double, int, double), (*enter)(Component), (*leave)(Component);
   *(void **)&instantiate = function(library, "fmi2Instantiate");
@@ -117,7 +135,7 @@ static Slave started(const char *folder, const char *name) {
   *(void **)&slave.step = function(library, "fmi2DoStep");
   *(void **)&slave.terminate = function(library, "fmi2Terminate");
   *(void **)&slave.release = function(library, "fmi2FreeInstance");
-  snprintf(place, sizeof place, "file://%s/%s/resources", folder, name);
+  snprintf(place, sizeof place, "file://%s%s/%s/resources", folder[0] == '/' ? "" : "/", folder, name);
   slave.component = instantiate(name, 1 /* co-simulation */, guid, place, &callbacks, 0, 1 /* with a log */);
   if (!slave.component) die("cannot instantiate", name);
   check(setup(slave.component, 0, 0.0, 0.0, 0, 0.0), "setup", name);

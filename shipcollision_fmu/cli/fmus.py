@@ -6,8 +6,9 @@ from pathlib import Path
 
 import click
 
-from .console import progress, say
+from .console import say
 from .mistakes import fail
+from .native_code import compile_native
 from .options import FMI, PATH, SCENARIO, SHIP
 
 __all__ = ["build", "package", "prepare", "validate"]
@@ -80,17 +81,8 @@ def _build_native(
 
 
 def _compile(platforms: str | None) -> tuple[str, ...]:
-    """The platforms of an option, all without it. Their libraries are compiled into the cache, with progress."""
-    from ..toolchain import fmu_binaries
-    from ..toolchain import platforms as known
-    from ..toolchain.sources import FMUS
-
-    chosen = tuple(known.PLATFORMS) if platforms is None else _split(platforms)
-    targets = fmu_binaries.choose_platforms(chosen)
-    for name in FMUS:
-        with progress(f"native code of {name}") as report:
-            fmu_binaries.build_binaries(name, targets, report)
-    return chosen
+    """The platforms of an option, all without it, compiled for."""
+    return compile_native(None if platforms is None else _split(platforms))
 
 
 def _split(names: str) -> tuple[str, ...]:
@@ -115,7 +107,7 @@ def _split(names: str) -> tuple[str, ...]:
     "--replace", multiple=True, metavar="SHIP=FILE.fmu",
     help="A ship model of your own, coupled by force; FILE.toml beside it names its variables.",
 )  # fmt: skip
-@click.option("--native", is_flag=True, help="Our ships run without Python; the collision runs Python.")
+@click.option("--native", is_flag=True, help="Ships and collision run without Python.")
 @PLATFORMS
 @click.option("--overwrite", is_flag=True, help="Replace files of other origin at the place of the package, too.")
 def package(
@@ -137,6 +129,7 @@ def package(
     each ship and one for the collision, with the scenario's values as their start values. Settings that a
     package cannot hold, such as a route, are refused, or left out with a note.
     """
+    from ..cosim.prepared_files import refuse_response
     from ..packaging.foreign_ship import read_foreign_ship
     from ..packaging.osp import write_osp
     from ..packaging.ssp import write_ssp
@@ -150,6 +143,8 @@ def package(
         raise click.UsageError("--platforms is for native code: add --native or leave it out")
     foreign = {ship: read_foreign_ship(Path(file)) for ship, file in map(_split_replacement, replace)}
     loaded = load_scenario(scenario)
+    if native:
+        refuse_response(loaded)
     compiled = _compile(platforms) if native else ()
     if ssp:
         place = out if out is not None else Path(f"{loaded.name}.ssp")

@@ -7,6 +7,7 @@
       fmi2_component.py, fmi3_component.py    instances of FMUs; fmu_instance.py has what both versions share
       factories.py      makes the components of a run
       fmu_files.py      where the FMUs of a run lie, built when they are missing
+      native_fmu_files.py, prepared_files.py  FMUs without Python made for a run, and the ships and obstacles they read
     helm.py             timed orders and steering of one ship; scenario_helm.py reads them from a scenario
       autopilot.py, route.py, evasion.py      the laws of steering
     recorder.py         writes down states and contacts at communication points: the Record of results/
@@ -15,6 +16,6 @@
       run_repr.py, run_frames.py, run_page.py     as text and HTML, as data frames, as a page in a notebook
 
 Data flow: Scenario -> instances and wires (System) -> steps -> Record -> events, summary, bodies (results/) -> Run.
-Imports from: results, show (the page of a run only), scenario, fmi, collision (interface, obstacles), ship. Used by:
-batch, cli, packaging and users of the package.
+Imports from: results, show (the page of a run only), scenario, fmi, manoeuvring (prepared ships), collision (interface,
+obstacles), ship, toolchain (native code). Used by: batch, cli, packaging and users of the package.
 """

@@ -3,7 +3,7 @@
     for k = 0 .. steps-1:     send the orders of k;   one step of the algorithm;   record k+1
 
 The run goes through the FMUs with FMPy, or, in process, drives the same models through the same variables without FMI.
-Both give the same bits.
+Both give the same bits. FMUs without Python give the same events, and states to 1e-6 of their size or better.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from math import radians
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from time import perf_counter
 
 from ..collision.responses import require_adapter
@@ -29,11 +30,16 @@ from .factories import Factories, fmu_factories, model_factories
 from .fmu_files import ready_fmus
 from .interrupt import delay_interrupts
 from .master import ALGORITHMS
+from .native_fmu_files import write_native_fmus
+from .prepared_files import PreparedFiles, prepare_files
 from .recorder import Recorder
 from .run import RUN_FILES, Run
 from .wiring import connect
 
-__all__ = ["Progress", "run_steps", "simulate"]
+__all__ = ["ENGINES", "Progress", "run_steps", "simulate"]
+
+ENGINES = ("python", "native")
+"""What the FMUs of a run have inside."""
 
 Progress = Callable[[int, int], None]
 """Called after every step with the steps done and the steps in all."""
@@ -45,6 +51,7 @@ def simulate(
     algorithm: str | None = None,
     step: float | None = None,
     in_process: bool = False,
+    engine: str = "python",
     fmi: int = 2,
     out: str | Path | None = None,
     overwrite: bool = False,
@@ -55,7 +62,8 @@ def simulate(
     There it replaces the files of an earlier run; files of other origin only with `overwrite`.
 
     `algorithm` ("gauss-seidel" or "jacobi") and `step` [s] replace those of the scenario; `fmi` is the version of the
-    FMUs, 2 or 3, which give the same bits. FMUs are built when they are missing or older than the sources. Raises
+    FMUs, 2 or 3, which give the same bits. FMUs are built when they are missing or older than the sources. With
+    `engine` "native" in place of "python" the FMUs run without Python, with the contact response "pgs" alone. Raises
     ScenarioError for options that do not fit, StepError when a model refuses a step, HostError when a package is
     missing or a file cannot be used; nothing is written then.
     """
@@ -63,7 +71,10 @@ def simulate(
         scenario = load_scenario(scenario)
     scenario = scenario.changed(algorithm=algorithm, step=step)
     _check_fmi(fmi, in_process)
-    require_adapter(scenario.collision.response)  # else the FMU refuses to initialise, and the wrapper answers fatal
+    _check_engine(engine, in_process)
+    if engine == "python":
+        require_adapter(scenario.collision.response)  # else the FMU refuses to initialise; the wrapper answers fatal
+    prepared = prepare_files(scenario) if engine == "native" else None
     if out is not None:
         check_writable(Path(out))
         if not overwrite:
@@ -72,11 +83,13 @@ def simulate(
     with ExitStack() as stack:
         if in_process:
             factories = model_factories(names, stack)
+        elif prepared is not None:
+            folder = Path(stack.enter_context(TemporaryDirectory(prefix="shipcollision-")))
+            factories = fmu_factories(write_native_fmus(folder, names, prepared, fmi), stack, names, fmi)
         else:
             factories = fmu_factories(ready_fmus(names, fmi), stack, names, fmi)
-        record, wall_time = run_steps(scenario, ships, factories, progress)
-    mode = "in process" if in_process else "FMU" if fmi == 2 else f"FMU, FMI {fmi}.0"
-    run = _run(scenario, ships, record, mode, wall_time)
+        record, wall_time = run_steps(scenario, ships, factories, progress, prepared)
+    run = _run(scenario, ships, record, _name_mode(engine, fmi, in_process), wall_time)
     if out is not None:
         run.write(out)
     return run
@@ -87,6 +100,23 @@ def _check_fmi(fmi: int, in_process: bool) -> None:
         raise ScenarioError(f"fmi = {fmi!r} must be 2 or 3, the version of FMI that the FMUs are built for")
     if in_process and fmi != 2:
         raise ScenarioError(f"fmi = {fmi} with in_process = True: there is no FMI in process; leave one of the two out")
+
+
+def _check_engine(engine: str, in_process: bool) -> None:
+    if engine not in ENGINES:
+        raise ScenarioError(f"engine = {engine!r} must be one of {', '.join(map(repr, ENGINES))}")
+    if in_process and engine != "python":
+        raise ScenarioError(
+            f"engine = {engine!r} with in_process = True: in process Python runs; leave one of them out"
+        )
+
+
+def _name_mode(engine: str, fmi: int, in_process: bool) -> str:
+    """What ran, for timing.json."""
+    if in_process:
+        return "in process"
+    kind = "native FMU" if engine == "native" else "FMU"
+    return kind if fmi == 2 else f"{kind}, FMI {fmi}.0"
 
 
 def _run(scenario: Scenario, ships: Mapping[str, Ship], record: Record, mode: str, wall_time: float) -> Run:
@@ -109,10 +139,15 @@ def _run(scenario: Scenario, ships: Mapping[str, Ship], record: Record, mode: st
 
 
 def run_steps(
-    scenario: Scenario, ships: Mapping[str, Ship], factories: Factories, progress: Progress | None = None
+    scenario: Scenario,
+    ships: Mapping[str, Ship],
+    factories: Factories,
+    progress: Progress | None = None,
+    prepared: PreparedFiles | None = None,
 ) -> tuple[Record, float]:
-    """The record of a run with components from `factories`, and the wall time of the step loop [s]."""
-    system, helms = connect(scenario, ships, *factories)
+    """The record of a run with components from `factories`, and the wall time of the step loop [s]; prepared: files of
+    native FMUs."""
+    system, helms = connect(scenario, ships, *factories, prepared)
     recorder = Recorder(system, list(scenario.ships), scenario.step, scenario.steps, list(scenario.obstacles))
     advance, step, steps = ALGORITHMS[scenario.algorithm], scenario.step, scenario.steps
     recorder.record(0)

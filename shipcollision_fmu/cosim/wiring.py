@@ -18,15 +18,20 @@ from .factories import MakeCollision, MakeShip
 from .helm import Helm
 from .master import System, Wire
 from .parameters import collision_parameters, ship_parameters, surroundings
+from .prepared_files import PreparedFiles
 from .scenario_helm import build_helm
 
 __all__ = ["connect"]
 
 
 def connect(
-    scenario: Scenario, ships: Mapping[str, Ship], make_ship: MakeShip, make_collision: MakeCollision
+    scenario: Scenario,
+    ships: Mapping[str, Ship],
+    make_ship: MakeShip,
+    make_collision: MakeCollision,
+    prepared: PreparedFiles | None = None,
 ) -> tuple[System, list[Helm]]:
-    """The scenario's instances, initialised and wired, and the helms of its `ships`.
+    """The scenario's instances, initialised and wired, and the helms of its `ships`; prepared: files of native FMUs.
 
     The two functions make the components and own them: they close all, also when this function fails.
     """
@@ -39,7 +44,8 @@ def connect(
         around = instances[name].reals(SURROUNDINGS)
         around.values[:] = surroundings(scenario)
         inputs = [around, helm.group] if helm.load(0) else [around]
-        instances[name].initialise(ship_parameters(scenario, name, start), end, inputs)
+        instead = prepared.list_ship_values(name) if prepared is not None else {}
+        instances[name].initialise({**ship_parameters(scenario, name, start), **instead}, end, inputs)
         helms.append(helm)
 
     collision = make_collision()
@@ -56,7 +62,8 @@ def connect(
     for helm, (name, start) in zip(helms, scenario.ships.items(), strict=True):
         helm.own = buffers[name]
         helm.other = None if start.evasion is None else buffers[start.evasion.of]
-    collision.initialise(collision_parameters(scenario), end, [wire.inputs for wire in states])
+    instead = prepared.list_collision_values() if prepared is not None else {}
+    collision.initialise({**collision_parameters(scenario), **instead}, end, [wire.inputs for wire in states])
     for wire in answers:
         wire.outputs.read()
     return System(list(instances.values()), collision, states, answers), helms

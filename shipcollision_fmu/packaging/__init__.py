@@ -9,6 +9,6 @@
     osp.py                writes a folder; osp_groups.py has its variable groups
     xml_file.py           XML documents and values in the spelling of the hosts
 
-Data flow: Scenario -> SystemStructure -> files. Imports from: cosim (parameters of a scenario), fmi (FMUs, variable
-tables), collision (interface), manoeuvring (prepared ships), scenario, ship (loading). Used by: cli.
+Data flow: Scenario -> SystemStructure -> files. Imports from: cosim (parameters and prepared files of a scenario), fmi
+(FMUs, variable tables), collision (interface), scenario, ship (loading). Used by: cli.
 """

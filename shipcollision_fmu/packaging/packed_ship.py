@@ -2,23 +2,20 @@
 
 A shipped ship keeps its name because every FMU holds all of them. A user's file may extend others and name a mesh
 anywhere. It becomes ships/NAME.toml in the FMU's resources, with the tables of all its files merged, and the mesh
-becomes ships/NAME.obj. The ship loaded from there is the same to the bit. A native FMU reads no TOML: there the ship
-becomes ships/NAME.ship, a prepared file.
+becomes ships/NAME.obj. The ship loaded from there is the same to the bit. A native FMU reads no TOML: see
+cosim/prepared_files.py.
 """
 
 from __future__ import annotations
 
 from pathlib import Path, PurePosixPath
 
+from ..cosim.prepared_files import FOLDER
 from ..errors import ShipError
-from ..manoeuvring.prepared_ship import SUFFIX, prepare_ship
 from ..scenario.toml_writer import format_toml
 from ..ship.loading.library import list_ship_names, read_ship_tables
 
-__all__ = ["FOLDER", "pack_prepared_ship", "pack_ship"]
-
-FOLDER = "ships"
-"""Folder of ship files in an FMU's resources; the slave resolves the parameter `ship` from there."""
+__all__ = ["pack_ship"]
 
 
 def pack_ship(name: str, ship: str) -> tuple[str, dict[str, bytes]]:
@@ -42,11 +39,3 @@ def pack_ship(name: str, ship: str) -> tuple[str, dict[str, bytes]]:
     place = str(PurePosixPath(FOLDER, f"{name}.toml"))
     files[place] = format_toml([f"From {source}, with the tables that it extends."], content).encode()
     return place, files
-
-
-def pack_prepared_ship(name: str, ship: str) -> tuple[str, dict[str, bytes]]:
-    """The same for a native FMU."""
-    if ship in list_ship_names():
-        return ship, {}
-    place = str(PurePosixPath(FOLDER, f"{name}{SUFFIX}"))
-    return place, {place: prepare_ship(ship)}

@@ -20,6 +20,7 @@ from math import isclose
 
 from ..cosim.component import Value
 from ..cosim.parameters import collision_parameters, ship_parameters, surroundings
+from ..cosim.prepared_files import PreparedFiles, prepare_files
 from ..errors import ScenarioError
 from ..fmi.names import ANSWERS, APPLIED, ORDERS, STATE, SURROUNDINGS, named
 from ..fmi.ship_collision import INTERFACE as COLLISION_INTERFACE
@@ -29,7 +30,7 @@ from ..scenario.scenario import Scenario
 from ..scenario.tables.ship_start import ShipStart
 from .foreign_ship import ForeignShip
 from .instance import COLLISION, Connection, Instance
-from .packed_ship import pack_prepared_ship, pack_ship
+from .packed_ship import pack_ship
 from .replaced_ship import build_replaced_ship, connect_replaced_ship, describe_replaced_ship, list_frames
 
 __all__ = [
@@ -82,9 +83,10 @@ def build_system_structure(
     native: tuple[str, ...] = (),
 ) -> SystemStructure:
     """The system of a scenario, for a version of FMI; foreign: ship models of others in place of ours, by ship;
-    native: platforms for which our ships run without Python.
+    native: platforms for which ships and collision run without Python.
 
-    Raises ScenarioError for a ship named COLLISION, and for a foreign one that is not there, ShipError for a ship file.
+    Raises ScenarioError for a ship named COLLISION, for a foreign one that is not there, and for a contact response
+    that needs Python in a native system; ShipError for a ship file.
     """
     if COLLISION in scenario.ships:
         raise ScenarioError(
@@ -94,15 +96,15 @@ def build_system_structure(
     for name in foreign:
         if name not in ships:
             raise ScenarioError(f"--replace {name}: {scenario.name} has no such ship: it has {', '.join(ships)}")
-    packed = {name: pack_ship(name, scenario.ship_file(name)) for name in ships}
+    packed = _pack_files(scenario) if not native else prepare_files(scenario)
     built: list[Instance] = []
     for name, ship in scenario.ships.items():
         built.append(
             build_replaced_ship(name, foreign[name], ships)
             if name in foreign
-            else _build_ship(scenario, name, ship, packed[name], native)
+            else _build_ship(scenario, name, ship, packed, native)
         )
-    collision = _build_collision(scenario, packed, foreign)
+    collision = _build_collision(scenario, packed, foreign, native)
     duration, step = scenario.scenario.duration, scenario.step
     ours = {name: ship for name, ship in scenario.ships.items() if name not in foreign}
     return SystemStructure(
@@ -132,24 +134,32 @@ def build_system_structure(
     )
 
 
+def _pack_files(scenario: Scenario) -> PreparedFiles:
+    """The same for FMUs with Python, which read ships and obstacles in TOML."""
+    packed = {name: pack_ship(name, scenario.ship_file(name)) for name in scenario.ships}
+    places = {name: place for name, (place, _) in packed.items()}
+    files = {name: needed for name, (_, needed) in packed.items()}
+    return PreparedFiles(places, "", files, {})
+
+
 def _build_ship(
-    scenario: Scenario, name: str, ship: ShipStart, packed: tuple[str, dict[str, bytes]], native: tuple[str, ...]
+    scenario: Scenario, name: str, ship: ShipStart, packed: PreparedFiles, native: tuple[str, ...]
 ) -> Instance:
-    place, files = pack_prepared_ship(name, scenario.ship_file(name)) if native else packed
-    parameters = {**ship_parameters(scenario, name, ship), "ship": place}
+    parameters = {**ship_parameters(scenario, name, ship), **packed.list_ship_values(name)}
     at_start = next((ordered for k, ordered in schedule_orders(ship, scenario.step) if k == 0), [0.0, 0.0])
     inputs: dict[str, Value] = {
         **dict(zip(ORDERS, at_start, strict=True)),
         **dict(zip(SURROUNDINGS, surroundings(scenario), strict=True)),
     }
     start = {**parameters, **inputs}
+    files = packed.of_ships[name]
     return Instance(name, SHIP_INTERFACE, tuple(scenario.ships), start, tuple(start), files, native=native)
 
 
 def _build_collision(
-    scenario: Scenario, packed: Mapping[str, tuple[str, dict[str, bytes]]], foreign: Mapping[str, ForeignShip]
+    scenario: Scenario, packed: PreparedFiles, foreign: Mapping[str, ForeignShip], native: tuple[str, ...]
 ) -> Instance:
-    parameters = {**collision_parameters(scenario), **{f"{name}.ship": place for name, (place, _) in packed.items()}}
+    parameters = {**collision_parameters(scenario), **packed.list_collision_values()}
     for name, one in foreign.items():
         parameters |= list_frames(name, one)
     states: dict[str, Value] = {}
@@ -157,10 +167,10 @@ def _build_collision(
         start = ship.start
         state = (*start.position, *start.attitude, *start.velocity, *start.rate)
         states |= dict(zip(named(name, STATE), state, strict=True))
-    files = {place: data for _, needed in packed.values() for place, data in needed.items()}
     return Instance(
-        COLLISION, COLLISION_INTERFACE, tuple(scenario.ships), {**parameters, **states}, tuple(parameters), files
-    )
+        COLLISION, COLLISION_INTERFACE, tuple(scenario.ships), {**parameters, **states}, tuple(parameters),
+        packed.list_collision_files(), native=native,
+    )  # fmt: skip
 
 
 def _list_connections(scenario: Scenario, name: str) -> list[Connection]:

@@ -6,7 +6,7 @@ import platform
 import sys
 from dataclasses import dataclass
 
-__all__ = ["PLATFORMS", "Platform", "Target", "find_own_target"]
+__all__ = ["PLATFORMS", "Platform", "Target", "find_own_platform", "find_own_target"]
 
 
 @dataclass(frozen=True)
@@ -65,6 +65,12 @@ PLATFORMS = {
 
 _SYSTEMS = {"linux": "linux", "win32": "windows", "darwin": "darwin"}
 _MACHINES = {"x86_64": "x86_64", "amd64": "x86_64", "aarch64": "aarch64", "arm64": "aarch64"}
+
+
+def find_own_platform() -> Platform | None:
+    """The platform that this Python runs on, None when it is none of PLATFORMS."""
+    own = find_own_target()
+    return next((one for one in PLATFORMS.values() if own in one.targets), None)
 
 
 def find_own_target() -> Target | None:

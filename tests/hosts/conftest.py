@@ -19,7 +19,7 @@ NAMES = ("guan2014", "under_way", NATIVE)
 @pytest.fixture(scope="session")
 def encounters(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Encounter]:
     """guan2014 coasts, answered by Bullet; under_way sails two VLCCs into each other, answered by pgs, and they part;
-    NATIVE is the same with ships that run without Python.
+    NATIVE is the same in FMUs that run without Python.
 
     Not at a right angle amidships: there both corners of the stem touch at once, and the last bit decides which first.
     """
@@ -31,14 +31,15 @@ def encounters(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Encounter]
     made = {name: Encounter.packaged(told, tmp_path_factory.mktemp(name)) for name, told in scenarios.items()}
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(libraries, "native_cache", lambda: NATIVE_CACHE)
-        folder = tmp_path_factory.mktemp("native ships")
+        folder = tmp_path_factory.mktemp("native FMUs")
         made[NATIVE] = Encounter.packaged(scenarios["under_way"], folder, native=("linux64",))
     return made
 
 
 @pytest.fixture(scope="session")
 def ours(encounters: dict[str, Encounter]) -> dict[str, tuple[Rows, int, dict[str, list[float]]]]:
-    """Rows, number of collisions and all exchanged values of our own parallel master."""
-    made = {name: encounters[name].ours() for name in NAMES}
+    """Rows, number of collisions and all exchanged values of our own parallel master; of native FMUs through FMI."""
+    made = {name: encounters[name].ours() for name in NAMES if name != NATIVE}
+    made[NATIVE] = encounters[NATIVE].ours(through_fmi=True)
     assert all(np.isfinite(rows).all() and impacts == 1 for rows, impacts, _ in made.values())
     return made

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
-from contextlib import ExitStack
+from contextlib import ExitStack, closing
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -13,8 +13,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from shipcollision_fmu.cosim.factories import model_factories
+from shipcollision_fmu.cosim.component import Component
+from shipcollision_fmu.cosim.factories import Factories, model_factories
+from shipcollision_fmu.cosim.fmi2_component import Fmi2Component
+from shipcollision_fmu.cosim.fmu_instance import UnpackedFmu
 from shipcollision_fmu.cosim.master import jacobi
+from shipcollision_fmu.cosim.prepared_files import prepare_files
 from shipcollision_fmu.cosim.wiring import connect
 from shipcollision_fmu.fmi.names import APPLIED, IMPULSE, STATE, named
 from shipcollision_fmu.packaging.osp import write_osp
@@ -38,7 +42,7 @@ class Encounter:
 
     @classmethod
     def packaged(cls, scenario: Scenario, folder: Path, native: tuple[str, ...] = ()) -> Encounter:
-        """native: platforms for which the ships run without Python."""
+        """native: platforms for which all run without Python."""
         write_osp(scenario, folder / "osp", native=native)
         if not build_system_structure(scenario).orders:
             write_ssp(scenario, folder / "package.ssp", native=native)
@@ -70,11 +74,15 @@ class Encounter:
             "observed": self.observed, "record": record, **more,
         }  # fmt: skip
 
-    def ours(self) -> tuple[Rows, int, dict[str, list[float]]]:
-        """Our own parallel master in process: rows, number of collisions, and every connected output by point."""
+    def ours(self, *, through_fmi: bool = False) -> tuple[Rows, int, dict[str, list[float]]]:
+        """Our own parallel master in process, or with the packaged FMUs: rows, number of collisions, and every
+        connected output by point."""
         with ExitStack() as stack:
-            factories = model_factories(tuple(self.scenario.ships), stack)
-            system, helms = connect(self.scenario, self.scenario.load_ships(), *factories)
+            if through_fmi:
+                factories, prepared = self._open_fmus(stack), prepare_files(self.scenario)
+            else:
+                factories, prepared = model_factories(tuple(self.scenario.ships), stack), None
+            system, helms = connect(self.scenario, self.scenario.load_ships(), *factories, prepared)
             issued = system.collision.reals([variable for name in self.ships for variable in named(name, IMPULSE)])
             impacts = system.collision.integers(["impact.count"])
             sent = [f"{name}|{variable}" for name in self.ships for variable in (*STATE, *APPLIED)]
@@ -97,6 +105,15 @@ class Encounter:
                 take_down()
             impacts.read()
             return np.array(rows), int(impacts.values[0]), given
+
+    def _open_fmus(self, stack: ExitStack) -> Factories:
+        """Factories of the instances that the package holds an FMU for each of."""
+
+        def make(name: str) -> Component:
+            fmu = stack.enter_context(closing(UnpackedFmu(self.folder / "osp" / f"{name}.fmu")))
+            return stack.enter_context(closing(Fmi2Component(name, fmu)))
+
+        return make, lambda: make("collision")
 
     def rows(self, result: dict[str, Any]) -> Rows:
         """Of what a host found; NaN where it does not show a point."""

@@ -118,13 +118,24 @@ def test_a_ship_file_travels_with_what_it_extends(scenario_file: Write, tmp_path
     assert pack_ship("own", "kcs") == ("kcs", {})
 
 
-def test_native_ships_are_prepared_and_the_collision_stays_as_it_is(
+QUAY = """
+[obstacles.quay]
+kind = "quay"
+shape = "box"
+length = 400.0
+breadth = 30.0
+position = [0.0, 700.0]
+"""
+
+
+def test_ships_and_obstacles_of_a_native_system_are_prepared(
     scenario_file: Write, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     library = Binary("linux64", ".so", b"ELF")
     monkeypatch.setattr(native_fmus, "build_binaries", lambda name, platforms: {2: [library]})
     monkeypatch.setattr(native_fmus, "list_ship_names", lambda: ["buoy"])
-    scenario = load_scenario(str(scenario_file()))
+    monkeypatch.setattr(native_fmus, "read_bullet_licence", lambda: "zlib")
+    scenario = load_scenario(str(scenario_file(added=QUAY)))
     own, _, collision = build_system_structure(scenario, native=("linux64",)).instances
     (tmp_path / "own.fmu").write_bytes(own.build_fmu())
     assert started(tmp_path / "own.fmu")["ship"] == "ships/own.ship"
@@ -134,8 +145,22 @@ def test_native_ships_are_prepared_and_the_collision_stays_as_it_is(
         assert archive.read("resources/ships/own.ship") == prepare_ship(scenario.ship_file("own"))
     assert "binaries/linux64/ShipManoeuvring.so" in names
     assert not any(name.endswith((".py", ".toml")) for name in names)
-    assert collision.native == ()
-    assert collision.start["own.ship"] == "ships/own.toml"
+    (tmp_path / "collision.fmu").write_bytes(collision.build_fmu())
+    start = started(tmp_path / "collision.fmu")
+    assert (start["own.ship"], start["obstacles"]) == ("ships/own.ship", "scenario.obstacles")
+    with zipfile.ZipFile(tmp_path / "collision.fmu") as archive:
+        names = archive.namelist()
+        assert b"presets 0 1 2" in archive.read("resources/variables.txt")
+        assert b'name "quay"' in archive.read("resources/scenario.obstacles")
+    assert {"binaries/linux64/ShipCollision.so", "resources/ships/target.ship"} <= set(names)
+    assert not any(name.endswith((".py", ".toml")) for name in names)
+
+
+def test_a_response_that_needs_python_is_not_packaged_without_it() -> None:
+    with pytest.raises(
+        ScenarioError, match=r"\[collision\] response = 'bullet' needs Python, and native code has 'pgs'"
+    ):
+        build_system_structure(load_scenario("guan2014"), native=("linux64",))
 
 
 @pytest.mark.slow

@@ -147,17 +147,21 @@ def native_fmu_bytes(
     start: Mapping[str, Any] | None = None,
     resources: Mapping[str, bytes] | None = None,
     sources: bool = False,
+    shipped: Sequence[str] | None = None,
 ) -> bytes:
     """One native FMU as bytes, with the libraries of that version of FMI.
 
-    `start` and `resources`: see instance_fmu; `scalar` and `sources`: see build_native_fmus.
+    `start` and `resources`: see instance_fmu; `scalar` and `sources`: see build_native_fmus. `shipped` are those of
+    the shipped ships that are needed; without it all are there.
     """
     name = interface.name
     ships = ships if name == COLLISION else ()
     platforms = tuple(binary.folder for binary in binaries)
     files = {
         **{f"binaries/{one.folder}/{name}{one.suffix}": one.content for one in binaries},
-        **{f"resources/{place}": content for place, content in {**_prepare_ships(), **(resources or {})}.items()},
+        **{
+            f"resources/{place}": content for place, content in {**_prepare_ships(shipped), **(resources or {})}.items()
+        },
         "documentation/index.html": make_page(interface, ships, fmi, scalar, platforms).encode(),
         **_list_licences(name),
         **list_icons(interface, ships, fmi, scalar),
@@ -191,9 +195,10 @@ def _describe(
     return model_description_fmi2(interface, ships, token, start, native=True, sources=compiled)
 
 
-def _prepare_ships() -> dict[str, bytes]:
-    """The shipped ships by their place among the resources; half a second at the first time."""
-    return {f"{SHIPS}/{name}{SUFFIX}": _prepare(name) for name in list_ship_names()}
+def _prepare_ships(names: Sequence[str] | None) -> dict[str, bytes]:
+    """Shipped ships by their place among the resources, all without names; half a second at the first time."""
+    chosen = list_ship_names() if names is None else names
+    return {f"{SHIPS}/{name}{SUFFIX}": _prepare(name) for name in chosen}
 
 
 _prepare = cache(prepare_ship)

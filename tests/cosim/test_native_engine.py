@@ -1,0 +1,97 @@
+"""Runs through FMUs without Python beside runs of the same scenario with it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from shipcollision_fmu import load_scenario, simulate
+from shipcollision_fmu.cosim.run import Run
+from shipcollision_fmu.errors import ScenarioError
+from shipcollision_fmu.toolchain import libraries
+from tests.conftest import NATIVE_CACHE
+from tests.cosim.test_obstacles import AHEAD, AWAY, FENDER, QUAY
+
+Write = Callable[..., Path]
+
+
+@pytest.fixture
+def native(native_fmus: object, native_collisions: object, monkeypatch: pytest.MonkeyPatch) -> Callable[..., Run]:
+    """simulate() with native FMUs, whose libraries were compiled for these tests."""
+    monkeypatch.setattr(libraries, "native_cache", lambda: NATIVE_CACHE)
+    return lambda scenario, **options: simulate(scenario, engine="native", **options)
+
+
+def differ(run: Run, other: Run, rows: slice = slice(None)) -> float:
+    """The largest difference of a state, as a share of the largest of its kind; of 1e-3 where that is rounding."""
+    names = [name for name in run.states.dtype.names or () if run.states.dtype[name].kind == "f"]
+    found = 0.0
+    for name in names:
+        kind = name.rpartition(".")[0]
+        size = max(np.abs(other.states[one]).max() for one in names if one.rpartition(".")[0] == kind)
+        off = np.abs(run.states[name][rows] - other.states[name][rows]).max()
+        found = max(found, float(off / max(size, 1e-3)))
+    return found
+
+
+def list_collisions(run: Run) -> list[tuple[Any, ...]]:
+    return [(one["ship_a"], one["ship_b"], round(one["start"], 6)) for one in run.events["collisions"]]
+
+
+@pytest.mark.parametrize(
+    ("options", "line"),
+    [
+        ({"engine": "C"}, "engine = 'C' must be one of 'python', 'native'"),
+        ({"engine": "native", "in_process": True}, "engine = 'native' with in_process = True: in process Python runs"),
+        (
+            {"engine": "native"},
+            r"\[collision\] response = 'bullet' needs Python, and native code has 'pgs' alone: take 'pgs', or run the",
+        ),
+    ],
+)
+def test_what_does_not_fit_is_said_first(options: dict[str, Any], line: str, tmp_path: Path) -> None:
+    with pytest.raises(ScenarioError, match=line):
+        simulate("guan2014", out=tmp_path / "run", **options)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
+def test_a_published_encounter_is_the_same(native: Callable[..., Run], algorithm: str) -> None:
+    scenario = load_scenario("guan2014_added_mass").changed(algorithm=algorithm)
+    run, again = native(scenario), native(scenario, fmi=3)
+    python = simulate(scenario, in_process=True)
+    assert (run.timing["mode"], again.timing["mode"]) == ("native FMU", "native FMU, FMI 3.0")
+    assert run.states.tolist() == again.states.tolist()
+    assert differ(run, python) < 1e-9
+    assert list_collisions(run) == list_collisions(python) != []
+    assert run.contacts["ship_a"].tolist() == python.contacts["ship_a"].tolist()
+
+
+@pytest.mark.slow
+def test_a_long_scrape_begins_and_ends_the_same(native: Callable[..., Run]) -> None:
+    """To 29 s, 2 s after the first contact. Later the last bit decides once which of two equal normals is taken."""
+    run, python = native("kvlcc2_crossing"), simulate("kvlcc2_crossing", in_process=True)
+    assert differ(run, python, slice(0, 580)) < 1e-9
+    assert differ(run, python) < 1e-4
+    assert list_collisions(run) == list_collisions(python) != []
+    assert len(run.contacts) == len(python.contacts)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("fender", ["", FENDER])
+def test_ships_and_obstacles_of_the_users_are_prepared(
+    native: Callable[..., Run], scenario_file: Write, fender: str
+) -> None:
+    scenario = load_scenario(scenario_file(AHEAD, AWAY, added=QUAY + fender))
+    run, python = native(scenario), simulate(scenario, in_process=True)
+    assert differ(run, python) < 1e-9
+    assert list_collisions(run) == list_collisions(python)
+    assert {str(one) for one in run.contacts["ship_b"]} == {"quay"}
+    assert run.summary["obstacles"]["quay"]["impulse"] == pytest.approx(
+        python.summary["obstacles"]["quay"]["impulse"], rel=1e-9, abs=1.0
+    )
