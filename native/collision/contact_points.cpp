@@ -35,7 +35,7 @@ void ContactPoints::clear() {
 bool ContactPoints::make(const Impulse& impulse, double energy, Point& made) {
   const Contact& c = impulse.contact;
   const int part = parts_.size();
-  if (!parts_.add({impulse.P, c.normal, c.point, c.r_a, c.r_b, c.at, -1})) return false;
+  if (!parts_.reserve(FIRST_PARTS) || !parts_.add({impulse.P, c.normal, c.point, c.r_a, c.r_b, c.at, -1})) return false;
   const double P_n = dot(impulse.P, c.normal);
   made = {c.a, c.b, part, part, c.gap, impulse.P, P_n, impulse.P - P_n * c.normal, energy, 0, 0, {}};
   return true;

@@ -30,6 +30,8 @@ class ContactPoints {
   void fill(Buffer<ContactOutput>& outputs) const;
 
  private:
+  static constexpr int FIRST_PARTS = 64;  // for which there is room from the first on
+
   // An impulse that was merged into a point. next: of the same point, -1 for the last.
   struct Part {
     Three P, normal, place, r_a, r_b, at;

@@ -36,6 +36,8 @@ struct ShipCollision::World : OnHeap {
 
 // What changes in time, and memory for a step.
 struct ShipCollision::Run : OnHeap {
+  static constexpr int ROOM_TO_SAVE = 4096;  // bytes; more than the mechanics of a pair in contact have
+
   Run(World& world, const CollisionParameters& p, const CollisionInputs& inputs, CollisionOutputs& outputs,
       Memory& memory)
       : world(world), exchange(world.bodies, inputs, outputs, memory),
@@ -463,7 +465,7 @@ bool ShipCollision::Run::set_state(ByteReader& bytes) {
 bool ShipCollision::Run::save() {
   ByteWriter counted;
   get_mechanics(counted);
-  if (!saved.resize(static_cast<int>(counted.size()))) return false;
+  if (!saved.reserve(ROOM_TO_SAVE) || !saved.resize(static_cast<int>(counted.size()))) return false;
   ByteWriter bytes(saved.data(), counted.size());
   get_mechanics(bytes);
   return true;

@@ -68,7 +68,7 @@ class Buffer {
   // Room for so many.
   bool reserve(int size) {
     if (size <= room_) return true;
-    int room = room_ > 0 ? room_ : 8;
+    int room = room_ > 0 ? room_ : FIRST_ROOM;
     while (room < size && room < (1 << 29)) room *= 2;
     void* grown = room < size ? nullptr : realloc(static_cast<void*>(entries_), static_cast<size_t>(room) * sizeof(T));
     if (grown == nullptr) {
@@ -85,6 +85,9 @@ class Buffer {
   }
 
  private:
+  // What the contacts of two or three pairs need: most steps ask for no more than the first that had a contact.
+  static constexpr int FIRST_ROOM = sizeof(T) < 64 ? 512 / static_cast<int>(sizeof(T)) : 8;
+
   Memory* memory_;
   T* entries_ = nullptr;
   int size_ = 0;

@@ -22,7 +22,7 @@ class Dense {
   // To that size, with entries of any value. False without memory; the matrix is then as it was.
   bool resize(int rows, int columns) {
     const long long size = static_cast<long long>(rows) * columns;
-    if (!entries_.resize(size > __INT_MAX__ ? __INT_MAX__ : static_cast<int>(size))) return false;
+    if (!entries_.reserve(FIRST_ROOM) || !entries_.resize(size > __INT_MAX__ ? __INT_MAX__ : static_cast<int>(size))) return false;
     rows_ = rows;
     columns_ = columns;
     return true;
@@ -39,6 +39,8 @@ class Dense {
   }
 
  private:
+  static constexpr int FIRST_ROOM = 24 * 24;  // eight contacts
+
   Vector entries_;
   int rows_ = 0, columns_ = 0;
 };

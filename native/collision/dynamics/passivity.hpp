@@ -11,7 +11,8 @@ class ImpulseGroups {
  public:
   explicit ImpulseGroups(Memory& memory) : root_(memory), group_of_root_(memory), group_(memory) {}
 
-  // False without memory.
+  // Room for so many impulses of two bodies. False without memory, here and below.
+  bool reserve(int count) { return root_.reserve(2) && group_.reserve(count) && group_of_root_.reserve(2); }
   bool find(const Impulse* impulses, int count, const BodyState* states);
   int count() const { return count_; }
   // The number of the group of an impulse; groups are numbered as they come.

@@ -24,8 +24,7 @@ bool is_of_pair(const Impulse& impulse, const Contact& first) {
 }  // namespace
 
 void SelfStress::remove(Impulse* impulses, int count, BodyState* states, double mu) {
-  if (mu == 0.0 || count < 2 || !is_done_.fill(count, 0)) return;
-  if (!members_.reserve(count) || !sticking_.reserve(count) || !reserve(count)) return;
+  if (mu == 0.0 || !reserve(count) || count < 2) return;
   for (int first = 0; first < count; ++first) {
     if (is_done_[first]) continue;
     members_.clear();
@@ -46,7 +45,8 @@ void SelfStress::remove(Impulse* impulses, int count, BodyState* states, double 
 }
 
 bool SelfStress::reserve(int contacts) {
-  return twists_.resize(12, 2 * contacts) && root_.resize(2 * contacts) && T_.resize(2 * contacts) &&
+  return is_done_.fill(contacts, 0) && members_.reserve(contacts) && sticking_.reserve(contacts) &&
+         twists_.resize(12, 2 * contacts) && root_.resize(2 * contacts) && T_.resize(2 * contacts) &&
          least_.resize(2 * contacts) && N_.resize(contacts) && split_.resize(contacts);
 }
 

@@ -48,6 +48,10 @@ void add(Jacobian& sum, double share, const Jacobian& G) {
 
 bool EnergySplit::split_losses(const Booked* booked, int count, const BodyState* states, double friction,
                                double restitution, Loss* losses) {
+  if (!impulses_.resize(count) || !is_done_.fill(count, 0) || !group_.reserve(count) || !pair_.reserve(count) ||
+      !groups_.reserve(count)) {
+    return false;
+  }
   bool are_none = true, is_one_pair = true;
   for (int i = 0; i < count; ++i) {
     losses[i] = {booked[i].lost, 0.0};
@@ -56,9 +60,6 @@ bool EnergySplit::split_losses(const Booked* booked, int count, const BodyState*
   }
   if (friction == 0.0 || are_none) return true;
   if (is_one_pair && split_straight(booked, count, losses)) return true;
-  if (!impulses_.resize(count) || !is_done_.fill(count, 0) || !group_.reserve(count) || !pair_.reserve(count)) {
-    return false;
-  }
   for (int i = 0; i < count; ++i) impulses_[i] = booked[i].impulse;
   if (!groups_.find(impulses_.data(), count, states)) return false;
   for (int group = 0; group < groups_.count(); ++group) {
