@@ -6,7 +6,6 @@ namespace {
 constexpr double ROUNDING = 1e-12;  // of heights, as a share of the largest coordinate; more than what they have
 constexpr double BORDER = 1e-9;     // by which cells overlap, as a share of the cube's half edge
 constexpr int CORNERS = 4;
-constexpr int MOST = 65535;  // numbers of two bytes
 
 }  // namespace
 
@@ -14,7 +13,7 @@ void Foremost::set_up(const double* coordinates, int count) {
   count_ = count;
   if (!coordinates_.add(coordinates, 3 * count)) return;
   slack_ = ROUNDING * largest_size(coordinates, 3 * count);
-  if (count <= FEW || count > MOST) return;
+  if (count <= FEW || count >= ALL) return;
   constexpr int CELLS = 6 * PARTS * PARTS;
   if (heights_.resize(CORNERS * count) && pool_.reserve(CELLS * IN_CELL)) cells_.fill(CELLS, {0, 0});
 }
@@ -66,12 +65,12 @@ void Foremost::fill(int cell) {
     if (!can_be_foremost) continue;
     if (pool_.size() == 6 * PARTS * PARTS * IN_CELL) {
       pool_.cut(begin);
-      cells_[cell] = {0, -1};
+      cells_[cell] = {0, ALL};
       return;
     }
     pool_.add(static_cast<unsigned short>(p));
   }
-  cells_[cell] = {begin, pool_.size() - begin};
+  cells_[cell] = {static_cast<unsigned short>(begin), static_cast<unsigned short>(pool_.size() - begin)};
 }
 
 }  // namespace shipcollision

@@ -18,7 +18,7 @@ class Foremost {
     if (cell < 0) return find_among_all(x, y, z);
     if (cells_[cell].count == 0) fill(cell);
     const Cell& of = cells_[cell];
-    if (of.count < 0) return find_among_all(x, y, z);
+    if (of.count == ALL) return find_among_all(x, y, z);
     const unsigned short* numbers = pool_.data() + of.begin;
     int found = numbers[0];
     double most = height(found, x, y, z);
@@ -32,13 +32,16 @@ class Foremost {
     return found;
   }
 
+  const double* point(int i) const { return coordinates_.data() + 3 * i; }
+
  private:
   static constexpr int PARTS = 9;    // of an edge of the cube; odd, so that its axes are inside of cells
   static constexpr int FEW = 16;     // points that are looked at one by one
+  static constexpr int ALL = 65535;
   static constexpr int IN_CELL = 6;  // numbers that a cell may have in the mean
 
   struct Cell {
-    int begin, count;  // in pool_; 0 for one not yet asked for, -1 for all points
+    unsigned short begin, count;  // in pool_; 0 for one not yet asked for, ALL for all points
   };
 
   // -1 for a direction that has none.

@@ -68,7 +68,8 @@ class QuickHull : public btConvexHullShape {
   }
 
   btVector3 localGetSupportingVertexWithoutMargin(const btVector3& direction) const override {
-    return getUnscaledPoints()[foremost_.find(direction.x(), direction.y(), direction.z())];
+    const double* found = foremost_.point(foremost_.find(direction.x(), direction.y(), direction.z()));
+    return btVector3(found[0], found[1], found[2]);
   }
 
   // Largest height of a corner along a direction in b [m].
