@@ -34,9 +34,9 @@ SHIPCOLLISION_EXPORT bool shipcollision_time_steps(void* collision, int steps, d
         ShipState& given = model.inputs.ships[i];
         const ShipPost& post = model.outputs.ships[i];
         if (k == 0 || has_all) {
-          const double* state = states + (k * ships + i) * STATE;
           Three* const parts[] = {&given.position, &given.attitude, &given.velocity, &given.rate};
-          for (int part = 0; part < 4; ++part) *parts[part] = {{state[3 * part], state[3 * part + 1], state[3 * part + 2]}};
+          const double* state = states + (k * ships + i) * STATE;
+          for (int part = 0; part < 4; ++part, state += 3) *parts[part] = {{state[0], state[1], state[2]}};
         } else {
           given = {post.position, post.attitude, post.velocity, post.rate, {}};
           given.velocity[0] += i == 0 ? push[0] : 0.0;

@@ -41,7 +41,7 @@ struct ShipCollision::Run : OnHeap {
   Run(World& world, const CollisionParameters& p, const CollisionInputs& inputs, CollisionOutputs& outputs,
       Memory& memory)
       : world(world), exchange(world.bodies, inputs, outputs, memory),
-        proximity(world.bodies, world.detector, p.clearance_range, memory), collisions(memory), fenders(memory),
+        proximity(world.bodies, world.detector, p.clearance_range, p.substep, memory), collisions(memory), fenders(memory),
         caches(memory), diagnosis(world.bodies, exchange.ledgers(), inputs, outputs.diagnosis, memory),
         advancement(world.bodies, world.detector, memory), response(memory), passivity(memory), energy_split(memory),
         self_stress(memory), points(memory), solution(memory), states(memory), is_met(memory), is_colliding(memory),

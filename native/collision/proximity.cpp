@@ -19,9 +19,9 @@ Rectangle widen(const Rectangle& r, double by) {
 
 }  // namespace
 
-Proximity::Proximity(const Bodies& bodies, Detector& detector, double clearance_range, Memory& memory)
-    : bodies_(bodies), detector_(detector), range_(clearance_range), broad_phase_(memory), obstacles_(memory),
-      rectangles_(memory), pairs_(memory), near_(memory), bounds_(memory) {
+Proximity::Proximity(const Bodies& bodies, Detector& detector, double clearance_range, double substep, Memory& memory)
+    : bodies_(bodies), detector_(detector), range_(clearance_range), substep_(substep), broad_phase_(memory),
+      obstacles_(memory), rectangles_(memory), pairs_(memory), near_(memory), bounds_(memory) {
   for (int i = bodies.ships(); i < bodies.size(); ++i) {
     obstacles_.add(widen(bodies[i].rectangle, 0.5 * clearance_range + bodies[i].fender_thickness));
   }
@@ -61,7 +61,10 @@ const Buffer<NearPair>& Proximity::find_near(const Buffer<Pair>& candidates, con
     const double most =
         REACH_MARGIN + (one.fender_thickness + H * speed_a) + (other.fender_thickness + H * speed_b);
     if (find_bounds_distance(pair, states) > most) continue;
-    const double gap = detector_.clearance(pair, states, most);
+    // No substep is shorter, but for one that is the whole step.
+    const double soon = min(H, 0.5 * substep_) * (speed_a + speed_b);
+    const bool is_soon = detector_.are_surely_within(pair, states, soon);
+    const double gap = is_soon ? 0.5 * soon : detector_.clearance(pair, states, most);
     if (gap < most) near_.add({pair, gap, speed_a + speed_b});
   }
   return near_;

@@ -9,7 +9,7 @@ namespace shipcollision {
 
 struct NearPair {
   Pair pair;
-  double gap;       // between the hulls [m]
+  double gap;       // between the hulls [m]; where it can close within a substep, any that can
   double approach;  // bound of its speed [m/s]
 };
 
@@ -22,7 +22,7 @@ struct Clearance {
 class Proximity {
  public:
   // bodies, detector: outlive it.
-  Proximity(const Bodies& bodies, Detector& detector, double clearance_range, Memory& memory);
+  Proximity(const Bodies& bodies, Detector& detector, double clearance_range, double substep, Memory& memory);
 
   // Pairs that could touch, or come within clearance_range, in H [s]. states, has_state: of the ships; one without is
   // taken as received. is_absent: ships that take no part, null for none.
@@ -42,7 +42,7 @@ class Proximity {
 
   const Bodies& bodies_;
   Detector& detector_;
-  double range_;
+  double range_, substep_;
   BroadPhase broad_phase_;
   Buffer<Rectangle> obstacles_, rectangles_;
   Buffer<Pair> pairs_;

@@ -22,7 +22,8 @@ class Dense {
   // To that size, with entries of any value. False without memory; the matrix is then as it was.
   bool resize(int rows, int columns) {
     const long long size = static_cast<long long>(rows) * columns;
-    if (!entries_.reserve(FIRST_ROOM) || !entries_.resize(size > __INT_MAX__ ? __INT_MAX__ : static_cast<int>(size))) return false;
+    const int entries = size > __INT_MAX__ ? __INT_MAX__ : static_cast<int>(size);
+    if (!entries_.reserve(FIRST_ROOM) || !entries_.resize(entries)) return false;
     rows_ = rows;
     columns_ = columns;
     return true;

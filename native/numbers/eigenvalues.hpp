@@ -8,9 +8,9 @@ namespace shipcollision {
 // The largest eigenvalue of a symmetric matrix, which is changed. work: three numbers for each row.
 double find_largest_eigenvalue(Dense& A, double* work);
 
-// Makes of the rows of a matrix orthonormal ones, which come first and span what they spanned, and returns how many they
-// are. Rows count as dependent when no more than the share `least` of the longest is left of them (Gram and Schmidt, the
-// longest first).
+// Makes of the rows of a matrix orthonormal ones, which come first and span what they spanned; returns how many they
+// are. A row of which no more than the share `least` of the longest is left depends on the others (Gram and Schmidt,
+// the longest first).
 int orthonormalise_rows(Dense& A, double least);
 
 }  // namespace shipcollision

@@ -26,6 +26,13 @@ double find_cell_size(const Buffer<Rectangle>& rectangles, int moving) {
   return max(max(size, longest / sqrt(static_cast<double>(MOST_CELLS))), 1e-6);
 }
 
+// Of a cell, the number of the chain that its entries are in. Different cells may share one.
+int find_chain(double row, double column, int bits) {
+  const auto r = static_cast<unsigned long long>(static_cast<long long>(row));
+  const auto c = static_cast<unsigned long long>(static_cast<long long>(column));
+  return static_cast<int>((r * 0x9e3779b97f4a7c15ull + c * 0xc2b2ae3d27d4eb4full) >> (64 - bits));
+}
+
 // Number of cells from one place to the other, never more than any rectangle has.
 int count_cells(double from, double to) { return static_cast<int>(min(to - from, double{MOST_CELLS})) + 1; }
 
@@ -41,37 +48,43 @@ void BroadPhase::near_pairs(const Buffer<Rectangle>& rectangles, int moving, Buf
     }
     return;
   }
-  fill_cells(rectangles, find_cell_size(rectangles, moving));
-  for (int i = 0; i < cells_.size(); ++i) {
-    const Cell& cell = cells_[i];
-    if (cell.body >= moving) continue;
-    for (int k = i + 1; k < cells_.size() && cells_[k].row == cell.row && cells_[k].column == cell.column; ++k) {
-      if (meet(rectangles[cell.body], rectangles[cells_[k].body])) pairs.add({cell.body, cells_[k].body});
-    }
+  if (enter_cells(rectangles, moving, find_cell_size(rectangles, moving), pairs)) {
+    sort(pairs.data(), pairs.size(),
+         [](const Pair& p, const Pair& q) { return p.a < q.a || (p.a == q.a && p.b < q.b); });
   }
-  sort(pairs.data(), pairs.size(), [](const Pair& p, const Pair& q) { return p.a < q.a || (p.a == q.a && p.b < q.b); });
-  int count = 0;
-  for (const Pair& pair : pairs) {
-    if (count == 0 || !(pairs[count - 1] == pair)) pairs[count++] = pair;
-  }
-  pairs.cut(count);
 }
 
-void BroadPhase::fill_cells(const Buffer<Rectangle>& rectangles, double size) {
-  cells_.clear();
+// Enters the bodies in their cells, one after the other, and compares each with those that are in a cell already. False
+// without memory.
+bool BroadPhase::enter_cells(const Buffer<Rectangle>& rectangles, int moving, double size, Buffer<Pair>& pairs) {
+  int bits = LEAST_BITS;
+  while (1 << bits < CHAINS_OF_BODY * rectangles.size() && bits < MOST_BITS) ++bits;
+  entries_.clear();
+  if (!latest_.fill(1 << bits, -1)) return false;
   for (int i = 0; i < rectangles.size(); ++i) {
     const Rectangle& r = rectangles[i];
     const double row = floor(r.north_from / size), column = floor(r.east_from / size);
     const int rows = count_cells(row, floor(r.north_to / size)), columns = count_cells(column, floor(r.east_to / size));
     for (int m = 0; m < rows; ++m) {
-      for (int n = 0; n < columns; ++n) cells_.add({row + m, column + n, i});
+      for (int n = 0; n < columns; ++n) {
+        const Entry entry{row + m, column + n, i, m == 0, n == 0, -1};
+        int& latest = latest_[find_chain(entry.row, entry.column, bits)];
+        for (int k = latest; k >= 0; k = entries_[k].before) {
+          const Entry& other = entries_[k];
+          if (other.row != entry.row || other.column != entry.column || other.body >= moving) continue;
+          // Of the cells that both are in, the first alone counts.
+          const bool is_first_row = entry.is_first_row || other.is_first_row;
+          const bool is_first_column = entry.is_first_column || other.is_first_column;
+          if (is_first_row && is_first_column && meet(rectangles[other.body], r)) pairs.add({other.body, i});
+        }
+        const int before = latest;
+        if (!entries_.add(entry)) return false;
+        entries_.last().before = before;
+        latest = entries_.size() - 1;
+      }
     }
   }
-  sort(cells_.data(), cells_.size(), [](const Cell& p, const Cell& q) {
-    if (p.row != q.row) return p.row < q.row;
-    if (p.column != q.column) return p.column < q.column;
-    return p.body < q.body;
-  });
+  return true;
 }
 
 }  // namespace shipcollision

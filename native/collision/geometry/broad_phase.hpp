@@ -18,20 +18,28 @@ inline bool operator==(const Pair& p, const Pair& q) { return p.a == q.a && p.b 
 
 class BroadPhase {
  public:
-  explicit BroadPhase(Memory& memory) : cells_(memory) {}
+  explicit BroadPhase(Memory& memory) : latest_(memory), entries_(memory) {}
 
   // Pairs, sorted, whose rectangles overlap or touch and of which the first is one of the `moving`, which come first.
   void near_pairs(const Buffer<Rectangle>& rectangles, int moving, Buffer<Pair>& pairs);
 
  private:
-  struct Cell {
+  static constexpr int CHAINS_OF_BODY = 4;
+  static constexpr int LEAST_BITS = 8;
+  static constexpr int MOST_BITS = 20;
+
+  // A body in a cell.
+  struct Entry {
     double row, column;
     int body;
+    bool is_first_row, is_first_column;  // of the body
+    int before;                          // the entry before it in its chain; -1: none
   };
 
-  void fill_cells(const Buffer<Rectangle>& rectangles, double size);
+  bool enter_cells(const Buffer<Rectangle>& rectangles, int moving, double size, Buffer<Pair>& pairs);
 
-  Buffer<Cell> cells_;
+  Buffer<int> latest_;  // entry of each chain
+  Buffer<Entry> entries_;
 };
 
 }  // namespace shipcollision

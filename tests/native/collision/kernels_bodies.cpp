@@ -69,7 +69,7 @@ void schedule(const double* in, double* out) {
     states.add(state);
   }
   for (int i = bodies.ships(); i < bodies.size(); ++i) states.add(bodies[i].wall);
-  Proximity proximity(bodies, world->detector, 150.0, memory);
+  Proximity proximity(bodies, world->detector, 150.0, 0.0, memory);  // without a substep all are measured
   const Buffer<Pair>& candidates =
       proximity.find_candidates(states.data(), has_state, received.data(), H, is_absent);
   put.real(candidates.size());
