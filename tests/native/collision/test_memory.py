@@ -22,7 +22,8 @@ CASES = {
     "pressed": ([[0.0, 0.0, 0.0, 0.0, 0.05, 0.0], BESIDE], [0.0, 0.002], 4),
     "bow into side": ([[0.0, 0.0, 0.0, 3.0, 0.0, 0.0], [190.0, 20.0, 1.6, 3.0, 0.0, 0.0]], [0.01, 0.0], 2),
 }
-"""Of each ship north, east, heading, surge, sway and rate of turn; what is added to surge and sway of the first ship in each step, and the most contacts that come of it."""
+"""Of each ship north, east, heading, surge, sway and rate of turn; what is added to surge and sway of the first ship in
+each step; and the most contacts that come of it."""
 
 
 @pytest.mark.parametrize("case", CASES)
