@@ -13,7 +13,7 @@ constexpr double SLOWEST_CLOSING = 0.05;
 constexpr double GRAZING = 0.03;
 
 constexpr double OVERLAP = 0.012;  // [m] of the sections at first, as encounters/targeting.py has it
-constexpr double DEEPER = 0.002;   // [m] by which the next attempt overlaps more than the gap that was left
+constexpr double DEEPER = 0.002;   // [m] by which the second attempt overlaps more than the gap that was left
 constexpr double DEEPEST = 1.0;    // [m] Corners of hulls are rounded by centimetres; more is another place
 constexpr int ATTEMPTS = 12;
 
@@ -132,18 +132,26 @@ ImpactStatus Impacts::answer(const ImpactCase& given, ImpactRow& row, Text& why)
   if (status != ImpactStatus::done) return status;
   collision_.parameters.friction = given.friction;
   collision_.parameters.restitution = given.restitution;
-  double overlap = OVERLAP;
+  double overlap = OVERLAP, deeper = DEEPER;
   for (int attempt = 0; attempt < ATTEMPTS && overlap < DEEPEST; ++attempt) {
     if (!touch(placed, overlap, why)) return ImpactStatus::refused;
-    if (collision_.outputs.contact_count > 0) {
-      fill(placed, row);
-      return ImpactStatus::done;
-    }
-    overlap += collision_.outputs.clearance + DEEPER;
+    if (collision_.outputs.contact_count > 0) return finish(placed, row, why);
+    overlap += max(collision_.outputs.clearance, 0.0) + deeper;  // it is negative where hulls overlap
+    deeper *= 2.0;  // detection may miss a shallow overlap of two edges
   }
-  why << "the hulls lie along each other at the place and do not touch there: change the angle by a degree or two, or "
-         "the place";
+  why << "the collision model finds no contact at the place: change the angle by a degree or two, or the place";
   return ImpactStatus::no_contact;
+}
+
+// The answered contact; one along whose normal the hulls part is refused.
+ImpactStatus Impacts::finish(const Placed& placed, ImpactRow& row, Text& why) const {
+  if (collision_.outputs.impact.closing_speed > 0.0) {
+    fill(placed, row);
+    return ImpactStatus::done;
+  }
+  why << "the hulls touch at the place along a normal on which they part: change the angle, the speeds, the side or the "
+         "place";
+  return ImpactStatus::not_closing;
 }
 
 // Where the sections touch; ships that do not close there are refused.

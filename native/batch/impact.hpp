@@ -68,6 +68,7 @@ class Impacts : public OnHeap {
   bool is_ready(const ImpactShip& own, const ImpactShip& target);
   ImpactStatus answer(const ImpactCase& given, ImpactRow& row, Text& why);
   ImpactStatus place(const ImpactCase& given, Placed& placed, Text& why) const;
+  ImpactStatus finish(const Placed& placed, ImpactRow& row, Text& why) const;
   bool touch(const Placed& placed, double overlap, Text& why);
   void fill(const Placed& placed, ImpactRow& row) const;
   void give_state(int ship, const InPlan& position, double heading, const Three& motion);

@@ -5,7 +5,7 @@ The collision model answers this one contact: no time passes, before or after. A
 comes to it, and goes on: the bow may slide along the side and press again.
 
     place      as for an encounter: a point of the target's section at the height of the lower deck
-    overlap    12 mm at first, then deeper by the gap that is left: hulls of many corners are rounded by centimetres
+    overlap    12 mm at first, then deeper by the gap that is left: Bullet rounds the corners of hulls by centimetres
 
 The work is done by native/batch, about 100 microseconds for each case, without the interpreter.
 """

@@ -202,6 +202,18 @@ def test_a_case_has_its_reason() -> None:
     assert (rows["energy"] > 0.0).tolist() == [True, False, False, False]
 
 
+def test_hulls_that_part_along_the_normal_are_refused() -> None:
+    """At the end of a section the normal of the contact may be another one than that of the place."""
+    rows = impact("kcs", "buoy", np.linspace(27.5, 80.0, 40), -0.497, 3.2, 3.1, degrees_of_freedom=6)
+    done, parting = rows["status"] == 0, rows["status"] == 2
+    assert done.any()
+    assert (rows["closing_speed"][done] > 0.0).all()
+    assert {reason.decode() for reason in rows["reason"][parting]} == {
+        "the hulls touch at the place along a normal on which they part: change the angle, the speeds, the side or the "
+        "place"
+    }
+
+
 def test_a_row_depends_on_its_case_alone() -> None:
     """Not on the order, the shape or the thread."""
     arguments = draw_cases(120)
