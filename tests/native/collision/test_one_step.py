@@ -1,0 +1,117 @@
+"""native/collision: one step from each state of whole runs, beside the Python model from the same state.
+
+The runs are those of the Python model, so that no difference is carried from step to step. Where rounding chooses among
+equal features the answers differ: such a step is explained by the Python model itself (one_step.py).
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+import pytest
+
+from shipcollision_fmu import load_scenario, simulate
+from shipcollision_fmu.collision.model import ShipCollision
+from tests.collision.conftest import World
+from tests.collision.test_random_encounters import encounter
+from tests.native.collision.one_step import OneStep, Tally
+
+pytestmark = pytest.mark.needs("pybullet")
+
+H = 0.2
+EVERY = 20
+"""Of the far steps of random encounters, one of so many is compared."""
+DIFFERING = 0.05
+"""Largest share of the compared steps in which rounding chooses."""
+
+
+@contextmanager
+def compared(tally: Tally) -> Iterator[None]:
+    """Meanwhile each step of each Python model with the response `pgs` is compared."""
+    step: Callable[..., None] = ShipCollision.step
+    beside: dict[ShipCollision, OneStep] = {}
+
+    def step_both(model: ShipCollision, t: float, H: float) -> None:
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(ShipCollision, "step", step)
+            if model not in beside:
+                beside[model] = OneStep(model, tally)
+            beside[model].step(model.step, t, H)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(ShipCollision, "step", step_both)
+        yield
+    for each in beside.values():
+        each.close()
+
+
+def run_encounter(seed: int, tally: Tally) -> None:
+    """A random encounter, answered by pgs; ships that coast straight, or by Kirchhoff's equations."""
+    names, starts, parameters = encounter(random.Random(seed))
+    duration, plane = parameters.pop("time"), parameters["degrees_of_freedom"] == 3
+    law = "straight" if seed % 2 else "kirchhoff" if plane else "free"
+    w = World(names, starts, **{"coasting": law, **parameters, "response": "pgs"})
+    beside, take = OneStep(w.model, tally, seed, EVERY), w.model.step
+    w.model.step = lambda t, H: beside.step(take, t, H)
+    while w.t < duration and all(abs(ship.attitude[0]) < 1.0 for ship in w.model.outputs.ships):
+        w.step(H)
+    w.model.close()
+    beside.close()
+
+
+def check(tally: Tally) -> None:
+    print(tally.describe())  # noqa: T201  # of a soak
+    assert tally.left == []
+    assert len(tally.differ) <= max(1.0, DIFFERING * tally.compared)
+    assert tally.residual <= 1.0  # both answers obey the law of contact alike
+    assert tally.touched > 0
+
+
+@pytest.mark.parametrize(
+    ("name", "algorithm"),
+    [
+        ("guan2014_added_mass", "jacobi"),
+        pytest.param("guan2014_added_mass", "gauss-seidel", marks=pytest.mark.slow),
+        pytest.param("guan2014", "gauss-seidel", marks=pytest.mark.slow),
+        pytest.param("guan2014", "jacobi", marks=pytest.mark.slow),
+    ],
+)
+def test_each_step_of_a_published_collision(name: str, algorithm: str) -> None:
+    """The response of guan2014 is PyBullet's own, and pgs here."""
+    tally, scenario = Tally(), load_scenario(name)
+    collision = scenario.collision.model_copy(update={"response": "pgs"})
+    with compared(tally):
+        simulate(scenario.model_copy(update={"collision": collision}), algorithm=algorithm, in_process=True)
+    check(tally)
+    assert tally.compared == tally.taken == 120
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
+def test_each_step_of_a_crossing(algorithm: str) -> None:
+    tally = Tally()
+    with compared(tally):
+        simulate("kvlcc2_crossing", algorithm=algorithm, in_process=True)
+    check(tally)
+    assert tally.touched > 200
+
+
+def run_block(seeds: range) -> None:
+    print(f"seeds {seeds.start} to {seeds.stop - 1}")  # noqa: T201  # of a soak
+    tally = Tally()
+    for seed in seeds:
+        run_encounter(seed, tally)
+    check(tally)
+
+
+@pytest.mark.slow
+def test_random_encounters() -> None:
+    run_block(range(100, 115))
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("block", range(100))
+def test_ten_thousand_random_encounters(block: int) -> None:
+    run_block(range(1000 + 100 * block, 1100 + 100 * block))
