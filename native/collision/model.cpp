@@ -153,7 +153,7 @@ bool ShipCollision::World::follows_from(const CollisionParameters& p) const {
 }
 
 bool ShipCollision::prepare(World*& prepared, Text& why) {
-  if (world_ != nullptr && world_->follows_from(parameters)) {
+  if (world_ != nullptr && !has_old_files_ && world_->follows_from(parameters)) {
     prepared = world_;
     return true;
   }
@@ -202,6 +202,7 @@ void ShipCollision::keep(World* world, Run* run) {
   if (world != world_) delete world_;
   world_ = world;
   run_ = run;
+  has_old_files_ = false;
 }
 
 void ShipCollision::give_up(World* world, Run* run) {

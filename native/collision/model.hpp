@@ -34,6 +34,8 @@ class ShipCollision : public OnHeap {
   // Takes in of which ships any state was ever set. Without a call all ships are there.
   void note_state_set(int ship, bool is_set) { is_absent_[ship] = !is_set; }
 
+  // Prepared files stay read while the parameters that name them do. After this call initialise() reads them again.
+  void forget_files() { has_old_files_ = true; }
   bool initialise(Text& why);
   bool step(double t, double H, Text& why);
 
@@ -72,6 +74,7 @@ class ShipCollision : public OnHeap {
   Buffer<char> letters_{memory_};
   Buffer<const char*> names_{memory_};
   Buffer<bool> is_absent_{memory_};
+  bool has_old_files_ = false;
   World* world_ = nullptr;
   Run* run_ = nullptr;
   mutable Text event_;

@@ -31,6 +31,8 @@ class Model : public OnHeap {
   virtual void forget_inputs_set() {}
   virtual void note_input_set(const char* /*path*/) {}
 
+  // The next initialise() reads files that an earlier one read, too: they may have changed.
+  virtual void forget_files() {}
   // Reads parameters and start values, computes the outputs of the start. May be called again.
   virtual bool initialise(Text& why) = 0;
   virtual bool step(double t, double h, Text& why) = 0;

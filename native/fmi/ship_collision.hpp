@@ -16,6 +16,7 @@ class ShipCollisionFmu : public Model {
   bool asks_for_inputs_set() const override { return true; }
   void forget_inputs_set() override;
   void note_input_set(const char* path) override;
+  void forget_files() override { framed_.collision.forget_files(); }
   bool initialise(Text& why) override { return framed_.initialise(why); }
   bool step(double t, double h, Text& why) override { return framed_.step(t, h, why); }
   size_t state_size() const override { return framed_.collision.state_size(); }

@@ -419,6 +419,7 @@ void VariableAccess::reset() {
   ByteReader fresh(fresh_, fresh_size_);
   take_values(fresh, false);
   forget_set();
+  model_->forget_files();
   parameters_size_ = 0;
   is_read_ = false;
   is_dirty_ = true;

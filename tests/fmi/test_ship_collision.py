@@ -17,8 +17,11 @@ from shipcollision_fmu.fmi.builder.native_fmus import native_instance_fmu
 from shipcollision_fmu.fmi.names import APPLIED, ATTITUDE, IMPULSE, POSITION, POST, RATE, STATE, VELOCITY, named
 from shipcollision_fmu.fmi.ship_collision import INTERFACE
 from shipcollision_fmu.fmi.variable_access import VariableAccess
+from shipcollision_fmu.manoeuvring.prepared_ship import prepare_ship
 from shipcollision_fmu.ship.frames import rotation
 from shipcollision_fmu.toolchain.fmu_binaries import Binary
+from tests.fmi.test_limits import LIMITED
+from tests.ship_files import ship_toml
 
 OK, DISCARD, ERROR = 0, 2, 3
 Make = Callable[..., Any]
@@ -288,6 +291,22 @@ def test_what_needs_python_is_refused_in_one_line(
 
 @pytest.mark.slow
 @pytest.mark.parametrize("form", ["native"], indirect=True)
+def test_native_code_keeps_the_limits_of_the_description(collision: Make) -> None:
+    """Just outside is refused."""
+    fmu = collision()
+    for made_from, line, limit, outward in LIMITED:
+        if made_from is not INTERFACE:
+            continue
+        far = int(limit) + (1 if outward > 0 else -1) if line.kind == "Integer" else math.nextafter(limit, outward)
+        set_value = fmu.fmu.setInteger if line.kind == "Integer" else fmu.fmu.setReal
+        set_value(fmu.reference(line.name), [far])
+        assert fmu.begin() == ERROR, line.name
+        assert line.name.rpartition(".")[2] in fmu.messages[-1][1]
+        fmu.fmu.reset()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("form", ["native"], indirect=True)
 def test_a_start_value_of_an_instance_makes_a_ship(
     host: Make, folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -331,3 +350,20 @@ def test_ships_of_any_number_have_their_names(
     access.initialise()
     access.do_step(0.0, 0.1)
     assert one.reals("clearance") == pytest.approx(access.get_real(access.references(["clearance"])), rel=1e-12)
+
+
+@pytest.mark.parametrize("form", FORMS, indirect=True)
+def test_a_ship_file_that_has_changed_is_read_after_a_reset(collision: Make, form: str, tmp_path: Path) -> None:
+    suffix, write = (".ship", prepare_ship) if form == "native" else (".toml", str.encode)
+    toml, place = tmp_path / "barge.toml", tmp_path / f"file{suffix}"
+    fmu = collision()
+    found = []
+    for length in (100.0, 110.0):
+        toml.write_text(ship_toml().replace("L_pp = 100.0", f"L_pp = {length}"), encoding="utf-8")
+        place.write_bytes(write(str(toml) if form == "native" else toml.read_text(encoding="utf-8")))
+        fmu.fmu.setString(fmu.reference("own.ship", "target.ship"), [str(place)] * 2)
+        fmu.fmu.setReal(fmu.reference("own.position.north", "target.position.north"), [0.0, 150.0])
+        assert fmu.begin() == OK
+        found += fmu.reals("clearance")
+        fmu.fmu.reset()
+    assert found[1] - found[0] == pytest.approx(-10.0, abs=0.1)

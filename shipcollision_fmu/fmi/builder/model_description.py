@@ -8,8 +8,10 @@ on what. No document has a date, so that the same sources give the same file.
 from __future__ import annotations
 
 import math
+from collections import defaultdict
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from itertools import accumulate
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from ... import __version__
@@ -26,6 +28,7 @@ __all__ = [
     "format_number",
     "format_start",
     "list_limits",
+    "list_sources",
     "open_document",
     "to_bytes",
 ]
@@ -179,19 +182,24 @@ def format_start(variable: Variable, reference: int, access: VariableAccess) -> 
     return str(access.get_integer([reference])[0])
 
 
-def find_dependencies(variable: Variable, table: Table) -> list[int]:
-    """Value references, in order, of what an output depends on at the start. Raises ValueError for a name that is
-    nowhere in the table."""
+def list_sources(table: Table) -> dict[str, list[int]]:
+    """Value references of parameters and inputs by name, and by each begin of a name that a dot ends."""
+    found: dict[str, list[int]] = defaultdict(list)
+    for reference, line in enumerate(table):
+        if line.causality != "output":
+            for name in accumulate(line.name.split("."), "{}.{}".format):
+                found[name].append(reference)
+    return dict(found)
+
+
+def find_dependencies(variable: Variable, sources: Mapping[str, list[int]]) -> list[int]:
+    """Value references, in order, of what an output depends on at the start; sources: those of its table. Raises
+    ValueError for a name that is nowhere in the table."""
     found: set[int] = set()
     for source in variable.depends_on or ():
-        named = {
-            reference
-            for reference, other in enumerate(table)
-            if other.causality != "output" and (other.name == source or other.name.startswith(f"{source}."))
-        }
-        if not named:
+        if source not in sources:
             raise ValueError(f"variable {variable.name} depends on {source!r}, which is no parameter or input")
-        found |= named
+        found.update(sources[source])
     return sorted(found)
 
 

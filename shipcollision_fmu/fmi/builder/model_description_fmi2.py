@@ -15,7 +15,15 @@ from xml.etree.ElementTree import Element, SubElement
 from ..interface import Interface
 from ..variable_access import VariableAccess
 from ..variables import Kind, Table, Variable
-from .model_description import Version, describe_variable, find_dependencies, format_start, list_limits, open_document
+from .model_description import (
+    Version,
+    describe_variable,
+    find_dependencies,
+    format_start,
+    list_limits,
+    list_sources,
+    open_document,
+)
 
 __all__ = ["model_description"]
 
@@ -79,6 +87,7 @@ def _structure(root: Element, table: Table) -> None:
     unknowns = [(position, variable) for position, variable in enumerate(table, 1) if variable.causality == "output"]
     if not unknowns:
         return
+    sources = list_sources(table)
     outputs = SubElement(structure, "Outputs")
     for position, _ in unknowns:
         SubElement(outputs, "Unknown", {"index": str(position), "dependencies": ""})
@@ -86,4 +95,4 @@ def _structure(root: Element, table: Table) -> None:
     for position, variable in unknowns:
         node = SubElement(initial, "Unknown", {"index": str(position)})
         if variable.depends_on is not None:
-            node.set("dependencies", " ".join(str(reference + 1) for reference in find_dependencies(variable, table)))
+            node.set("dependencies", " ".join(str(reference + 1) for reference in find_dependencies(variable, sources)))

@@ -20,7 +20,15 @@ from ..interface import Interface
 from ..units import UNITS
 from ..variable_access import VariableAccess
 from ..variables import Kind, Table
-from .model_description import Version, describe_variable, find_dependencies, format_start, list_limits, open_document
+from .model_description import (
+    Version,
+    describe_variable,
+    find_dependencies,
+    format_start,
+    list_limits,
+    list_sources,
+    open_document,
+)
 
 __all__ = ["model_description"]
 
@@ -105,9 +113,10 @@ def _structure(root: Element, gathered: tuple[ArrayVariable, ...], table: Table)
     outputs = [(i, array) for i, array in enumerate(gathered, TIME + 1) if array.line.causality == "output"]
     for reference, _ in outputs:
         SubElement(structure, "Output", {"valueReference": str(reference), "dependencies": ""})
+    sources = list_sources(table)
     within = {scalar: reference for reference, array in enumerate(gathered, TIME + 1) for scalar in array.references}
     for reference, array in outputs:
         node = SubElement(structure, "InitialUnknown", {"valueReference": str(reference)})
         if array.line.depends_on is not None:
-            references = sorted({within[scalar] for scalar in find_dependencies(array.line, table)})
+            references = sorted({within[scalar] for scalar in find_dependencies(array.line, sources)})
             node.set("dependencies", " ".join(map(str, references)))

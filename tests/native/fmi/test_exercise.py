@@ -142,7 +142,18 @@ def test_random_calls_on_a_collision(collisions: dict[str, Path], tmp_path: Path
 @pytest.mark.soak
 def test_more_random_calls_on_a_collision(collisions: dict[str, Path], tmp_path: Path) -> None:
     program = build_exercise(CACHE, tmp_path, *CONTACT, parts=list_fmu_parts("ShipCollision", CACHE))
-    run(program, "calls", collisions, 1000, 100_000, len(COLLISION.table(("own", "target"))) + 5)
+    run(program, "calls", collisions, 1000, 20_000, len(COLLISION.table(("own", "target"))) + 5)
+
+
+@pytest.mark.soak
+def test_two_threads_with_a_collision_each(collisions: dict[str, Path], tmp_path: Path) -> None:
+    """A minute to compile."""
+    program = build_exercise(CACHE, tmp_path, *THREAD, parts=list_fmu_parts("ShipCollision", CACHE))
+    table = COLLISION.table(("own", "target"))
+    names = [line.name for line in table]
+    arrays = [array.name for array in gather_arrays(table)]
+    inputs = names.index("own.velocity.surge"), arrays.index("own.velocity") + 1
+    assert run(program, "threads", collisions, 7, 50, *inputs) == "2 threads, 50 instances each\n"
 
 
 def assert_flat(said: str, steps: int = 1_000_000) -> None:
