@@ -139,7 +139,11 @@ def compare_with_run(scenario: Scenario, run: Any, relative: float) -> None:
 SEQUENTIAL = STEERED.replace("jacobi", "gauss-seidel")
 
 
-@pytest.mark.parametrize("text", [COASTING, STEERED, pytest.param(SEQUENTIAL, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("text", [
+        COASTING, STEERED, pytest.param(SEQUENTIAL, marks=pytest.mark.slow),
+        *(pytest.param(f'{COASTING}feedback = "{word}"\n', marks=pytest.mark.slow) for word in ("force", "none")),
+    ],
+)  # fmt: skip
 def test_an_encounter_is_a_run_of_the_native_models(text: str) -> None:
     """States to the bit at each communication point; collisions and balances as in the events and the summary."""
     scenario = parse_scenario(text, "test")
