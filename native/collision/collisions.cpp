@@ -129,7 +129,12 @@ void Collisions::get_state(ByteWriter& bytes) const {
 
 bool Collisions::set_state(ByteReader& bytes) {
   opened_.clear();
-  return bytes.value(count_) && bytes.value(scratches_) && bytes.value(latest_) && bytes.list(pairs_);
+  if (!bytes.value(count_) || !bytes.value(scratches_) || !bytes.value(latest_) || !bytes.list(pairs_)) return false;
+  for (const State& state : pairs_) {
+    const auto& [a, b] = state.pair;
+    if (!(0 <= a && a < b && b < answering_.size())) return false;  // of a world with more bodies
+  }
+  return true;
 }
 
 }  // namespace shipcollision

@@ -310,6 +310,8 @@ class ShipCollision:
         missing = [part for part in _STATE if part not in state]
         if missing:
             raise StepError(f"the state has no {missing[0]!r}: give what get_state() returned")
+        if any(b >= len(self._bodies) for _, b, *_ in state["collisions"]["pairs"]):  # saved with more obstacles
+            raise StepError("the state is not of ShipCollision: give what get_state() returned")
         self._set_mechanics(state)
         self._diagnosis.set_state(state["diagnosis"])
 

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from shipcollision_fmu.collision.model import ShipCollision
+from shipcollision_fmu.errors import StepError
 from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
 from tests.native.collision.shadow import Shadow
 from tests.native.native_collision import NativeCollision
@@ -130,6 +133,26 @@ def test_a_state_comes_back_to_the_bit() -> None:
     with pytest.raises(Exception, match="the state is not of ShipCollision: give what get_state"):
         native.set_state({"bytes": state["bytes"][:-2]})
     assert native.get_state() == runs[0][0]
+
+
+def test_a_state_with_more_bodies_is_refused() -> None:
+    """Its obstacles may have been in a file that has become shorter."""
+    motions, parallel, parameters = CASES["against a quay"]
+    encounter = Encounter(motions, parallel, **parameters)
+    while not encounter.model.outputs.contact_count:
+        encounter.step(0.25)
+    native = encounter.shadow.native
+    models = (encounter.model, ShipCollision(native.names)), (native, NativeCollision(native._library, native.names))
+    for model, other in models:
+        state = model.get_state()
+        other.parameters = replace(model.parameters, obstacles="")
+        other.initialise()
+        with pytest.raises(StepError, match="the state is not of ShipCollision: give what get_state"):
+            other.set_state(state)
+        other.parameters = model.parameters
+        other.initialise()
+        other.set_state(state)  # the remedy
+        assert other.get_state() == state
 
 
 def test_a_refused_step_changes_nothing() -> None:
