@@ -16,6 +16,8 @@ from .errors import HostError
 __all__ = [
     "IN_PLACE",
     "check_writable",
+    "is_file",
+    "is_folder",
     "refuse_other_origin",
     "refuse_other_texts",
     "user_cache",
@@ -30,6 +32,22 @@ IN_PLACE = "make its folder writable, or room on the disk"
 
 MOST_NAMED = 3
 """Files named in a refusal; more would break its one line."""
+
+
+def is_file(path: Path) -> bool:
+    """Whether there is such a file; a path that the system refuses, such as one too long, is none."""
+    try:
+        return path.is_file()
+    except OSError:
+        return False
+
+
+def is_folder(path: Path) -> bool:
+    """Whether there is such a folder, likewise."""
+    try:
+        return path.is_dir()
+    except OSError:
+        return False
 
 
 def user_cache() -> Path:

@@ -14,6 +14,7 @@ from collections.abc import Iterator
 from contextlib import closing
 from ctypes import c_double
 from math import isfinite
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -23,6 +24,7 @@ from ..collision.feedback import COMMON_FEEDBACKS
 from ..collision.interface import CollisionParameters
 from ..collision.responses import RESPONSES
 from ..errors import ScenarioError
+from ..scenario.tables.header import MAXIMUM_STEPS
 from ..ship.coasting_law import COASTING
 from ..ship.degrees_of_freedom import free_inverse
 from ..ship.ship import Ship
@@ -73,8 +75,13 @@ def collide(
     check_freedom("collide", degrees_of_freedom)
     check_separation("collide", separation)
     for name, value in (("before", before), ("after", after), ("step", step)):
-        if not (isfinite(value) and 0.0 < value <= LONGEST):
+        if not (isinstance(value, Real) and isfinite(value) and 0.0 < value <= LONGEST):
             raise ScenarioError(f"collide: {name} = {value!r} must be seconds, above 0 and at most {LONGEST:g}")
+    if (before + after) / step > MAXIMUM_STEPS:
+        raise ScenarioError(
+            f"collide: step = {step!r} s makes {(before + after) / step:.3g} steps, the limit is {MAXIMUM_STEPS}: "
+            "take a longer step"
+        )
     cases = fill_cases(
         "collide",
         {

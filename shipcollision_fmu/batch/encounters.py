@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from contextlib import closing
 from math import isfinite
+from numbers import Real
 from pathlib import Path
 
 from ..errors import InputError, ScenarioError
@@ -36,9 +37,13 @@ def run_encounters(
     tracks            whether the states at all communication points are kept
 
     A scenario that is refused, or whose models refuse a step, is a row with a status other than zero and the reason.
-    Raises ScenarioError for a separation that is no time, HostError when there is no native library and no compiler.
+    Raises ScenarioError for a separation that is no time, and for what is no list; HostError when there is no native
+    library and no compiler.
     """
     check_separation("run_encounters", separation)
+    if isinstance(scenarios, str | Scenario) or not isinstance(scenarios, Iterable):
+        named = "a Scenario" if isinstance(scenarios, Scenario) else repr(scenarios)
+        raise ScenarioError(f"run_encounters: {named} is no list of scenarios: give [scenario], or more of them")
     book = EncounterBook(tracks)
     with PreparedShips() as files, closing(NativeEncounters()) as native:
         for given in scenarios:
@@ -55,5 +60,5 @@ def run_encounters(
 
 def check_separation(caller: str, separation: float | None) -> None:
     """Raises ScenarioError for a separation that is no time [s]."""
-    if separation is not None and not (isfinite(separation) and separation >= 0.0):
+    if separation is not None and not (isinstance(separation, Real) and isfinite(separation) and separation >= 0.0):
         raise ScenarioError(f"{caller}: separation = {separation!r} must be seconds, at least 0, e.g. 10.0")

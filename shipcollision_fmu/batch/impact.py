@@ -13,6 +13,7 @@ The work is done by native/batch, about 100 microseconds for each case, without 
 from __future__ import annotations
 
 from contextlib import closing
+from numbers import Integral
 from typing import Any
 
 import numpy as np
@@ -80,7 +81,7 @@ def impact(
 
 def check_freedom(caller: str, degrees_of_freedom: int) -> None:
     """Raises ScenarioError for a number of degrees of freedom that no ship has."""
-    if degrees_of_freedom not in FREEDOMS:
+    if not isinstance(degrees_of_freedom, Integral) or degrees_of_freedom not in FREEDOMS:
         raise ScenarioError(
             f"{caller}: degrees_of_freedom = {degrees_of_freedom!r} must be 3 (surge, sway, yaw), 4 (and roll) or 6"
         )
@@ -90,12 +91,12 @@ def fill_cases(caller: str, numbers: dict[str, npt.ArrayLike], side: npt.ArrayLi
     """The table of cases, of the shape to which all arguments broadcast; what is not given is zero."""
     sides = np.asarray(side)
     is_starboard = sides == "starboard"
-    unknown = sides[~(is_starboard | (sides == "port"))]
-    if unknown.size:
-        raise ScenarioError(f"{caller}: side = {unknown.flat[0].item()!r} must be port or starboard")
+    unknown = sides[~(is_starboard | (sides == "port"))].tolist()
+    if unknown:
+        raise ScenarioError(f"{caller}: side = {unknown[0]!r} must be port or starboard")
     try:
         arrays = {name: np.asarray(value, dtype=np.float64) for name, value in numbers.items()}
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         raise ScenarioError(f"{caller}: an argument is no array of numbers: {error}") from None
     try:
         shape = np.broadcast_shapes(sides.shape, *(array.shape for array in arrays.values()))

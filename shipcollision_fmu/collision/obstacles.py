@@ -31,6 +31,7 @@ import numpy as np
 from pydantic import Field, ValidationError, model_validator
 
 from ..errors import InputError
+from ..files import is_file
 from ..ship.frames import Array
 from ..ship.hull.solid import HullMesh
 from ..ship.loading.messages import describe_error
@@ -190,7 +191,7 @@ def read_obstacles(text: str) -> list[Obstacle]:
         return []
     if "\n" not in text.strip() and text.strip().endswith(".toml"):
         path = Path(text.strip())
-        if not path.is_file():
+        if not is_file(path):
             raise InputError(f"obstacles: file {path} does not exist: give TOML text, or the path of a TOML file")
         content, source = read_toml(path, InputError), f"obstacles in {path.name}"
     else:

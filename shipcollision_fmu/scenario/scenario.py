@@ -15,6 +15,7 @@ from pydantic import Field, PrivateAttr, ValidationError, model_validator
 from ..collision.obstacles import ObstacleTable
 from ..collision.ship_names import describe_name_fault, is_identifier, is_ship_name
 from ..errors import ScenarioError, ShipError
+from ..files import is_file, is_folder
 from ..ship.coasting_law import make_coasting
 from ..ship.loading.library import find_models, load_ship
 from ..ship.loading.messages import describe_error, suggest_or_list
@@ -227,12 +228,12 @@ def _locate(name_or_path: str | Path) -> Path:
         raise ScenarioError(f"{text} is no scenario file: make one with `shipcollision import {text} --out FILE.toml`")
     if isinstance(name_or_path, Path) or _is_path(text):
         path = Path(text)
-        if not path.is_file():
-            fault = "is a folder" if path.is_dir() else "does not exist"
+        if not is_file(path):
+            fault = "is a folder" if is_folder(path) else "does not exist"
             raise ScenarioError(f"scenario file {text} {fault}: give the path of a TOML file or one of {names}")
         return path
     path = find_models() / "scenarios" / f"{text}.toml"
-    if not path.is_file():
+    if not is_file(path):
         known = suggest_or_list(text, list_scenario_names(), "give the path of a TOML file")
         raise ScenarioError(f"unknown scenario {text!r}:{known}")
     return path

@@ -73,6 +73,11 @@ def test_times_out_of_range_are_refused() -> None:
     for arguments, words in (
         ({"before": 0.0}, r"before = 0\.0 must be seconds, above 0"), ({"after": float("nan")}, "after = nan must be"),
         ({"separation": -2.0}, r"separation = -2\.0 must be"), ({"degrees_of_freedom": 2}, "degrees_of_freedom = 2"),
+        ({"after": "5"}, "after = '5' must be seconds"), ({"separation": [1.0]}, r"separation = \[1\.0\] must be"),
+        (
+            {"step": 1e-6, "after": 7200.0},  # of 32 bits the number would be negative, and no step be made
+            r"step = 1e-06 s makes 7\.2e\+09 steps, the limit is 1000000: take a longer step",
+        ),
     ):  # fmt: skip
         with pytest.raises(ScenarioError, match=f"^collide: {words}"):
             collide("kvlcc2", "kcs", **arguments)

@@ -201,15 +201,25 @@ def test_an_encounter_ends_after_the_separation() -> None:
         run_encounters([scenario], separation=-1.0)
 
 
+def test_one_scenario_is_no_list() -> None:
+    """It would be taken apart, into its letters or its tables."""
+    scenario = parse_scenario(COASTING, "test")
+    for given, name in (("guan2014", "'guan2014'"), (Path("x.toml"), "PosixPath"), (scenario, "a Scenario"), (3, "3")):
+        with pytest.raises(ScenarioError, match=rf"^run_encounters: {name}.* is no list of scenarios: give \[scenario"):
+            run_encounters(given)
+
+
 def test_a_refused_encounter_has_its_reason() -> None:
     """Whether its scenario, its start or a step is refused; the others are run."""
     scenario = parse_scenario(COASTING.replace("duration = 5.0", "duration = 0.5"), "test")
     closed = parse_scenario(COASTING.replace("[collision]", '[collision]\nresponse = "closed_form"'), "test")
     coarse = parse_scenario(COASTING.replace("[collision]", "[collision]\nsubstep = 1e-6"), "test")
-    rows = run_encounters(["no_such", closed, scenario, coarse])
-    assert rows.encounters["status"].tolist() == [1, 1, 0, 1]
+    rows = run_encounters(["no_such", closed, scenario, coarse, 5000 * "x", 5000 * "x" + ".toml"])
+    assert rows.encounters["status"].tolist() == [1, 1, 0, 1, 1, 1]
     reasons = [reason.decode() for reason in rows.encounters["reason"]]
     assert reasons[0].startswith("unknown scenario 'no_such': known: ")
+    assert reasons[4].startswith("unknown scenario 'xxx")
+    assert reasons[5].startswith("scenario file xxx")
     assert reasons[1].startswith("collision: ")
     assert "closed_form" in reasons[1]
     assert reasons[3].startswith(

@@ -244,12 +244,18 @@ def test_arguments_that_do_not_fit_are_refused() -> None:
             r"do not broadcast to one: at \(2,\), own_speed \(3,\), side",
         ),
         ({"friction": "slippery"}, "an argument is no array of numbers: could not convert string"),
+        ({"friction": 10**400}, "an argument is no array of numbers: int too large"),
+        ({"side": None}, "side = None must be port or starboard"),
         ({"degrees_of_freedom": 5}, "degrees_of_freedom = 5 must be 3"),
+        ({"degrees_of_freedom": 3.0}, r"degrees_of_freedom = 3\.0 must be 3"),
+        ({"degrees_of_freedom": np.array([3, 6])}, r"degrees_of_freedom = array\(\[3, 6\]\) must be 3"),
     ):
         with pytest.raises(ScenarioError, match=f"^impact: .*{words}"):
             impact("kvlcc2", "kcs", **arguments)
     with pytest.raises(ShipError, match="unknown ship 'kvlc'"):
         impact("kvlc", "kcs")
+    with pytest.raises(ShipError, match=r"unknown ship 'x+'"):
+        impact(5000 * "x", "kcs")
 
 
 def test_the_tables_are_those_of_the_library() -> None:

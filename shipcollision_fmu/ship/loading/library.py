@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import ShipError
+from ...files import is_file
 from ..file_stamp import Stamp, digest_content, take_stamp
 from ..ship import Ship
 from .assembly import assemble_ship
@@ -58,7 +59,7 @@ def load_ship(source: str | Path | Mapping[str, Any], directory: Path | None = N
     if isinstance(source, Mapping):
         return _make_ship(_overlay(_convert_to_toml(source), directory or Path(), DICT, ()), DICT)
     _check_source(source)
-    if directory is not None and _is_path(source) and (directory / source).is_file():
+    if directory is not None and _is_path(source) and is_file(directory / source):
         source = directory / source
     path = _locate(source, also=directory)
     return _make_ship(_read_with_base(path, ()), path.name)
@@ -114,7 +115,7 @@ def _locate(name_or_path: str | Path, beside: Path | None = None, also: Path | N
         path = Path(text)
         if beside is not None and not path.is_absolute():
             path = beside / path
-        if not path.is_file():
+        if not is_file(path):
             known = ", ".join(list_ship_names())
             where = "" if Path(text).is_absolute() else f" (looked for in {_list_folders(also, beside or Path())})"
             raise ShipError(f"ship file {text} does not exist: give the path of a TOML file or one of {known}{where}")
@@ -122,7 +123,7 @@ def _locate(name_or_path: str | Path, beside: Path | None = None, also: Path | N
     folders = [find_models() / "ships"] if beside is None else [beside, find_models() / "ships"]
     for folder in folders:
         path = folder / f"{text}.toml"
-        if path.is_file():
+        if is_file(path):
             return path
     known = suggest_or_list(text, list_ship_names(), "give the path of a TOML file")
     raise ShipError(f"unknown ship {text!r}:{known}")
