@@ -9,13 +9,14 @@ constexpr int CORNERS = 4;
 
 }  // namespace
 
-void Foremost::set_up(const double* coordinates, int count) {
+bool Foremost::set_up(const double* coordinates, int count) {
   count_ = count;
-  if (!coordinates_.add(coordinates, 3 * count)) return;
+  if (!coordinates_.add(coordinates, 3 * count)) return false;
   slack_ = ROUNDING * largest_size(coordinates, 3 * count);
-  if (count <= FEW || count >= ALL) return;
+  if (count <= FEW || count >= ALL) return true;
   constexpr int CELLS = 6 * PARTS * PARTS;
   if (heights_.resize(CORNERS * count) && pool_.reserve(CELLS * IN_CELL)) cells_.fill(CELLS, {0, 0});
+  return true;
 }
 
 int Foremost::find_among_all(double x, double y, double z) const {

@@ -9,8 +9,9 @@ namespace shipcollision {
 // cell is found when the cell is first asked for, and kept: the answer depends on points and direction alone.
 class Foremost {
  public:
-  // x, y, z of each point, to be called once. Without memory find() looks at all points.
-  void set_up(const double* coordinates, int count);
+  // x, y, z of each point, to be called once. False without memory for them: find() then must not be called. Without
+  // memory for more, it looks at all points.
+  bool set_up(const double* coordinates, int count);
 
   // The lowest number of those with the largest of d'p, summed in the order of x, y and z.
   int find(double x, double y, double z) {

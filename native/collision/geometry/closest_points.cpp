@@ -7,6 +7,7 @@
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "../../numbers/foremost.hpp"
@@ -63,7 +64,7 @@ class QuickHull : public btConvexHullShape {
     for (int i = 0; i < getNumPoints(); ++i) {
       for (int k = 0; k < 3; ++k) coordinates.push_back(getUnscaledPoints()[i][k]);
     }
-    foremost_.set_up(&coordinates[0], getNumPoints());
+    if (!foremost_.set_up(&coordinates[0], getNumPoints())) return;
     m_shapeType = CUSTOM_CONVEX_SHAPE_TYPE;  // of Bullet's own type, it would search by itself
   }
 
@@ -75,7 +76,7 @@ class QuickHull : public btConvexHullShape {
   // Largest height of a corner along a direction in b [m].
   double reach_along(const Three& direction) const {
     const btVector3 along = swap_axes(direction.at);
-    return localGetSupportingVertexWithoutMargin(along).dot(along);
+    return localGetSupportVertexWithoutMarginNonVirtual(along).dot(along);
   }
 
  private:
@@ -221,12 +222,12 @@ PlacedHulls::PlacedHulls(int ships, const int* parts, const int* corners, const 
   }
   answer_bits_ = LEAST_BITS;
   while (1 << answer_bits_ < ANSWERS_OF_PART * parts_ && answer_bits_ < MOST_BITS) ++answer_bits_;
-  answers_ = new Answer[size_t{1} << answer_bits_]();
-  for (int i = 0; i < 1 << answer_bits_; ++i) answers_[i].part_a = -1;
+  answers_ = static_cast<Answer*>(calloc(size_t{1} << answer_bits_, sizeof(Answer)));
+  for (int i = 0; i < 1 << answer_bits_ && answers_ != nullptr; ++i) answers_[i].part_a = -1;
 }
 
 PlacedHulls::~PlacedHulls() {
-  delete[] answers_;
+  free(answers_);
   delete[] ships_;
 }
 
@@ -258,7 +259,9 @@ void PlacedHulls::place(int ship, const double x[3], const double R_nb[9]) {
 bool PlacedHulls::closest_of_parts(int a, int part_a, int b, int part_b, double distance, Closest& found) const {
   const Ship &one = ships_[a], &other = ships_[b];
   const int number_a = one.first_part + part_a, number_b = other.first_part + part_b;
-  Answer& answer = find_answer(number_a, number_b);
+  Answer alone;
+  alone.part_a = -1;
+  Answer& answer = answers_ != nullptr ? find_answer(number_a, number_b) : alone;
   const bool has_normal = answer.part_a == number_a && answer.part_b == number_b;
   const bool is_known = has_normal && answer.placed_a == one.times_placed && answer.placed_b == other.times_placed;
   if (!is_known || !(answer.is_found || distance <= answer.distance)) {
@@ -268,8 +271,7 @@ bool PlacedHulls::closest_of_parts(int a, int part_a, int b, int part_b, double 
     answer.placed_a = one.times_placed;
     answer.placed_b = other.times_placed;
     answer.is_found = false;
-    answer.distance =
-        has_normal ? answer.find_sure_distance(one, of_one, other, of_other) : -INFINITE;
+    answer.distance = has_normal ? answer.find_sure_distance(one, of_one, other, of_other) : -INFINITE;
     if (!(distance <= answer.distance)) {
       Three normal;
       answer.distance = distance;
@@ -299,6 +301,7 @@ int PlacedHulls::closest(int a, int b, double distance, Closest* found) const {
 
 bool PlacedHulls::are_surely_within(int a, int b, double distance) const {
   const Ship &one = ships_[a], &other = ships_[b];
+  if (answers_ == nullptr) return false;
   for (int i = 0; i < one.parts.size(); ++i) {
     for (int j = 0; j < other.parts.size(); ++j) {
       const Answer& answer = find_answer(one.first_part + i, other.first_part + j);

@@ -46,7 +46,7 @@ class PlacedHulls {
 
   Ship* ships_;
   int parts_ = 0;    // of all ships
-  Answer* answers_;  // a table of 2^answer_bits_
+  Answer* answers_;  // a table of 2^answer_bits_; null without memory
   int answer_bits_;
 };
 
