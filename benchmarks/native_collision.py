@@ -13,8 +13,9 @@ PyBullet   five steps of its own (stepSimulation) of the same two hulls in the r
 harbour    2 to 500 ships in near pairs; the exponent of the cost    goal: at most 1.2
 
 The native steps are timed in C++, one by one: the clock costs 0.03 us, the interpreter nothing. Each figure is the
-median over the steps of a kind; each step counts with the least of ROUNDS. Python's and PyBullet's steps are timed from
-Python, each with the least of ITS_ROUNDS. It needs PyBullet.
+median over the steps of a kind; each step counts with the least of ROUNDS. doStep of the native FMU, Python's and
+PyBullet's steps are timed from Python, each with the least of ITS_ROUNDS; a call by ctypes alone costs 0.3 to 0.6 us.
+It needs PyBullet.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from __future__ import annotations
 import ctypes
 import random
 import sys
+import tempfile
 from collections.abc import Sequence
 from math import cos, log, pi, sin
 from pathlib import Path
@@ -29,6 +31,8 @@ from time import perf_counter
 from typing import Any
 
 import numpy as np
+from fmpy import extract, read_model_description
+from fmpy.fmi2 import FMU2Slave, defaultCallbacks
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
@@ -38,16 +42,19 @@ from shipcollision_fmu.cli.console import print_table, say  # noqa: E402  # afte
 from shipcollision_fmu.cli.table import make_table  # noqa: E402  # after the path is set
 from shipcollision_fmu.collision.geometry.bullet import bullet_module  # noqa: E402  # after the path is set
 from shipcollision_fmu.collision.model import ShipCollision  # noqa: E402  # after the path is set
+from shipcollision_fmu.fmi.builder.native_fmus import build_native_fmus  # noqa: E402  # after the path is set
+from shipcollision_fmu.fmi.names import APPLIED, IMPULSE, STATE, named  # noqa: E402  # after the path is set
 from shipcollision_fmu.ship.frames import SWAP, Array, pose_w, rotation  # noqa: E402  # after the path is set
 from shipcollision_fmu.ship.hull.hull import build_hull  # noqa: E402  # after the path is set
 from shipcollision_fmu.ship.loading.library import load_ship  # noqa: E402  # after the path is set
 from shipcollision_fmu.toolchain.libraries import build_library, native_cache  # noqa: E402  # after the path is set
 from shipcollision_fmu.toolchain.load import EXPORTS  # noqa: E402  # after the path is set
-from shipcollision_fmu.toolchain.platforms import find_own_target  # noqa: E402  # after the path is set
+from shipcollision_fmu.toolchain.platforms import PLATFORMS, find_own_target  # noqa: E402  # after the path is set
 from shipcollision_fmu.toolchain.sources import Part, find_native, list_library_parts  # noqa: E402  # after the path
 from tests.native.native_collision import NativeCollision  # noqa: E402  # after the path is set
 
 ROUNDS, ITS_ROUNDS = 12, 3
+NAMES = ("own", "target")
 SCENARIO, SHIP, H, SUBSTEPS = "kvlcc2_crossing", "kvlcc2", 0.05, 5
 PARTS = ("position", "attitude", "velocity", "rate")
 NEAR = 1.0
@@ -117,6 +124,42 @@ def record_crossing() -> tuple[Array, Array, Array]:
     return np.array(states), np.min(rounds, axis=0), np.array(clearance)
 
 
+def time_fmu(states: Array) -> Array:
+    """Microseconds of doStep of the native FMU in each of the states (n, 2, 12)."""
+    platform = next(one.name for one in PLATFORMS.values() if find_own_target() in one.targets)
+    with tempfile.TemporaryDirectory() as home:
+        unpacked = extract(str(build_native_fmus(home, platforms=[platform])["ShipCollision"]), str(Path(home, "fmu")))
+        description = read_model_description(unpacked)
+        references = {variable.name: variable.valueReference for variable in description.modelVariables}
+        fmu = FMU2Slave(
+            guid=description.guid, unzipDirectory=unpacked, modelIdentifier="ShipCollision", instanceName="collision"
+        )
+        fmu.instantiate(callbacks=defaultCallbacks)
+        fmu.setString([references[f"{name}.ship"] for name in NAMES], [SHIP] * len(NAMES))
+        inputs = [references[one] for name in NAMES for one in (*named(name, STATE), *named(name, APPLIED))]
+        outputs = [references[one] for name in NAMES for one in named(name, IMPULSE)]
+        fmu.setupExperiment()
+        fmu.enterInitializationMode()
+        fmu.setReal(inputs, [x for state in states[0] for x in (*state, *[0.0] * 6)])
+        fmu.exitInitializationMode()
+        component, fresh = ctypes.c_void_p(fmu.component), fmu.getFMUState()
+        rounds = []
+        for _ in range(ITS_ROUNDS):
+            fmu.setFMUState(fresh)
+            took, issued = [], [0.0] * 12
+            for k, (one, other) in enumerate(states.tolist()):
+                fmu.setReal(inputs, [*one, *issued[:6], *other, *issued[6:]])
+                t, h = ctypes.c_double(k * H), ctypes.c_double(H)
+                begin = perf_counter()
+                fmu.dll.fmi2DoStep(component, t, h, 1)
+                took.append(1e6 * (perf_counter() - begin))
+                issued = fmu.getReal(outputs)
+            rounds.append(took)
+        fmu.freeFMUState(fresh)
+        fmu.freeInstance()
+    return np.array(rounds).min(axis=0)
+
+
 def time_bullet(states: Array) -> float:
     """Microseconds of five steps of PyBullet's own, in the median over the states (n, 2, 12)."""
     p: Any = bullet_module()
@@ -181,13 +224,14 @@ def main() -> None:
     native, found = time_steps(library, states)
     apart, close = found == 0, clearance < NEAR
     shown = make_table(
-        "case", ">steps", ">native [us]", ">Python [us]", ">ratio", ">PyBullet [us]", ">ratio", ">goal [us]",
-        title=f"a step of {SUBSTEPS} substeps, medians",
+        "case", ">steps", ">native [us]", ">doStep [us]", ">Python [us]", ">ratio", ">PyBullet [us]", ">ratio",
+        ">goal [us]", title=f"a step of {SUBSTEPS} substeps, medians",
     )  # fmt: skip
     far = states.copy()
     far[:, 1, 0] += 5000.0
-    alone = np.median(time_steps(library, far)[0])
-    shown.add_row("far", str(len(far)), f"{alone:.2f}", "", "", "", "", "3")
+    alone, whole = np.median(time_steps(library, far)[0]), np.median(time_fmu(far))
+    shown.add_row("far", str(len(far)), f"{alone:.2f}", f"{whole:.2f}", "", "", "", "", "3")
+    do_step = time_fmu(states)
     for case, chosen, goal in (
         (f"near, {NEAR:g} m apart or more", apart & ~close, "10"),
         ("near, hulls slide along each other", apart & close, "10"),
@@ -195,8 +239,8 @@ def main() -> None:
     ):
         ours, theirs, its = np.median(native[chosen]), np.median(python[chosen]), time_bullet(states[chosen][::5])
         shown.add_row(
-            case, str(chosen.sum()), f"{ours:.2f}", f"{theirs:.0f}", f"{theirs / ours:.0f}",
-            f"{its:.1f}", f"{ours / its:.2f}", goal,
+            case, str(chosen.sum()), f"{ours:.2f}", f"{np.median(do_step[chosen]):.2f}", f"{theirs:.0f}",
+            f"{theirs / ours:.0f}", f"{its:.1f}", f"{ours / its:.2f}", goal,
         )  # fmt: skip
     width = load_ship(SHIP).B
     for case, start, push in (
@@ -208,7 +252,7 @@ def main() -> None:
         start[0, 1, 1] = width - 1e-3
         ours, its = np.median(took[chosen]), time_bullet(np.repeat(start, 50, axis=0))
         name = f"{case}: {count[chosen][0]} contacts"
-        shown.add_row(name, str(chosen.sum()), f"{ours:.1f}", "", "", f"{its:.1f}", f"{ours / its:.2f}", "")
+        shown.add_row(name, str(chosen.sum()), f"{ours:.1f}", "", "", "", f"{its:.1f}", f"{ours / its:.2f}", "")
     print_table(shown)
     costs = [float(np.median(time_steps(library, make_harbour(n), 20, rounds=4)[0])) for n in COUNTS]
     shown = make_table(">ships", ">step [us]", ">per ship [us]", title="harbour")
