@@ -16,7 +16,7 @@ from shipcollision_fmu.cli import main
 from shipcollision_fmu.cosim import fmu_files
 from shipcollision_fmu.errors import HostError
 from shipcollision_fmu.fmi.builder import native_fmus
-from shipcollision_fmu.toolchain import fmu_binaries, libraries
+from shipcollision_fmu.toolchain import bullet_sources, fmu_binaries, libraries
 from shipcollision_fmu.toolchain.fmu_binaries import Binary
 from tests.conftest import ENCOUNTER, NATIVE_CACHE
 from tests.ship_files import ship_toml
@@ -179,6 +179,37 @@ def test_build_without_python(folder: Path, monkeypatch: pytest.MonkeyPatch) -> 
         with zipfile.ZipFile(folder / "fmus" / f"{name}.native.fmu") as archive:
             names = archive.namelist()
         assert {f"binaries/win64/{name}.dll", "sources/fmi/fmi2.cpp", f"sources/{own}"} <= set(names)
+
+
+def test_a_build_without_the_source_of_bullet_is_one_line(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    def fail(place: Path) -> None:
+        raise OSError("no network")
+
+    monkeypatch.setattr(libraries, "native_cache", lambda: tmp_path / "cache")
+    monkeypatch.setattr(fmu_binaries, "find_compiler", lambda target: None)
+    monkeypatch.setattr(bullet_sources, "_fetch_by_pip", fail)
+    for command in (["build", "--native", "--out", "fmus"], ["run", "guan2014_added_mass", "--native", "--out", "run"]):
+        result = called(*command)
+        note, error = result.stderr.splitlines()
+        assert (result.exit_code, result.stdout) == (1, "")
+        assert note.startswith("note: pip fetches Bullet's source, 80 MB, once")
+        assert error.startswith("error: Bullet's source cannot be fetched: pip downloads it as the source distribution")
+        assert "(no network)" in error
+    assert not (folder / "fmus").exists()
+    assert not (folder / "run").exists()
+
+
+def test_without_a_compiler_nothing_is_fetched(folder: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    def fail(*given: object) -> None:
+        raise HostError("no compiler")
+
+    monkeypatch.setattr(libraries, "native_cache", lambda: tmp_path / "cache")
+    monkeypatch.setattr(fmu_binaries, "find_compiler", fail)
+    result = called("build", "--native")
+    assert (result.exit_code, result.stderr) == (1, "error: no compiler\n")
+    assert not (tmp_path / "cache").exists()
 
 
 def test_ships_and_scenarios_are_listed() -> None:

@@ -7,12 +7,14 @@ from dataclasses import dataclass
 
 from ..errors import InputError
 from . import libraries
+from .bullet_sources import has_bullet_sources
+from .compilers import find_compiler
 from .libraries import Report, build_libraries, ignore_progress
 from .mach_o import join_libraries
 from .platforms import PLATFORMS, Platform
-from .sources import list_fmu_parts
+from .sources import COLLISION, list_fmu_parts
 
-__all__ = ["Binary", "build_binaries", "choose_platforms"]
+__all__ = ["Binary", "build_binaries", "choose_platforms", "must_fetch_bullet"]
 
 _EXPORTS = ("fmi2*", "fmi3*")
 """What a host calls."""
@@ -37,6 +39,17 @@ def choose_platforms(names: Sequence[str]) -> tuple[Platform, ...]:
     return tuple(PLATFORMS[name] for name in dict.fromkeys(names))
 
 
+def must_fetch_bullet(name: str, platforms: Sequence[Platform]) -> bool:
+    """Whether Bullet's source, which takes pip half a minute, is missing for the FMU of that name. Raises HostError
+    where it would be fetched in vain, since nothing here compiles for a platform."""
+    if name != COLLISION or has_bullet_sources(libraries.native_cache()):
+        return False
+    for platform in platforms:
+        for target in platform.targets:
+            find_compiler(target)
+    return True
+
+
 def build_binaries(
     name: str, platforms: Sequence[Platform], report: Report = ignore_progress
 ) -> dict[int, list[Binary]]:
@@ -47,6 +60,7 @@ def build_binaries(
     fetched.
     """
     targets = [target for platform in platforms for target in platform.targets]
+    must_fetch_bullet(name, platforms)
     built = build_libraries(name, list_fmu_parts(name, libraries.native_cache()), targets, _EXPORTS, report=report)
     contents = {target: path.read_bytes() for target, path in built.items()}
     joined = []
