@@ -157,7 +157,8 @@ def time_fmu(states: Array) -> Array:
             rounds.append(took)
         fmu.freeFMUState(fresh)
         fmu.freeInstance()
-    return np.array(rounds).min(axis=0)
+    least: Array = np.min(rounds, axis=0)
+    return least
 
 
 def time_bullet(states: Array) -> float:
