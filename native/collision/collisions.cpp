@@ -16,7 +16,7 @@ Impact find_impact(double t, const Buffer<Contact>& contacts, const BodyState* s
   Impact impact;
   impact.time = t;
   impact.point = {{sum[0] / count, sum[1] / count, sum[2] / count}};
-  impact.closing_speed = max(closing, 0.0);
+  impact.closing_speed = max(0.0, closing);
   impact.angle = heading_angle(states[a].predicted.R, states[b].predicted.R);
   impact.ship_a = a + 1;
   impact.ship_b = b + 1;

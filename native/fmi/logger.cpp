@@ -71,7 +71,8 @@ void Logger::log_failure(const char* line) const {
 void Logger::print(const char* prefix, const char* line) const {
   if (!is_on_stderr_) return;
   Text whole;  // in one piece, as other threads print as well; printf is not in Windows' library
-  whole << fmu_ << " " << instance_ << ": " << prefix << line << "\n";
+  whole << fmu_ << " " << instance_ << ": " << prefix << line;
+  whole.end_line();
   fputs(whole.get(), stderr);
 }
 

@@ -14,10 +14,11 @@ constexpr size_t AT_ONCE = 100;  // bytes that are left out beyond need; fewer m
 
 bool is_continuation(char character) { return (character & 0xc0) == 0x80; }
 
-// Bytes of the character of UTF-8 at `text`, or 0 where none begins: RFC 3629, section 4.
+// Bytes of the character of UTF-8 at `text`, or 0 where none begins: RFC 3629, section 4. Control characters count as
+// none, for a message is one line.
 size_t find_size(const char* text) {
   const unsigned char* at = reinterpret_cast<const unsigned char*>(text);
-  if (at[0] < 0x80) return 1;
+  if (at[0] < 0x80) return at[0] < 0x20 ? 0 : 1;
   const size_t size = at[0] < 0xc2 ? 0 : at[0] < 0xe0 ? 2 : at[0] < 0xf0 ? 3 : at[0] < 0xf5 ? 4 : 0;
   if (size == 0) return 0;
   const unsigned char least = at[0] == 0xe0 ? 0xa0 : at[0] == 0xf0 ? 0x90 : 0x80;  // longer than need be

@@ -23,7 +23,8 @@ class Text {
   const char* get() const { return characters_; }
   size_t size() const { return size_; }
 
-  Text& operator<<(const char* words);
+  Text& operator<<(const char* words);  // bytes that are no character, and control characters, in hexadecimal digits
+  void end_line() { put('\n'); }
   Text& operator<<(const Text& other) { return *this << other.get(); }
   Text& operator<<(int number) { return *this << static_cast<long long>(number); }
   Text& operator<<(long long number);

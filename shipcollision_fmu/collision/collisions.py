@@ -150,7 +150,7 @@ def _find_impact(t: float, contacts: Sequence[Contact], states: Sequence[BodySta
     point = sum((c.point for c in contacts), np.zeros(3)) / len(contacts)
     closing = max(-float(mean_velocity(c, states) @ c.normal) for c in contacts)
     angle = heading_angle(states[a].R, states[b].R)
-    return Impact(t, point.tolist(), max(closing, 0.0), angle, a + 1, b + 1)
+    return Impact(t, point.tolist(), max(0.0, closing), angle, a + 1, b + 1)
 
 
 def heading_angle(R_a: Array, R_b: Array) -> float:

@@ -135,6 +135,14 @@ def test_a_state_comes_back_to_the_bit() -> None:
     assert native.get_state() == runs[0][0]
 
 
+def test_ships_at_rest_inside_each_other_close_at_zero() -> None:
+    """Not at minus zero."""
+    encounter = Encounter([(10.0, 0.0, 0.0, 0.0), (10.0, 0.0, 0.0, 0.0)], False)
+    assert encounter.step(0.05) == {}
+    (event,) = encounter.shadow.native.events
+    assert "closing at 0.00 m/s" in event
+
+
 def test_a_state_with_more_bodies_is_refused() -> None:
     """Its obstacles may have been in a file that has become shorter."""
     motions, parallel, parameters = CASES["against a quay"]

@@ -330,6 +330,7 @@ def test_what_is_logged_is_utf8(attempt: Try, fmi: int) -> None:
         "/\\xff\\xe4/ø/variables.txt cannot be opened: it is missing, or may not be read"
         "; the host must pass the folder `resources` of the unpacked FMU"
     )
+    assert attempt(b"/a\nb", fmi).startswith("/a\\x0ab/variables.txt cannot be opened: it is missing")
     assert attempt(b"\x80" * 4000, fmi).endswith(
         "\\x80/variables.txt cannot be opened: it is missing, or may not be read"
         "; the host must pass the folder `resources` of the unpacked FMU"

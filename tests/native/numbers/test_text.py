@@ -117,6 +117,7 @@ def test_bytes_that_are_no_characters_are_written_in_digits() -> None:
     for text in NO_UTF8 + [bytes(random.choices(b"a\x80\xbf\xc3\xe2\xed\xf0\x9f", k=12)) for _ in range(300)]:
         assert write(text) == text.decode(errors="backslashreplace").encode() + b"xy"
     assert write(b"\x80" * 5000).decode().endswith("80xy")
+    assert write(b"a\nb\r\t\x1b[0m") == b"a\\x0ab\\x0d\\x09\\x1b[0mxy"  # a message is one line
 
 
 def test_checksum() -> None:
