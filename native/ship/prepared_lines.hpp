@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "../files.hpp"
+#include "../memory.hpp"
 #include "../numbers/line_reader.hpp"
 #include "../numbers/text.hpp"
 #include "hull/solid.hpp"
@@ -33,7 +34,7 @@ bool is_prepared_folder(const char* path, const char* directory);
 bool check_prepared(const PreparedKind& kind, const char* content, size_t size, const char* file, Text& why);
 
 // Reads line by line what was written; after a line that is not as expected, nothing more. The content is changed.
-class PreparedLines {
+class PreparedLines : public OnHeap {
  public:
   // content: a whole file that was checked.
   PreparedLines(char* content, size_t size);

@@ -3,6 +3,7 @@
 
 #include <stddef.h>
 
+#include "../memory.hpp"
 #include "../numbers/text.hpp"
 #include "degrees_of_freedom.hpp"
 #include "frames.hpp"
@@ -26,7 +27,7 @@ struct TorqueTable {
 };
 
 // All numbers of a ship. What the ship does not have is left as it was, and has_... is false.
-struct PreparedShip {
+struct PreparedShip : OnHeap {
   Text name;     // in quotes, as messages have it
   Text warning;  // what is suspicious
   double L_pp, L_oa, B, T, mass, rho;

@@ -1,12 +1,13 @@
 // Closest points of convex hulls, by Bullet: the twin of shipcollision_fmu/collision/geometry/closest_points.py.
 #pragma once
 
+#include "../../memory.hpp"
 #include "narrow_phase.hpp"
 
 namespace shipcollision {
 
 // The hulls of some ships, each of convex parts, and where they are. Results depend on hulls, poses and arguments alone.
-class PlacedHulls {
+class PlacedHulls : public OnHeap {
  public:
   // parts: of each ship, how many; corners: of each part, how many; coordinates: of each corner x, y, z in b about CO [m].
   // Bullet's own hull of a part is what counts: its vertices are those corners rounded to 1/10216 of the hull's extent.

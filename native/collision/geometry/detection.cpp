@@ -11,6 +11,15 @@ constexpr double STEEP = 0.7;
 constexpr double SAME_POINT = 0.5;
 constexpr double FLUSH = 1e-6;
 constexpr double SMALL = 15.0;
+constexpr size_t BULLET_BYTES = 100000;     // that Bullet takes at most for hulls, and more for each corner
+constexpr size_t BULLET_CORNER_BYTES = 2000;
+
+// Bullet does not look whether it has got memory: whether there is enough for hulls of so many corners.
+bool has_room(int corners) {
+  void* volatile probe = malloc(BULLET_BYTES + static_cast<size_t>(corners) * BULLET_CORNER_BYTES);
+  free(probe);
+  return probe != nullptr;
+}
 
 // The last normal of a pair in n, as it has turned with the hull that carries it.
 Three turn_with_hull(const LastNormal& last, const Pair& pair, const BodyState* states) {
@@ -95,8 +104,11 @@ bool Detector::set_up(const HullMesh* const* hulls, int count) {
   }
   near_.reserve(most_parts_ * most_parts_);
   if (memory_.is_exhausted) return false;
-  narrow_phase_ = new PlacedHulls(count, parts.data(), corners.data(), coordinates.data()->at);
-  return true;
+  if (has_room(coordinates.size())) {
+    narrow_phase_ = new PlacedHulls(count, parts.data(), corners.data(), coordinates.data()->at);
+  }
+  memory_.is_exhausted = narrow_phase_ == nullptr;
+  return narrow_phase_ != nullptr;
 }
 
 double Detector::clearance(const Pair& pair, const BodyState* states, double cap) {
