@@ -45,11 +45,15 @@ class _Outputs(ctypes.Structure):
     )  # fmt: skip
 
 
-@cache
 def prepare(source: str) -> str:
-    """Path of the prepared file of a ship; a text that is no ship stays as it is."""
+    """Path of the prepared file of a ship; a prepared one stays as it is."""
     if source.endswith(".ship"):
         return source
+    return _prepare(source, Path(source).read_bytes() if Path(source).is_file() else b"")
+
+
+@cache
+def _prepare(source: str, _content: bytes) -> str:
     path = Path(mkdtemp(prefix="shipcollision-"), "prepared.ship")
     path.write_bytes(prepare_ship(source))
     return str(path)

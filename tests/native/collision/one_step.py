@@ -97,14 +97,15 @@ def find_largest(*values: Any) -> float:
 
 def compare(one: Answer, other: Answer, scale: Scale) -> dict[str, float]:
     """Differences as shares of their scale, by name; of words 1."""
-    linear = max(find_largest(other.J[:, :3]), ROUNDING * scale.momentum)
+    linear = max(find_largest(other.J[:, :3]), ROUNDING * scale.momentum, 1.0)
     angular = max(find_largest(other.J[:, 3:]), linear * scale.reach)
     found = {
         "impulse": find_largest(one.J[:, :3] - other.J[:, :3]) / linear,
         "moment": find_largest(one.J[:, 3:] - other.J[:, 3:]) / angular,
         "motion": find_largest(one.motion[:, 3:] - other.motion[:, 3:]) / max(1.0, find_largest(other.motion[:, 3:])),
         "place": find_largest(one.motion[:, :3] - other.motion[:, :3]) / max(1.0, scale.distance),
-        "energy": find_largest(one.energy - other.energy) / max(find_largest(other.energy), ROUNDING * scale.energy),
+        "energy": find_largest(one.energy - other.energy)
+        / max(find_largest(other.energy), ROUNDING * scale.energy, 1.0),
         "clearance": abs(one.clearance - other.clearance) / max(1.0, abs(other.clearance)),
         "words": float(one.words != other.words),
     }
