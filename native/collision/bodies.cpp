@@ -91,7 +91,7 @@ bool Bodies::add_ship(const char* name, const CollisionShipParameters& parameter
   }
   const int free = parameters.degrees_of_freedom;
   if (free != 3 && free != 4 && free != 6) {
-    why << "degrees_of_freedom = " << free << " must be 3 (surge, sway, yaw), 4 (and roll) or 6 (all)";
+    why << name << ".degrees_of_freedom = " << free << " must be 3 (surge, sway, yaw), 4 (and roll) or 6 (all)";
     return false;
   }
   body->name << name;

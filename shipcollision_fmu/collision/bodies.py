@@ -91,7 +91,10 @@ def _ship(name: str, ship: Ship, parameters: ShipParameters, feedback: str) -> B
     hull = build_hull(ship.L_oa, ship.B, ship.T, ship.hull)
     S, fender = skew(ship.r_bg), parameters.fender
     inertia_g = np.diag(ship.M_RB[3:, 3:] + ship.mass * S @ S).copy()
-    M_inverse, held = free_inverse(ship.M, parameters.degrees_of_freedom), None
+    try:
+        M_inverse, held = free_inverse(ship.M, parameters.degrees_of_freedom), None
+    except ShipError as error:
+        raise ShipError(f"{name}.{error}") from None
     if feedback == PRESCRIBED:  # no impulse changes its motion
         M_inverse = np.zeros((6, 6))
     else:

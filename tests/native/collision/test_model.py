@@ -7,8 +7,9 @@ from dataclasses import replace
 import pytest
 
 from shipcollision_fmu.collision.model import ShipCollision
-from shipcollision_fmu.errors import StepError
+from shipcollision_fmu.errors import ShipError, StepError
 from shipcollision_fmu.manoeuvring.model import ShipManoeuvring
+from tests.native.collision.kernels import load_kernels
 from tests.native.collision.shadow import Shadow
 from tests.native.native_collision import NativeCollision
 
@@ -133,6 +134,13 @@ def test_a_state_comes_back_to_the_bit() -> None:
     with pytest.raises(Exception, match="the state is not of ShipCollision: give what get_state"):
         native.set_state({"bytes": state["bytes"][:-2]})
     assert native.get_state() == runs[0][0]
+
+
+def test_the_ship_is_named_whose_freedom_is_none() -> None:
+    for model in (ShipCollision(["a", "b"]), NativeCollision(load_kernels(), ["a", "b"])):
+        model.parameters.ships[1].degrees_of_freedom = 5
+        with pytest.raises(ShipError, match=r"^b\.degrees_of_freedom = 5 must be 3 \(surge, sway, yaw\), 4 \(and roll"):
+            model.initialise()
 
 
 def test_ships_at_rest_inside_each_other_close_at_zero() -> None:
