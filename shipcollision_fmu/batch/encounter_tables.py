@@ -19,7 +19,7 @@ __all__ = ["EncounterBook", "Encounters"]
 Rows = npt.NDArray[Any]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Encounters:
     """Encounters that were run, as structured arrays.
 
@@ -33,6 +33,16 @@ class Encounters:
     ships: Rows
     collisions: Rows
     tracks: list[Array]
+
+    def __repr__(self) -> str:
+        """What there is, in two lines: the arrays of a thousand encounters would fill the screen."""
+        count, refused = len(self.encounters), np.count_nonzero(self.encounters["status"])
+        tables = [name for name in ("encounters", "ships", "collisions", "tracks") if len(getattr(self, name))]
+        return (
+            f"{count} encounter{'s' * (count != 1)}, {refused} with a status other than 0, "
+            f"{len(self.collisions)} collision{'s' * (len(self.collisions) != 1)}\n"
+            f"next: {', '.join(f'.{name}' for name in tables) or 'give a scenario'}"
+        )
 
 
 @dataclass

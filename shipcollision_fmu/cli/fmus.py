@@ -41,8 +41,8 @@ def build(
     ShipManoeuvring.fmi3-scalar.fmu.
 
     With --native they are ShipCollision.native.fmu and ShipManoeuvring.native.fmu, each one file for all platforms,
-    which need no Python in the host. They are compiled by Zig, from the extra `native`; a C++ compiler of the system
-    does for its own platform. pip fetches the source of Bullet, 80 MB, once.
+    which need no Python in the host. They are compiled by Zig, from the extra `native`. With --platforms for this
+    machine alone, such as linux64, a C++ compiler of the system does. pip fetches the source of Bullet, 80 MB, once.
     """
     if scalar and fmi != "3":
         raise click.UsageError("--scalar is for FMI 3.0: FMI 2.0 has no arrays; add --fmi 3 or leave it out")

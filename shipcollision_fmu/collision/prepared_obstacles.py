@@ -31,15 +31,12 @@ SUFFIX = ".obstacles"
 
 
 def is_obstacle_file(path: str) -> bool:
-    """Whether a path is that of a TOML file of obstacles, all of whose tables say their kind and shape, and not of a
-    ship."""
+    """Whether a path is that of a TOML file of obstacles, and not of a ship: it has the table [obstacles] alone, or a
+    table that says its kind and shape. What the others lack is then said of obstacles."""
     if not (path.endswith(".toml") and Path(path).is_file()):
         return False
     content = read_toml(Path(path), InputError)
-    tables = content["obstacles"] if set(content) == {"obstacles"} else content
-    return (
-        isinstance(tables, dict) and bool(tables) and "ship" not in tables and all(map(_is_obstacle, tables.values()))
-    )
+    return set(content) == {"obstacles"} or ("ship" not in content and any(map(_is_obstacle, content.values())))
 
 
 def _is_obstacle(table: object) -> bool:

@@ -89,7 +89,7 @@ def simulate(
         else:
             factories = fmu_factories(ready_fmus(names, fmi), stack, names, fmi)
         record, wall_time = run_steps(scenario, ships, factories, progress, prepared)
-    run = _run(scenario, ships, record, _name_mode(engine, fmi, in_process), wall_time)
+    run = _run(scenario, ships, record, _name_mode(engine, fmi, in_process), wall_time, engine)
     if out is not None:
         run.write(out)
     return run
@@ -119,7 +119,14 @@ def _name_mode(engine: str, fmi: int, in_process: bool) -> str:
     return kind if fmi == 2 else f"{kind}, FMI {fmi}.0"
 
 
-def _run(scenario: Scenario, ships: Mapping[str, Ship], record: Record, mode: str, wall_time: float) -> Run:
+def _run(
+    scenario: Scenario,
+    ships: Mapping[str, Ship],
+    record: Record,
+    mode: str,
+    wall_time: float,
+    engine: str = "python",
+) -> Run:
     free = {name: start.free for name, start in scenario.ships.items()}
     headings = {name: radians(table.heading_deg) for name, table in scenario.obstacles.items()}
     events = build_events(record, ships, free, scenario.collision.damage, headings)
@@ -127,7 +134,7 @@ def _run(scenario: Scenario, ships: Mapping[str, Ship], record: Record, mode: st
         states=record.states,
         contacts=record.contacts,
         events=events,
-        summary=build_summary(scenario, ships, record, events),
+        summary=build_summary(scenario, ships, record, events, engine),
         signals=record.signals,
         bodies=build_bodies(ships, free, scenario.obstacles),
         timing={

@@ -42,19 +42,21 @@ from .record import Record
 
 __all__ = ["build_summary"]
 
-_PACKAGES = ("numpy", "pybullet", "FMPy", "pythonfmu")
+_PACKAGES = {"python": ("numpy", "pybullet", "FMPy", "pythonfmu"), "native": ("numpy", "FMPy")}
+"""Whose versions are stated, by engine."""
 
 
 def build_summary(
-    scenario: Scenario, ships: Mapping[str, Ship], record: Record, events: Mapping[str, Any]
+    scenario: Scenario, ships: Mapping[str, Ship], record: Record, events: Mapping[str, Any], engine: str = "python"
 ) -> dict[str, Any]:
-    """summary.json as JSON-able data; `events` are the run's events."""
+    """summary.json as JSON-able data; `events` are the run's events. `engine` is stated where it is not "python"."""
     before, after = (_states(record, ships, row) for row in (0, -1))
     free = {name: table.free for name, table in scenario.ships.items()}
     data: dict[str, Any] = {
         "scenario": scenario.name,
         "description": scenario.scenario.description,
-        "versions": {"shipcollision_fmu": __version__} | {name.lower(): _version(name) for name in _PACKAGES},
+        "versions": {"shipcollision_fmu": __version__} | {name.lower(): _version(name) for name in _PACKAGES[engine]},
+        **({} if engine == "python" else {"engine": engine}),
         "algorithm": scenario.algorithm,
         "step": scenario.step,
         "steps": scenario.steps,

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import ctypes
 import sys
+from collections.abc import Callable
 from functools import lru_cache
 from pathlib import Path
 
@@ -14,7 +15,7 @@ from ..errors import HostError
 from .installed import LIBRARY, find_installed_library
 from .platforms import find_own_target
 
-__all__ = ["LIBRARY", "build_own_library", "load_library"]
+__all__ = ["LIBRARY", "announce_compiling", "build_own_library", "load_library", "say"]
 
 EXPORTS = ("shipcollision_*",)
 """Names that Python calls."""
@@ -22,7 +23,9 @@ INTERFACE = 2
 """Number of the functions' signatures (native/python.cpp); a library with another one is refused."""
 
 FETCHING = "note: pip fetches Bullet's source, 80 MB, once; this takes half a minute or longer"
-COMPILING = "note: the library that detects contacts is compiled, once; this takes half a minute, on a busy machine two"
+COMPILING = "note: {} is compiled, once; this takes half a minute, on a busy machine two"
+OWN = "the native library"
+"""What is compiled for Python, in COMPILING."""
 
 
 def build_own_library(cache: Path | None = None) -> Path:
@@ -46,18 +49,24 @@ def build_own_library(cache: Path | None = None) -> Path:
     home = native_cache() if cache is None else cache
     if not has_bullet_sources(home):
         find_compiler(target, prefer_system=True)  # else 80 MB would be fetched before it is missed
-        _say(FETCHING)
+        say(FETCHING)
     parts = list_library_parts(home)
-    return build_library(LIBRARY, parts, target, EXPORTS, cache=home, prefer_system=True, report=_announce)
+    return build_library(
+        LIBRARY, parts, target, EXPORTS, cache=home, prefer_system=True, report=announce_compiling(OWN)
+    )
 
 
-def _announce(done: int, total: int) -> None:
-    """A line on stderr after the first step of compilation, when most of the `total` steps are still to come."""
-    if done == 1 < total:
-        _say(COMPILING)
+def announce_compiling(what: str) -> Callable[[int, int], None]:
+    """A Report that writes a line on stderr after the first step of compilation, when most steps are still to come."""
+
+    def announce(done: int, total: int) -> None:
+        if done == 1 < total:
+            say(COMPILING.format(what))
+
+    return announce
 
 
-def _say(line: str) -> None:
+def say(line: str) -> None:
     """Write a line on stderr, which a host without a console does not have."""
     if sys.stderr is not None:
         sys.stderr.write(f"{line}\n")

@@ -209,6 +209,13 @@ def test_one_scenario_is_no_list() -> None:
             run_encounters(given)
 
 
+def test_encounters_are_printed_in_two_lines() -> None:
+    result = run_encounters([parse_scenario(COASTING, "test"), "nowhere"])
+    assert repr(result) == (
+        "2 encounters, 1 with a status other than 0, 1 collision\nnext: .encounters, .ships, .collisions"
+    )
+
+
 def test_a_refused_encounter_has_its_reason() -> None:
     """Whether its scenario, its start or a step is refused; the others are run."""
     scenario = parse_scenario(COASTING.replace("duration = 5.0", "duration = 0.5"), "test")

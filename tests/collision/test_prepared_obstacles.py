@@ -49,6 +49,26 @@ def test_the_command_writes_obstacles(text: str, tmp_path: Path, monkeypatch: py
     assert "call it harbour.obstacles" in refused.output
 
 
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [
+        ('[obstacles.quay]\nkind = "quay"\n', "[obstacles.quay] shape is missing"),
+        ('[quay]\nlength = 9.0\n[log]\nkind = "log"\nshape = "box"\n', "[obstacles.quay]"),
+        ("[obstacles]\nquay = 1\n", "obstacles in harbour.toml: "),
+    ],
+)
+def test_what_lacks_keys_is_refused_as_an_obstacle_and_not_as_a_ship(
+    text: str, line: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("harbour.toml").write_text(text)
+    done = CliRunner().invoke(main, ["prepare", "harbour.toml"])
+    assert done.exit_code == 2
+    assert line in done.output
+    assert "particulars" not in done.output
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["harbour.toml"]
+
+
 def test_a_wrong_obstacle_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     Path("harbour.toml").write_text(PIER.replace("length = 40.0", ""))

@@ -10,9 +10,12 @@ import numpy as np
 import pytest
 
 from shipcollision_fmu import load_scenario, simulate
+from shipcollision_fmu.cosim import native_fmu_files
 from shipcollision_fmu.cosim.run import Run
-from shipcollision_fmu.errors import ScenarioError
+from shipcollision_fmu.errors import HostError, ScenarioError
 from shipcollision_fmu.toolchain import libraries
+from shipcollision_fmu.toolchain.load import FETCHING
+from shipcollision_fmu.toolchain.sources import COLLISION
 from tests.conftest import NATIVE_CACHE
 from tests.cosim.test_obstacles import AHEAD, AWAY, FENDER, QUAY
 
@@ -59,6 +62,26 @@ def test_what_does_not_fit_is_said_first(options: dict[str, Any], line: str, tmp
     assert list(tmp_path.iterdir()) == []
 
 
+def test_compilation_is_announced(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    """It takes a minute, in which nothing else is said."""
+
+    def compile_nothing(name: str, platforms: object, report: Callable[[int, int], None]) -> None:
+        report(1, 9)
+        report(2, 9)
+        raise HostError(name)
+
+    monkeypatch.setattr(native_fmu_files, "must_fetch_bullet", lambda name, platforms: name == COLLISION)
+    monkeypatch.setattr(native_fmu_files, "build_binaries", compile_nothing)
+    with pytest.raises(HostError, match=COLLISION):
+        simulate("kvlcc2_crossing", engine="native")
+    assert capfd.readouterr().err == (
+        f"{FETCHING}\n"
+        "note: native code of ShipCollision is compiled, once; this takes half a minute, on a busy machine two\n"
+    )
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
 def test_a_published_encounter_is_the_same(native: Callable[..., Run], algorithm: str) -> None:
@@ -66,6 +89,9 @@ def test_a_published_encounter_is_the_same(native: Callable[..., Run], algorithm
     run, again = native(scenario), native(scenario, fmi=3)
     python = simulate(scenario, in_process=True)
     assert (run.timing["mode"], again.timing["mode"]) == ("native FMU", "native FMU, FMI 3.0")
+    assert run.summary["engine"] == "native"
+    assert set(run.summary["versions"]) == {"shipcollision_fmu", "numpy", "fmpy"}  # neither of the others took part
+    assert "engine" not in python.summary
     assert run.states.tolist() == again.states.tolist()
     assert differ(run, python) < 1e-9
     assert list_collisions(run) == list_collisions(python) != []

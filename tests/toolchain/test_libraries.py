@@ -94,7 +94,7 @@ def test_what_takes_long_at_first_use_is_announced_once(
     monkeypatch.setattr(sources, "list_library_parts", lambda _: [part])
     monkeypatch.setattr(bullet_sources, "has_bullet_sources", lambda cache: cache.is_dir())
     load.build_own_library(tmp_path / "cache")
-    assert capfd.readouterr() == ("", f"{load.FETCHING}\n{load.COMPILING}\n")
+    assert capfd.readouterr() == ("", f"{load.FETCHING}\n{load.COMPILING.format(load.OWN)}\n")
     load.build_own_library(tmp_path / "cache")
     assert capfd.readouterr() == ("", "")
 
