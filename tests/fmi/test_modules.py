@@ -171,7 +171,6 @@ LATER = {
         ("manoeuvring/prepared_ship.py", "collision/prepared_obstacles.py", "ship/prepared_lines.py"),
         "for `shipcollision prepare`; the files of the room travel all",
     ),
-    "files.py": "imported with the first ship whose hull is a mesh file",
     **{f"ship/hull/{name}.py": "imported with the first ship whose hull is a mesh file" for name in MESH_FILES},
     **{f"ship/hull/{name}.py": "runs in a process of its own" for name in PROGRAMS},
 }
