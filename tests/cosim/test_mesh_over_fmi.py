@@ -30,7 +30,7 @@ def test_a_mesh_is_cut_before_the_first_fmu(scenario_file: Write, tmp_path: Path
         capture_output=True, text=True, timeout=300, check=False,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
-    assert "example.obj: is cut into convex parts, once for this file" in done.stderr
+    assert "example.obj is cut into convex parts, once for this file" in done.stderr
     assert done.stdout.strip() == "1"
 
 

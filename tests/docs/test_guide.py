@@ -62,3 +62,12 @@ def test_the_scenarios_of_the_guide_are_loaded(tmp_path: Path, more: int) -> Non
     path = tmp_path / "mine.toml"
     path.write_text(text, encoding="utf-8")
     assert load_scenario(path).name == "mine"
+
+
+def test_the_guide_lists_every_extra() -> None:
+    """Without those of developers: `docs` and `dev`."""
+    project = (GUIDE.parents[1] / "pyproject.toml").read_text(encoding="utf-8")
+    extras = project.partition("[project.optional-dependencies]")[2].partition("\n[")[0]
+    page = (GUIDE / "run.md").read_text(encoding="utf-8").partition("## Extras")[2].partition("\n## ")[0]
+    listed = re.findall(r"^\| `(\w+)` \|", page, re.MULTILINE)
+    assert sorted(listed) == sorted(set(re.findall(r"^(\w+) = \[", extras, re.MULTILINE)) - {"docs", "dev"})

@@ -117,7 +117,7 @@ def _cut_solid(name: str, solid: Part, max_parts: int) -> Cut:
     """The solid cut at the first of CONCAVITIES that is fine enough, or at the one that bulges least."""
     volume, best = enclosed_volume(*solid), None
     _log.warning(
-        "%s: is cut into convex parts, once for this file: %d faces, at most %g s", name, len(solid[1]), LONGEST_CUTTING
+        "%s is cut into convex parts, once for this file: %d faces, at most %g s", name, len(solid[1]), LONGEST_CUTTING
     )
     end = monotonic() + LONGEST_CUTTING
     goal = BULGE_GOAL * float(np.ptp(solid[0][:, 1]))

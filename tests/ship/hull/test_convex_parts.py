@@ -54,7 +54,7 @@ def test_progress_is_said(cut: Cutter, monkeypatch: pytest.MonkeyPatch, caplog: 
     monkeypatch.setattr(convex_parts, "BULGE_GOAL", -1.0)
     cut()
     first, second = (record.getMessage() for record in caplog.records)
-    assert first == "bar.obj: is cut into convex parts, once for this file: 20 faces, at most 180 s"
+    assert first == "bar.obj is cut into convex parts, once for this file: 20 faces, at most 180 s"
     assert re.match(
         r"bar.obj: its 2 parts bulge by \S+ m, more than -3 m: it is cut more finely, for at most 1", second
     )
