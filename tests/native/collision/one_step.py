@@ -26,7 +26,8 @@ __all__ = ["OneStep", "Tally"]
 
 CLOSE = 1e-9
 """Largest difference of one step, of its impulse's or the state's scale."""
-TRIALS = 60
+FEW, TRIALS = 60, 600
+"""Changed inputs: after the first number the spread of the answers is enough, if it is as large as the difference."""
 LEAST_NUDGE, MOST_NUDGE = -16.0, -12.0
 """Decimal logarithms of the change of the received numbers, as a share of each."""
 REPEATED, SPREAD = 0.01, 0.3
@@ -256,7 +257,9 @@ class OneStep:
             if find_most(compare(found, answer, scale)) <= max(CLOSE, REPEATED * size):
                 return "repeated"
             largest = max(largest, find_most(compare(answer, expected, scale)))
-        return "spread" if largest >= SPREAD * size else "left"
+            if k >= FEW and largest >= SPREAD * size:
+                return "spread"
+        return "left"
 
     def close(self) -> None:
         """Free what the Python model of the trials holds."""
