@@ -133,9 +133,12 @@ def _describe_hull(ship: Ship, needed: bool) -> list[str]:
 def _explain_refusal(ship: Ship, error: ShipError | HostError) -> str:
     """Why there is no hull, without a path of this machine."""
     if ship.hull.file is not None and not Path(ship.hull.file).is_file():
-        return "the mesh file was missing when the ship was prepared"
+        return "the mesh file was missing when the ship was prepared: put it in its place, and prepare the ship again"
     if isinstance(error, HostError):
-        return "a package that reads meshes was missing when the ship was prepared"
+        return (
+            "a package that reads meshes was missing when the ship was prepared: install shipcollision-fmu[mesh], and "
+            "prepare the ship or build the FMU again"
+        )
     return str(error)
 
 

@@ -83,7 +83,10 @@ def test_a_hull_that_cannot_be_made_leaves_the_rest(monkeypatch: pytest.MonkeyPa
 
     monkeypatch.setattr(prepared_ship, "build_hull", refuse)
     content = prepare_ship(ship_tables())
-    assert lines_of(content)["hull"] == 'refused "a package that reads meshes was missing when the ship was prepared"'
+    assert lines_of(content)["hull"] == (
+        'refused "a package that reads meshes was missing when the ship was prepared: install shipcollision-fmu[mesh], '
+        'and prepare the ship or build the FMU again"'
+    )
     assert b"somebody" not in content
     with pytest.raises(HostError):
         prepare_ship(ship_tables(), needs_hull=True)
@@ -92,7 +95,10 @@ def test_a_hull_that_cannot_be_made_leaves_the_rest(monkeypatch: pytest.MonkeyPa
 def test_a_mesh_that_is_missing_leaves_the_rest(tmp_path: Path) -> None:
     tables = ship_tables(hull={"shape": "mesh", "file": "hull.obj"})
     content = prepare_ship(tables, tmp_path)
-    assert lines_of(content)["hull"] == 'refused "the mesh file was missing when the ship was prepared"'
+    assert lines_of(content)["hull"] == (
+        'refused "the mesh file was missing when the ship was prepared: put it in its place, '
+        'and prepare the ship again"'
+    )
     assert str(tmp_path).encode() not in content
     with pytest.raises(ShipError, match=r"hull\.obj: does not exist in"):
         prepare_ship(tables, tmp_path, needs_hull=True)
