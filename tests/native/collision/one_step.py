@@ -17,6 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from shipcollision_fmu.collision.model import ShipCollision
+from shipcollision_fmu.collision.totals import CONVERGED
 from shipcollision_fmu.ship.frames import Array
 from tests.native.collision.kernels import load_kernels
 from tests.native.collision.model_state import list_state
@@ -36,8 +37,6 @@ model's own answers lie as far from each other."""
 ROUNDING = 1e-7
 """Of the momentum and of the energy of the ships: a lesser impulse or energy is judged by these."""
 
-STOPPED = 1e-11
-"""Residual at which the solver stops."""
 FAR = 5.0
 """Clearance [m] from which on a step is far, if nothing is pending."""
 
@@ -137,7 +136,7 @@ class Differing(NamedTuple):
 @dataclass
 class Tally:
     """Of many steps: taken, compared, with impulses. worst: by name the largest difference of those that agree;
-    residual: largest of the native answers, as a share of the Python model's or of 1e-11, where the solver stops."""
+    residual: largest of the native answers, as a share of the Python model's, or of the limit for a solution."""
 
     taken: int = 0
     compared: int = 0
@@ -191,7 +190,7 @@ class OneStep:
         shares["state"] = list_state(model.get_state()).compare(bytes.fromhex(self._native.get_state()["bytes"]))
         self.tally.compared += 1
         self.tally.touched += bool(expected.J.any())
-        self.tally.residual = max(self.tally.residual, found.residual / max(expected.residual, STOPPED))
+        self.tally.residual = max(self.tally.residual, found.residual / max(expected.residual, CONVERGED))
         name = max(shares, key=lambda name: shares[name])
         if shares[name] <= CLOSE:
             for each, share in shares.items():
