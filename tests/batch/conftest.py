@@ -12,7 +12,7 @@ CACHE = libraries.native_cache()
 """Taken before the tests set another cache."""
 
 
-@pytest.fixture(autouse=True, scope="package")
+@pytest.fixture(autouse=True, scope="module")
 def _kept_library() -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(libraries, "native_cache", lambda: CACHE)
