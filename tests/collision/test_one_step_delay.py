@@ -128,7 +128,7 @@ position = [0.0, -160.0]
     ("degrees_of_freedom", "coasting"),
     [pytest.param(3, "straight", marks=pytest.mark.slow), (6, "straight"), (3, "kirchhoff"), (6, "free")],
 )
-@pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
+@pytest.mark.parametrize("algorithm", ["gauss-seidel", pytest.param("jacobi", marks=pytest.mark.slow)])
 def test_a_ship_springs_between_two_walls_without_losing_or_gaining(
     make_ship: Make, world: MakeWorld, degrees_of_freedom: int, coasting: str, algorithm: str
 ) -> None:

@@ -35,7 +35,7 @@ def check(made: Encounter) -> None:
     assert hypot(x - made.point[0], y - made.point[1]) < TOLERANCE
 
 
-@pytest.mark.parametrize("hydrodynamics", [None, True])
+@pytest.mark.parametrize("hydrodynamics", [pytest.param(None, marks=pytest.mark.slow), True])
 @pytest.mark.parametrize("kind", list(KINDS))
 def test_every_kind_collides_as_requested(kind: str, hydrodynamics: bool | None) -> None:
     check(
