@@ -26,6 +26,7 @@ NAME = PACKAGE.name
 
 FLOORS = (
     {"cli"},
+    {"study"},
     {"packaging", "batch"},
     {"cosim"},
     {"encounters", "results", "compliance", "show"},

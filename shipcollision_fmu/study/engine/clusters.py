@@ -1,0 +1,118 @@
+"""A cluster to compute with: a local one of worker processes, or one that exists and is reached by its scheduler.
+
+Scheduler and workers import this package, so each must have the client's version of it.
+"""
+
+from __future__ import annotations
+
+import json
+import logging
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from dask.system import CPU_COUNT
+from distributed import Client, LocalCluster
+
+from ... import __version__
+from ...errors import HostError, InputError
+from .versions import DISTRIBUTION, describe_other_version
+
+__all__ = ["Cluster", "check_versions", "quiet_dask", "start_local_cluster", "use_scheduler"]
+
+WRITER = "`dask scheduler --scheduler-file FILE` writes it"
+ANSWER = 10.0
+"""Time [s] within which a scheduler answers. A scheduler that is busy with others takes some seconds."""
+
+
+@dataclass(frozen=True)
+class Cluster:
+    """A way to reach a scheduler, again after it was restarted as well."""
+
+    name: str
+    """As messages call it."""
+    connect: Callable[[float], Client]
+    """A new client, within a time [s]. Raises HostError."""
+    can_return: bool
+    """Whether the scheduler may come back after it went away: it is another process."""
+
+
+@contextmanager
+def start_local_cluster(workers: int | None) -> Iterator[Cluster]:
+    """A cluster of so many worker processes, by default as many as there are cores, that listens on loopback alone."""
+    cluster = LocalCluster(
+        n_workers=CPU_COUNT if workers is None else workers,
+        threads_per_worker=1,
+        processes=True,
+        host="127.0.0.1",
+        dashboard_address="127.0.0.1:0",
+        silence_logs=logging.CRITICAL,
+        preload=f"{__package__}.local_worker",
+    )
+    try:
+        yield Cluster(
+            "the local cluster", lambda timeout: Client(cluster, timeout=timeout, set_as_default=False), False
+        )
+    finally:
+        cluster.close(timeout=ANSWER)
+
+
+@contextmanager
+def use_scheduler(address: str | None, file: Path | None) -> Iterator[Cluster]:
+    """A cluster that exists, by its scheduler's address or by the file that the scheduler writes."""
+    name = f"the scheduler at {address}" if file is None else f"the scheduler of {file}"
+
+    def connect(timeout: float) -> Client:
+        where = address if file is None else _read_address(file)
+        try:
+            return Client(where, timeout=timeout, set_as_default=False)
+        except (OSError, ValueError, ImportError) as error:
+            raise HostError(
+                f"no scheduler of Dask answers at {where} within {timeout:g} s ({_first_line(error)}): start one with "
+                "`dask scheduler`, or run without --scheduler on this machine's cores"
+            ) from None
+
+    yield Cluster(name, connect, True)
+
+
+def check_versions(client: Client) -> None:
+    """Raises HostError when the scheduler or a worker has another version of this package, or none."""
+    found = client.get_versions(packages=[DISTRIBUTION])
+    members = {"the scheduler": found["scheduler"], **{f"worker {name}": at for name, at in found["workers"].items()}}
+    for name, info in members.items():
+        version = (info or {}).get("packages", {}).get(DISTRIBUTION)
+        if version != __version__:
+            raise HostError(describe_other_version(name, version))
+
+
+@contextmanager
+def quiet_dask() -> Iterator[None]:
+    """A context in which Dask logs nothing: whatever matters reaches the user as one line of this package."""
+    loggers = [
+        logging.getLogger(name) for name in list(logging.root.manager.loggerDict) if name.startswith("distributed")
+    ]
+    before = [logger.level for logger in loggers]
+    for logger in loggers:
+        logger.setLevel(logging.CRITICAL + 1)
+    try:
+        yield
+    finally:
+        for logger, level in zip(loggers, before, strict=True):
+            logger.setLevel(level)
+
+
+def _read_address(file: Path) -> str:
+    """The address in a scheduler file. Raises InputError."""
+    try:
+        content: Any = json.loads(file.read_bytes())
+        return str(content["address"])
+    except OSError as error:
+        raise InputError(f"cannot read the scheduler file {file}: {error.strerror}; {WRITER}") from None
+    except (ValueError, KeyError, TypeError):
+        raise InputError(f"{file} is no scheduler file: it has no address; {WRITER}") from None
+
+
+def _first_line(error: BaseException) -> str:
+    return str(error).partition("\n")[0] or type(error).__name__

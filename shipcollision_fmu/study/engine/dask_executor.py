@@ -1,0 +1,195 @@
+"""DaskExecutor: batches computed by a Dask cluster.
+
+A worker that goes away gives its batches to others; Dask does that. A scheduler that goes away loses all batches that
+are out: they come back to the plan, and the client waits for the scheduler to return. Answers are bytes: the client
+fetches them as they come, and at most two batches per thread are out, so no memory grows with the study.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import pickle
+from collections.abc import Callable
+from concurrent.futures import CancelledError
+from concurrent.futures import TimeoutError as WaitTimeoutError
+from queue import Empty, SimpleQueue
+from time import monotonic
+from typing import Any
+
+from distributed import Future, KilledWorker
+
+from ... import __version__
+from ...errors import HostError, describe_installation
+from .batches import Batch
+from .clusters import Cluster, check_versions
+from .executor import Failure, Outcome
+from .interface import ComputeRows, Study
+from .work import Answer, compute_batch
+
+__all__ = ["DaskExecutor"]
+
+PER_THREAD = 2
+"""Batches out per thread of a worker: one is computed while the next is there already."""
+PATIENCE = 600.0
+"""Longest time [s] without a scheduler or without a worker. A queue of a cluster takes minutes to start a job again."""
+WAIT = 0.5
+"""Time [s] between two looks at the signals."""
+LOOK = 2.0
+"""Time [s] between two counts of the workers."""
+
+
+class _SchedulerLostError(Exception):
+    """The client has no connection to the scheduler any more."""
+
+
+class DaskExecutor:
+    """An executor that hands batches to a cluster. notify takes lines for the user."""
+
+    def __init__(self, study: Study, compute: ComputeRows, cluster: Cluster, notify: Callable[[str], None]) -> None:
+        self._data, self._compute, self._cluster, self._notify = pickle.dumps(study), compute, cluster, notify
+        self._out: dict[Future, Batch] = {}
+        self._unsent: list[Batch] = []
+        self._done: SimpleQueue[Future] = SimpleQueue()
+        self._threads, self._looked, self._last_worker = 0, -LOOK, monotonic()
+        self._client = cluster.connect(10.0)
+        self._prepare()
+
+    @property
+    def dashboard(self) -> str:
+        """Address of the page that shows the cluster at work."""
+        return str(self._client.dashboard_link)
+
+    @property
+    def most(self) -> int:
+        """Batches that may be out at a time: PER_THREAD for each thread of a worker, and one when there is none."""
+        return max(1, PER_THREAD * self._threads)
+
+    def submit(self, batch: Batch) -> None:
+        """Hands out a batch."""
+        if self._client.status != "running":
+            self._unsent.append(batch)
+            return
+        future = self._client.submit(compute_batch, self._study, self._compute, batch, __version__, pure=False)
+        self._out[future] = batch
+        future.add_done_callback(self._done.put)
+
+    def collect(self, check: Callable[[], None]) -> list[Outcome]:
+        """Outcomes that have come within WAIT; all batches that are out are lost when the scheduler went away."""
+        try:
+            self._count_workers()
+            done = self._wait()
+            check()
+            return self._take(done, check) if done else []
+        except _SchedulerLostError:
+            lost = [Outcome(batch, failure=Failure.LOST) for batch in (*self._out.values(), *self._unsent)]
+            self._out.clear()
+            self._unsent.clear()
+            self._reconnect(check)
+            return lost
+
+    def close(self) -> None:
+        """Leaves the cluster; what is still out is given up."""
+        self._out.clear()
+        self._client.close(timeout=5.0)
+
+    def _prepare(self) -> None:
+        """Checks the cluster and hands it the study, once: whichever worker needs it takes it from another."""
+        check_versions(self._client)
+        self._study: Future = self._client.submit(pickle.loads, self._data, pure=False)
+        self._done = SimpleQueue()
+        self._looked = -LOOK
+
+    def _wait(self) -> list[Future]:
+        """Futures that are done, after waiting for the first of them."""
+        try:
+            done = [self._done.get(timeout=WAIT)]
+        except Empty:
+            return []
+        while not self._done.empty():
+            done.append(self._done.get())
+        return done
+
+    def _take(self, done: list[Future], check: Callable[[], None]) -> list[Outcome]:
+        """The outcomes of futures that are done."""
+        outcomes, finished = [], []
+        for future in done:
+            if future.status == "finished":
+                finished.append(future)
+            elif future.status == "error":
+                outcomes.append(self._explain(self._out.pop(future), future))
+            else:
+                raise _SchedulerLostError
+        for future, answer in zip(finished, self._gather(finished, check), strict=True):
+            outcomes.append(Outcome(self._out.pop(future), answer))
+        return outcomes
+
+    def _gather(self, finished: list[Future], check: Callable[[], None]) -> list[Answer]:
+        """Answers of finished futures. An answer whose worker went away is computed again by Dask on the way."""
+        if not finished:
+            return []
+        fetching = asyncio.run_coroutine_threadsafe(
+            self._client.gather(finished, asynchronous=True), self._client.loop.asyncio_loop
+        )
+        while True:
+            try:
+                answers: list[Answer] = fetching.result(timeout=WAIT)
+                return answers
+            except (CancelledError, OSError, WaitTimeoutError):
+                if fetching.done():
+                    raise _SchedulerLostError from None
+            try:
+                check()
+                self._count_workers()
+            except BaseException:
+                fetching.cancel()
+                raise
+
+    def _explain(self, batch: Batch, future: Future) -> Outcome:
+        """The failure of a batch that ended its workers. Raises the exception of one whose computation failed."""
+        error: Any = future.exception(timeout=10.0)
+        if isinstance(error, (KilledWorker, MemoryError)):
+            return Outcome(batch, failure=Failure.DEADLY)
+        if isinstance(error, ModuleNotFoundError):
+            raise HostError(
+                f"a worker has no package {error.name!r}: on every machine of the cluster "
+                f"{describe_installation('study')}"
+            )
+        raise error
+
+    def _count_workers(self) -> None:
+        """Counts the threads of the workers now and then. Raises _SchedulerLostError, or HostError after PATIENCE."""
+        if self._client.status != "running":
+            raise _SchedulerLostError
+        if monotonic() - self._looked < LOOK:
+            return
+        try:
+            self._threads = sum(self._client.nthreads().values())
+        except (OSError, CancelledError):
+            raise _SchedulerLostError from None
+        self._looked = monotonic()
+        if self._threads:
+            self._last_worker = self._looked
+        elif self._looked - self._last_worker > PATIENCE:
+            raise HostError(
+                f"{self._cluster.name} has had no worker for {PATIENCE:g} s: start one with `dask worker`, then go on "
+                "with --resume"
+            )
+
+    def _reconnect(self, check: Callable[[], None]) -> None:
+        """Waits until the scheduler answers again. Raises HostError after PATIENCE."""
+        self._client.close(timeout=2.0)
+        if not self._cluster.can_return:
+            raise HostError(f"{self._cluster.name} has ended: go on with --resume")
+        self._notify(f"{self._cluster.name} went away; waiting for it to return")
+        begin = monotonic()
+        while True:
+            check()
+            try:
+                self._client = self._cluster.connect(2.0)
+                self._prepare()
+                break
+            except (HostError, OSError, CancelledError) as error:
+                if monotonic() - begin > PATIENCE:
+                    raise HostError(f"{error}; go on with --resume") from None
+        self._last_worker = monotonic()
+        self._notify(f"{self._cluster.name} is back; the study goes on")

@@ -1,0 +1,136 @@
+"""StudyFolder: what a study leaves on the disk.
+
+    study.toml                                the study file as given
+    study.json                                fingerprint, versions, counts
+    encounters/part-FIRST-LAST.parquet        a line per row
+    collisions/part-FIRST-LAST.parquet        a line per collision
+
+Every file is written under another name and renamed, so readers find whole files only. The collisions of a part come
+first: its file of encounters says that the part is done.
+"""
+
+from __future__ import annotations
+
+import json
+import platform
+import shutil
+from collections.abc import Iterator
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ... import __version__
+from ...errors import HostError, InputError
+from ...files import check_writable, write_files
+from .interface import Study
+from .part_file import Mark, PartBytes, read_mark
+from .parts import Part, count_parts, list_parts
+
+__all__ = ["TABLES", "StudyFolder"]
+
+TABLES = ("encounters", "collisions")
+ROOM = "make room on the disk or give another folder with --out, then go on with --resume"
+ASIDE = ".shipcollision-*"
+"""Folders of files that are being written; a client that was killed leaves one behind."""
+
+
+class StudyFolder:
+    """The folder of a study."""
+
+    def __init__(self, path: Path, study: Study) -> None:
+        self.path = path
+        self._study = study
+
+    def check(self, resume: bool) -> None:
+        """Raises InputError or HostError when the study cannot go there; writes nothing."""
+        found = self._read_json()
+        if found is None:
+            self._refuse_foreign()
+        elif not resume:
+            raise InputError(
+                f"{self.path} holds a study already: go on with it with --resume, or give another folder with --out"
+            )
+        else:
+            self._refuse_other(found)
+        check_writable(self.path)
+
+    def open(self) -> None:
+        """Makes the folder, or takes up what is there. Raises HostError."""
+        for aside in [*self.path.glob(ASIDE), *self.path.glob(f"*/{ASIDE}")]:
+            shutil.rmtree(aside, ignore_errors=True)
+        write_files(self.path, {"study.toml": self._study.text, "study.json": self._describe("running", {})}, ROOM)
+
+    def find_marks(self) -> Iterator[tuple[Part, Mark | None]]:
+        """All parts in order, each with the mark of its files, None where the part must be computed."""
+        for part in list_parts(self._study.rows, self._study.level):
+            marks = [self._read_mark(table, part) for table in TABLES]
+            yield part, marks[0] if marks[0] == marks[1] else None
+
+    def find_damaged(self, part: Part) -> list[Path]:
+        """Files of a part that are there and are no files of this study, such as those that were cut short."""
+        paths = [self.path / table / part.file for table in TABLES]
+        return [
+            path
+            for path, table in zip(paths, TABLES, strict=True)
+            if path.exists() and not self._read_mark(table, part)
+        ]
+
+    def write(self, part: PartBytes) -> None:
+        """Writes both files of a part. Raises HostError."""
+        write_files(self.path / "collisions", {part.part.file: part.collisions}, ROOM)
+        write_files(self.path / "encounters", {part.part.file: part.encounters}, ROOM)
+
+    def write_status(self, status: str, counts: dict[str, int]) -> None:
+        """Writes study.json anew."""
+        write_files(self.path, {"study.json": self._describe(status, counts)}, ROOM)
+
+    def _read_mark(self, table: str, part: Part) -> Mark | None:
+        mark = read_mark(self.path / table / part.file)
+        own = (self._study.fingerprint, part.first, part.last)
+        return mark if mark is not None and (mark.fingerprint, mark.first, mark.last) == own else None
+
+    def _read_json(self) -> dict[str, Any] | None:
+        """study.json of a study of this program, None if there is none."""
+        try:
+            content = json.loads((self.path / "study.json").read_bytes())
+        except (OSError, ValueError):
+            return None
+        return content if isinstance(content, dict) and "fingerprint" in content else None
+
+    def _refuse_foreign(self) -> None:
+        if self.path.is_dir() and (names := sorted(entry.name for entry in self.path.iterdir())):
+            raise HostError(
+                f"{self.path} holds {names[0]}{' and others' if len(names) > 1 else ''}, and no study.json of a study: "
+                "give a new or an empty folder with --out"
+            )
+
+    def _refuse_other(self, found: dict[str, Any]) -> None:
+        """Raises InputError unless the study of the folder is this one."""
+        if found["fingerprint"] == self._study.fingerprint:
+            return
+        versions = found.get("versions")
+        there = versions.get("shipcollision_fmu") if isinstance(versions, dict) else None
+        if there != __version__:
+            reason = f"it was begun by version {there} of shipcollision-fmu, this is {__version__}"
+        else:
+            reason = "the study file, a ship or a table that it names has changed since"
+        raise InputError(f"{self.path} holds another study: {reason}; give a new folder with --out")
+
+    def _describe(self, status: str, counts: dict[str, int]) -> str:
+        study = self._study
+        names = ("numpy", "pyarrow", "dask", "distributed")
+        content = {
+            "fingerprint": study.fingerprint,
+            "level": study.level,
+            "rows": study.rows,
+            "parts": count_parts(study.rows, study.level),
+            "status": status,
+            "counts": counts,
+            "versions": {
+                "shipcollision_fmu": __version__, "python": platform.python_version(),
+                **{name: np.__version__ if name == "numpy" else version(name) for name in names},
+            },
+        }  # fmt: skip
+        return json.dumps(content, indent=1) + "\n"

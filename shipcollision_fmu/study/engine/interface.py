@@ -1,0 +1,48 @@
+"""What the engine asks of a study, and of the function that computes its rows."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import pyarrow as pa
+
+__all__ = ["ComputeRows", "RowTables", "Study"]
+
+
+class Study(Protocol):
+    """A study: its file's text, and all that its rows depend on. It is pickled to the workers."""
+
+    @property
+    def text(self) -> str:
+        """The study file as given."""
+
+    @property
+    def fingerprint(self) -> str:
+        """SHA-256 of all that determines the rows."""
+
+    @property
+    def rows(self) -> int:
+        """Number of rows."""
+
+    @property
+    def level(self) -> str:
+        """impact, encounter or sailed."""
+
+
+class RowTables(Protocol):
+    """The lines of both tables that belong to a range of rows."""
+
+    @property
+    def encounters(self) -> pa.Table:
+        """One line per row of the study, in order; column `row`."""
+
+    @property
+    def collisions(self) -> pa.Table:
+        """Any number of lines per row; column `row`."""
+
+
+class ComputeRows(Protocol):
+    """A pure function of a study and its rows first to first + count - 1; workers find it by its module and name."""
+
+    def __call__(self, study: Study, first: int, count: int, /) -> RowTables:
+        """The tables of these rows."""

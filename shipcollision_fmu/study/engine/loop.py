@@ -1,0 +1,87 @@
+"""Loop: hands out batches and writes the parts that come of the answers; Tally counts what is written."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from time import perf_counter
+
+from ...errors import HostError
+from .assembly import Assembly
+from .batches import BatchPlan
+from .executor import Executor, Failure, Outcome
+from .folder import StudyFolder
+from .part_file import Mark
+
+__all__ = ["Loop", "Progress", "Tally"]
+
+Progress = Callable[[int, int], None]
+"""A function of the number of rows that are done, and of all rows."""
+
+
+class Tally:
+    """Counts of the parts that are written."""
+
+    def __init__(self) -> None:
+        self.rows = self.refused = self.collisions = 0
+
+    def add(self, mark: Mark) -> None:
+        """Adds those of a part."""
+        self.rows += mark.last - mark.first + 1
+        self.refused += mark.refused
+        self.collisions += mark.collisions
+
+    def as_counts(self) -> dict[str, int]:
+        """Those of study.json."""
+        return {"rows": self.rows, "refused": self.refused, "collisions": self.collisions}
+
+
+class Loop:
+    """Hands out batches, puts answers together and writes parts, until all are written."""
+
+    def __init__(
+        self, executor: Executor, plan: BatchPlan, assembly: Assembly, folder: StudyFolder, tally: Tally, rows: int,
+        progress: Progress | None,
+    ) -> None:  # fmt: skip
+        self._executor, self._plan, self._assembly, self._folder = executor, plan, assembly, folder
+        self._tally, self._rows, self._progress = tally, rows, progress or (lambda done, total: None)
+        self._computed = tally.rows
+        self.waited = 0.0
+
+    def run(self, check: Callable[[], None]) -> None:
+        """Returns when all is written. check: raises when the study is interrupted."""
+        out = 0
+        self._progress(self._computed, self._rows)
+        while True:
+            check()
+            while out < self._executor.most and (batch := self._plan.take()) is not None:
+                self._executor.submit(batch)
+                out += 1
+            if not out:
+                return
+            begin = perf_counter()
+            outcomes = self._executor.collect(check)
+            self.waited += perf_counter() - begin
+            for outcome in outcomes:
+                out -= 1
+                self._take(outcome)
+
+    def _take(self, outcome: Outcome) -> None:
+        """Keeps an answer and writes the part that it completes, or hands out the batch again."""
+        answer, batch = outcome.answer, outcome.batch
+        if answer is not None:
+            self._plan.learn(batch.count, answer.seconds)
+            part = self._assembly.add(answer)
+            if part is not None:
+                self._folder.write(part)
+                self._tally.add(part.mark)
+            self._computed += batch.count
+            self._progress(self._computed, self._rows)
+        elif outcome.failure is Failure.LOST:
+            self._plan.give_back(batch)
+        elif batch.count > 1:
+            self._plan.give_back_halves(batch)
+        else:
+            raise HostError(
+                f"row {batch.first} ended one worker after the other, killed or out of memory: give each worker more "
+                "memory, such as by fewer --workers, and go on with --resume"
+            )

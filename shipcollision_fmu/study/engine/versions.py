@@ -1,0 +1,19 @@
+"""describe_other_version(): the refusal of a scheduler or a worker with another version of this package."""
+
+from __future__ import annotations
+
+from ... import __version__
+from ...errors import describe_installation
+
+__all__ = ["DISTRIBUTION", "describe_other_version"]
+
+DISTRIBUTION = "shipcollision-fmu"
+
+
+def describe_other_version(name: str, version: str | None) -> str:
+    """The refusal of a member of a cluster that has another version of this package, or none."""
+    has = f"{DISTRIBUTION} {version}" if version else f"no {DISTRIBUTION}"
+    return (
+        f"{name} has {has}, the client has {__version__}: {describe_installation('study')} on every machine of the "
+        "cluster, with the client's version"
+    )
