@@ -3,7 +3,8 @@
     ShipCollisionError
     ├── InputError          input of a user is refused; the message has the key, its value, the limit and the remedy
     │   ├── ShipError       a ship file or a ship's particulars
-    │   └── ScenarioError   a scenario file or an option of a run
+    │   ├── ScenarioError   a scenario file or an option of a run
+    │   └── StudyError      a study file or an option of a study
     ├── StepError           a model cannot make a step; its state before the step stays valid
     └── HostError           the surroundings fail: a missing package, an unwritable folder, a broken FMU
 
@@ -21,6 +22,7 @@ __all__ = [
     "ShipCollisionError",
     "ShipError",
     "StepError",
+    "StudyError",
     "describe_installation",
 ]
 
@@ -43,6 +45,10 @@ class ShipError(InputError):
 
 class ScenarioError(InputError):
     """A scenario file, or an option of a run, is refused."""
+
+
+class StudyError(InputError):
+    """A study file, or an option of a study, is refused."""
 
 
 class StepError(ShipCollisionError):

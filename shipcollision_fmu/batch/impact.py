@@ -27,7 +27,7 @@ from .impact_columns import CASES
 from .native_impacts import ImpactShip, NativeImpacts
 from .prepared_ships import AnyShip, PreparedShips, find_ship
 
-__all__ = ["check_freedom", "fill_cases", "impact", "run_cases"]
+__all__ = ["check_freedom", "fill_cases", "impact", "open_impacts", "run_cases"]
 
 FREEDOMS = (3, 4, 6)
 """Degrees of freedom that a ship may have."""
@@ -114,11 +114,12 @@ def run_cases(
     own: Ship, target: Ship, degrees_of_freedom: int, cases: npt.NDArray[Any], files: PreparedShips
 ) -> npt.NDArray[Any]:
     """The rows of the cases, of their shape."""
-    with closing(_open_impacts(own, target, degrees_of_freedom, files)) as impacts:
+    with closing(open_impacts(own, target, degrees_of_freedom, files)) as impacts:
         return impacts.run(cases.ravel()).reshape(cases.shape)
 
 
-def _open_impacts(own: Ship, target: Ship, degrees_of_freedom: int, files: PreparedShips) -> NativeImpacts:
+def open_impacts(own: Ship, target: Ship, degrees_of_freedom: int, files: PreparedShips) -> NativeImpacts:
+    """The impacts of two ships, ready to run; the files are read here and not later. Raises ShipError or HostError."""
     hulls = [build_hull(ship.L_oa, ship.B, ship.T, ship.hull) for ship in (own, target)]
     deck = find_contact_height(*hulls)
     own_ship, target_ship = (

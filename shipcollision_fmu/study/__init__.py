@@ -1,6 +1,10 @@
 """Studies: a million encounters, drawn from distributions, on one machine or on a Dask cluster.
 
-    engine/   run_study(): batches, workers, the folder of Parquet files
+    definition/   the study file becomes a Study: distributions, fleets, tables of data, checks
+    rows/         compute_rows(): some rows of a study as two tables, by row number alone
+    engine/       run_study(): batches, workers, the folder of Parquet files
+    extra.py      pyarrow, which studies alone need
 
-Imports from: cosim (interrupt.py). Used by: cli, users of the package.
+Data flow: study file -> Study -> rows -> tables -> folder. Imports from: batch, cosim (interrupt.py), encounters,
+scenario, collision, ship, toolchain. Used by: cli and users of the package.
 """

@@ -1,0 +1,59 @@
+"""Checks of a study that need its level of detail and its kinds of encounter."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ...encounters.request import KINDS
+from ...errors import StudyError
+from .distributions import Distribution, TableColumn
+from .study_file import StudyFile
+from .variables import NUMBERS, WORDS, acts_with
+
+__all__ = ["check_level"]
+
+
+def check_level(file: StudyFile, variables: Mapping[str, Distribution], source: str) -> None:
+    """Raise StudyError for a variable that does not act at the level or with the kinds of the study."""
+    level, kinds = file.study.level, _list_kinds(file, variables)
+    for name in (*variables, *file.grid):
+        place = f"{source}: [{'grid' if name in file.grid else 'encounter'}] {name}"
+        if name in NUMBERS and level not in NUMBERS[name].levels:
+            raise StudyError(
+                f'{place} has no effect at level = "{level}": remove it, or take level = "{NUMBERS[name].levels[0]}"'
+            )
+        _check_kinds(place, name, kinds, _find_limits(name, file, variables))
+    place = f"{source}: [{'grid' if 'kind' in file.grid else 'encounter'}] kind"
+    for kind in kinds:
+        if KINDS[kind].sailed and level != "sailed":
+            raise StudyError(f'{place} = "{kind}" needs ships that steer: take level = "sailed", or another kind')
+
+
+def _list_kinds(file: StudyFile, variables: Mapping[str, Distribution]) -> list[str]:
+    if "kind" in file.grid:
+        return [str(word) for word in file.grid["kind"]]
+    given = variables["kind"]
+    return [] if isinstance(given, TableColumn) else given.words()
+
+
+def _find_limits(name: str, file: StudyFile, variables: Mapping[str, Distribution]) -> tuple[float, float] | None:
+    """Least and greatest value of a number; None where they are not known."""
+    if name in WORDS:
+        return None
+    if name in file.grid:
+        return min(file.grid[name]), max(file.grid[name])
+    return None if isinstance(variables[name], TableColumn) else variables[name].limits()
+
+
+def _check_kinds(place: str, name: str, kinds: list[str], limits: tuple[float, float] | None) -> None:
+    """A variable must act with one of the kinds at least, and its values fit all of them."""
+    for kind in kinds if name == "angle_deg" and limits is not None else ():
+        least, most = KINDS[kind].angles
+        if limits is not None and not least <= limits[0] <= limits[1] <= most:
+            raise StudyError(
+                f'{place} goes from {limits[0]:g} to {limits[1]:g}, must be {least:g} to {most:g} for kind "{kind}": '
+                'change it, or take kind "crossing"'
+            )
+    if kinds and not any(acts_with(name, kind) for kind in kinds):
+        able = [kind for kind in KINDS if acts_with(name, kind)]
+        raise StudyError(f'{place} has no effect with kind "{kinds[0]}": remove it, or take kind {" or ".join(able)}')

@@ -1,0 +1,175 @@
+"""Study: all that determines the rows of a study, and read_study().
+
+    file  ->  StudyFile (keys, limits)  ->  tables and ships are read  ->  checks between tables  ->  Study
+
+A Study holds no path: what it needs of other files is in it, so that it can be sent to another machine.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from hashlib import sha256
+from math import prod
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from ...errors import StudyError
+from ...files import is_file, is_folder
+from ...ship.loading.library import find_models
+from ...ship.loading.messages import describe_error, suggest_or_list
+from ...ship.loading.toml import parse_toml
+from .distributions import Distribution
+from .empirical import EmpiricalTable, read_empirical_table
+from .fleet import Fleet, digest_fleet, make_fleet
+from .level_checks import check_level
+from .study_file import Header, RunTable, StudyFile
+from .table_checks import check_columns
+
+__all__ = ["Study", "list_study_names", "parse_study", "read_study"]
+
+FORMAT = 1
+"""Counts changes of how rows are made from a study: part of the fingerprint, so that old and new rows never mix."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Study:
+    """A study, ready to make rows.
+
+    text          the study file as given
+    source        its name in messages
+    fingerprint   sha256 of all that determines the rows: text, ships, tables, version of the package
+    variables     distributions by name
+    grid          values by name, all combined; the first name varies slowest
+    tables        empirical tables by name
+    own, target   the ships
+    """
+
+    text: str
+    source: str
+    fingerprint: str
+    header: Header
+    rows: int
+    run: RunTable
+    variables: dict[str, Distribution]
+    grid: dict[str, list[Any]]
+    tables: dict[str, EmpiricalTable]
+    own: Fleet
+    target: Fleet
+
+    @property
+    def name(self) -> str:
+        """Its name, and that of its folder."""
+        return self.header.name
+
+    @property
+    def level(self) -> str:
+        """ "impact", "encounter" or "sailed"."""
+        return self.header.level
+
+    @property
+    def seed(self) -> int:
+        """The seed of its random numbers."""
+        return self.header.seed
+
+    def __repr__(self) -> str:
+        """Name, size and level, in one line."""
+        return f"study {self.name}: {self.rows} rows, level {self.level}, sampler {self.header.sampler}"
+
+
+def list_study_names() -> list[str]:
+    """Names of the shipped studies, sorted."""
+    return sorted(path.stem for path in (find_models() / "studies").glob("*.toml"))
+
+
+def read_study(name_or_path: str | Path) -> Study:
+    """The study of a shipped name (`quick`) or of a file (`my/study.toml`).
+
+    An argument with the suffix .toml or a path separator is a file. Raises StudyError, in one line, for a file that is
+    missing or refused, and for ships or tables that it names and that cannot be read.
+    """
+    path = _locate(name_or_path)
+    try:
+        text = path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise StudyError(f"{path} cannot be read: {error.strerror}: give the path of a study file") from None
+    except UnicodeDecodeError as error:
+        raise StudyError(f"{path.name} is not UTF-8 text (byte {error.start}): save it as UTF-8") from None
+    return parse_study(text, path.name, path.parent)
+
+
+def parse_study(text: str, source: str = "study", folder: str | Path = ".") -> Study:
+    """The study in TOML text. source: its name in messages; folder: where paths in it begin. Raises StudyError."""
+    data, folder = parse_toml(text, source, StudyError), Path(folder)
+    _refuse_other_file(data, source)
+    try:
+        file = StudyFile.model_validate(data)
+    except ValidationError as error:
+        raise StudyError(f"{source}: {describe_error(error, StudyFile)}") from None
+    tables = {
+        name: read_empirical_table(name, folder / of.file, of.weight, f"{source}: [tables.{name}]")
+        for name, of in file.tables.items()
+    }
+    check_columns(file, tables, source)
+    variables = dict(file.encounter.list_given())
+    check_level(file, variables, source)
+    own = make_fleet("own", file.own, tables, folder, source)
+    target = own if file.target is None else make_fleet("target", file.target, tables, folder, source)
+    return Study(
+        text, source, _digest(text, own, target, tables), file.study, _count_rows(file, source), file.run, variables,
+        file.grid, tables, own, target,
+    )  # fmt: skip
+
+
+def _refuse_other_file(data: dict[str, Any], source: str) -> None:
+    for table, what in (("scenario", "a scenario"), ("particulars", "a ship")):
+        if table in data and "study" not in data:
+            raise StudyError(f"{source} is {what}, not a study: give a study, which has a table [study]")
+
+
+def _count_rows(file: StudyFile, source: str) -> int:
+    """The number of rows, a whole number of grids."""
+    cells, rows = prod(len(values) for values in file.grid.values()), file.study.rows
+    if rows is None:
+        if not file.grid:
+            raise StudyError(f"{source}: [study] rows is missing: give the number of cases, or a table [grid]")
+        return cells
+    if rows % cells:
+        near = [n * cells for n in (rows // cells, rows // cells + 1) if n]
+        raise StudyError(
+            f"{source}: [study] rows = {rows} is {rows / cells:.4g} times the {cells} cells of [grid], must be a whole "
+            f"number of times: take {' or '.join(map(str, near))}, or leave rows out"
+        )
+    return rows
+
+
+def _digest(text: str, own: Fleet, target: Fleet, tables: dict[str, EmpiricalTable]) -> str:
+    from ... import __version__
+
+    digests = {
+        name: [[column, sha256(values.tobytes()).hexdigest()] for column, values in sorted(table.columns.items())]
+        for name, table in tables.items()
+    }
+    parts = [FORMAT, __version__, text, digest_fleet(own), digest_fleet(target), digests]
+    return sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()
+
+
+def _locate(name_or_path: str | Path) -> Path:
+    if not isinstance(name_or_path, str | Path) or name_or_path == "":
+        raise StudyError(f"study = {name_or_path!r} is no study: give a name or the path of a TOML file")
+    text = str(name_or_path)
+    known = list_study_names()
+    if isinstance(name_or_path, Path) or text.endswith(".toml") or "/" in text or "\\" in text:
+        path = Path(text)
+        if is_folder(path):
+            raise StudyError(f"{text} is a folder: give the path of a study file, or one of {', '.join(known)}")
+        if not is_file(path):
+            raise StudyError(
+                f"study file {text} does not exist: give the path of a TOML file or one of {', '.join(known)}"
+            )
+        return path
+    if text in known:
+        return find_models() / "studies" / f"{text}.toml"
+    raise StudyError(f"unknown study {text!r}:{suggest_or_list(text, known, 'give the path of a TOML file')}")

@@ -1,0 +1,84 @@
+"""Level `impact`: the first contact alone, of all cases of a pair of ships in one call."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ...batch.impact import open_impacts
+from ...batch.impact_columns import CASES
+from ...batch.prepared_ships import PreparedShips
+from ...errors import ShipError
+from ..definition.study import Study
+from .cases import Cases
+from .fleet_ships import FleetShip
+from .pairs import Impacts, OpenPairs, group_pairs, refuse_all
+from .python_impacts import PythonImpacts
+from .results import MOTION, Results
+
+__all__ = ["run_impacts"]
+
+
+def _open_native(own: FleetShip, target: FleetShip, degrees_of_freedom: int) -> Impacts:
+    with PreparedShips() as files:
+        return open_impacts(own.loaded, target.loaded, degrees_of_freedom, files)
+
+
+PAIRS = {"native": OpenPairs(_open_native), "python": OpenPairs(PythonImpacts)}
+"""Open pairs by engine."""
+
+
+def run_impacts(study: Study, cases: Cases, engine: str) -> Results:
+    """The results of the cases."""
+    results = Results(cases, engine)
+    given = _as_cases(cases)
+    for own, target, places in group_pairs(study, cases, results):
+        try:
+            impacts = PAIRS[engine].find(own, target, study.run.degrees_of_freedom)
+        except ShipError as error:
+            refuse_all(results, places, error)
+            continue
+        rows = impacts.run(given[places])
+        for place, row in zip(places[rows["status"] != 0], rows[rows["status"] != 0], strict=True):
+            results.refuse(int(place), row["reason"].decode())
+        _put_rows(results, places[rows["status"] == 0], rows[rows["status"] == 0])
+    return results
+
+
+def _as_cases(cases: Cases) -> npt.NDArray[Any]:
+    given = np.zeros(len(cases), CASES)
+    for name in CASES.names or ():
+        if name in cases.numbers:
+            given[name] = cases.numbers[name]
+    given["is_starboard"] = cases.side == "starboard"
+    return given
+
+
+def _put_rows(results: Results, places: npt.NDArray[np.intp], rows: npt.NDArray[Any]) -> None:
+    relative, impulse = np.linalg.norm(rows["relative_velocity"], axis=1), np.hypot(*rows["impulse"][:, :2].T)
+    both: dict[str, Any] = {
+        "contacts": rows["contacts"], "energy": rows["energy"], "closing_speed": rows["closing_speed"],
+        "relative_speed": relative, "impulse": impulse,
+    }  # fmt: skip
+    angle = np.degrees(rows["angle"])
+    encounter = {
+        **both, "collisions": 1.0, "duration": 0.0, "energy_normal": rows["energy_normal"],
+        "energy_tangential": rows["energy_tangential"], "collision_angle_deg": angle, "residual": rows["residual"],
+        "unconverged": rows["residual"] > 1e-9,
+    }  # fmt: skip
+    one = np.ones(len(rows))
+    collision = {
+        "case": places, **both, "collision": one, "ship_a": np.full(len(rows), "own"),
+        "ship_b": np.full(len(rows), "target"), "start": 0.0 * one, "end": 0.0 * one, "angle_deg": angle,
+    }  # fmt: skip
+    for role, letter in (("own", "a"), ("target", "b")):
+        for i, axis in enumerate("xyz"):
+            encounter[f"{role}_{axis}"] = collision[f"{letter}_{axis}"] = rows[f"{role}_point"][:, i]
+        for name, i in MOTION.items():
+            encounter[f"{role}_{name}_after"] = collision[f"{letter}_{name}_after"] = rows[f"{role}_after"][:, i]
+            collision[f"{letter}_{name}_before"] = rows[f"{role}_before"][:, i]
+    for name, values in encounter.items():
+        results.put(name, places, values)
+    results.collisions.append(collision)
