@@ -1,16 +1,17 @@
-"""Windows for programs that hosts of native FMUs are: Wine's."""
+"""Hosts of native FMUs: play.c for each platform, and Windows for those of Windows, which is Wine's."""
 
 from __future__ import annotations
 
 import os
 import subprocess
-from collections.abc import Callable
 
 import pytest
 
+from tests.native.hosts.player import Play, Player, Wine
+
 
 @pytest.fixture(scope="session")
-def wine(tmp_path_factory: pytest.TempPathFactory) -> Callable[[], dict[str, str]]:
+def wine(tmp_path_factory: pytest.TempPathFactory) -> Wine:
     """The environment of Wine, with a Windows of its own, which takes a moment to make."""
     home = tmp_path_factory.mktemp("wine")
     made = {"WINEPREFIX": str(home / "wine"), "WINEDEBUG": "-all", "PATH": os.environ["PATH"], "HOME": str(home),
@@ -22,3 +23,9 @@ def wine(tmp_path_factory: pytest.TempPathFactory) -> Callable[[], dict[str, str
         return made
 
     return begin
+
+
+@pytest.fixture(scope="session")
+def play(wine: Wine, tmp_path_factory: pytest.TempPathFactory) -> Play:
+    """Plays scripts on an unpacked FMU."""
+    return Player(tmp_path_factory.mktemp("host"), wine).play

@@ -1,13 +1,14 @@
-"""A voyage as a script for play.c: KVLCC2 with its helm over, in wind and current, struck, saved and restored."""
+"""Scripts for play.c: KVLCC2 with its helm over, in wind and current, struck, saved and restored; and two ships that
+collide, saved and restored."""
 
 from __future__ import annotations
 
 import struct
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from xml.etree import ElementTree
 
-__all__ = ["STEP", "Script", "write_voyage"]
+__all__ = ["STEP", "Script", "write_encounter", "write_voyage"]
 
 STEP = 0.1
 
@@ -97,4 +98,41 @@ def write_voyage(unpacked: Path, degrees_of_freedom: int = 6, steps: int = 400, 
     for name in ("position", "attitude", "velocity", "rate"):
         script.get(name, 3)
     script.lines.extend(tail)
+    return script
+
+
+def write_encounter(
+    unpacked: Path, ships: Mapping[str, str], received: Sequence[Mapping[str, Sequence[float]]], outputs: Iterable[str]
+) -> Script:
+    """The script of a collision of ships that adopt their states after it. It prints the digest of the state four times
+    on the way, then the outputs, vectors by their names.
+
+    ships: their files by name. received: by step the values of inputs, vectors by their names. The second half is made
+    twice.
+    """
+    script = Script(unpacked)
+    for name, ship in ships.items():
+        script.set("string", f"{name}.ship", ship)
+        script.set("string", f"{name}.feedback_name", "state")
+
+    def step(k: int, says_state: bool = True) -> None:
+        for name, values in received[k].items():
+            script.set("real", name, *values)
+        if k == 0:
+            script.say(f"begin {bits(0.0)}")
+        script.step(k * STEP)
+        if says_state and (k + 1) % (len(received) // 4) == 0:
+            script.say("state")  # in place of the state that was saved
+
+    half = len(received) // 2
+    for k in range(half):
+        step(k)
+    script.say("save")
+    for k in range(half, len(received)):
+        step(k, says_state=False)
+    script.say("restore")
+    for k in range(half, len(received)):
+        step(k)
+    for name in outputs:
+        script.get(name, 3)
     return script

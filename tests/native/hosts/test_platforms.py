@@ -9,9 +9,7 @@ from __future__ import annotations
 import os
 import shutil
 import subprocess
-from collections.abc import Callable
 from pathlib import Path
-from urllib.parse import quote
 
 import numpy as np
 import pytest
@@ -23,21 +21,12 @@ from shipcollision_fmu.toolchain import libraries
 from shipcollision_fmu.toolchain.sources import find_fmi_headers, find_native
 from tests.compiler import compile_c, compile_for_windows
 from tests.native.conftest import CACHE
-from tests.native.hosts.script import STEP, Script, from_bits, write_voyage
+from tests.native.hosts.player import PLATFORMS, TARGETS, Play, Wine
+from tests.native.hosts.script import STEP, from_bits, write_voyage
 
 pytestmark = pytest.mark.slow
 
 FLAVOURS = {"2": (2, False), "3": (3, False), "3-scalar": (3, True)}
-TARGETS = {"linux64": "x86_64-linux-gnu.2.17", "win64": "x86_64-windows-gnu", "aarch64-linux": "aarch64-linux-gnu.2.17"}
-BINARIES = {
-    "linux64": {"2": "linux64/ShipManoeuvring.so", "3": "x86_64-linux/ShipManoeuvring.so"},
-    "win64": {"2": "win64/ShipManoeuvring.dll", "3": "x86_64-windows/ShipManoeuvring.dll"},
-    "aarch64-linux": {"2": "aarch64-linux/ShipManoeuvring.so", "3": "aarch64-linux/ShipManoeuvring.so"},
-}
-ROOT = "/usr/aarch64-linux-gnu"
-"""Where Debian puts the C library of ARM for QEMU."""
-
-Play = Callable[[str, str, Script], list[str]]
 
 
 @pytest.fixture(scope="module")
@@ -57,46 +46,6 @@ def unpacked(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
         }  # fmt: skip
 
 
-@pytest.fixture(scope="module")
-def play(
-    unpacked: dict[str, Path], wine: Callable[[], dict[str, str]], tmp_path_factory: pytest.TempPathFactory
-) -> Play:
-    """Lines that play.c prints for a script, by platform and flavour."""
-    home = tmp_path_factory.mktemp("host")
-    programs: dict[str, Path] = {}
-
-    def program(platform: str) -> Path:
-        if platform not in programs:
-            include, source = f"-I{find_fmi_headers()}", Path(__file__).with_name("play.c")
-            if platform == "win64":
-                programs[platform] = home / "win64.exe"
-                compile_for_windows(programs[platform], source, flags=[include])
-            else:
-                programs[platform] = home / platform
-                compile_c("-O1", include, "-o", programs[platform], source, target=TARGETS[platform])
-        return programs[platform]
-
-    def run(platform: str, flavour: str, script: Script) -> list[str]:
-        folder = unpacked[flavour]
-        library = folder / "binaries" / BINARIES[platform][flavour[0]]
-        command, environment = [str(program(platform))], {}
-        drive = ""
-        if platform == "win64":
-            command, environment, drive = ["wine", *command], wine(), "Z:"
-        if platform == "aarch64-linux":
-            command = [str(shutil.which("qemu-aarch64")), "-L", ROOT, *command]
-        resources = f"{folder}/resources"
-        location = f"file:///{drive}{quote(resources)}" if flavour == "2" else f"{drive}{resources}/"
-        done = subprocess.run(
-            [*command, str(script.fmi), f"{drive}{library}", script.token, location.replace("file:////", "file:///")],
-            input=script.text.encode(), capture_output=True, check=False, timeout=600, env=environment,
-        )  # fmt: skip
-        assert (done.returncode, done.stderr) == (0, b"")
-        return done.stdout.decode().splitlines()
-
-    return run
-
-
 def vectors(lines: list[str]) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
     """The twelve states at the end of what a script printed."""
     return np.array([from_bits(word) for line in lines[10:] for word in line.split()])
@@ -105,14 +54,14 @@ def vectors(lines: list[str]) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
 @pytest.fixture(scope="module")
 def digests(play: Play, unpacked: dict[str, Path]) -> list[str]:
     """What linux64 prints in FMI 2.0."""
-    return play("linux64", "2", write_voyage(unpacked["2"]))
+    return play("linux64", unpacked["2"], write_voyage(unpacked["2"]))
 
 
 @pytest.mark.parametrize("degrees_of_freedom", [3, 4, 6])
 def test_a_host_without_python_moves_the_ship_as_the_python_model(
     play: Play, unpacked: dict[str, Path], degrees_of_freedom: int
 ) -> None:
-    lines = play("linux64", "2", write_voyage(unpacked["2"], degrees_of_freedom))
+    lines = play("linux64", unpacked["2"], write_voyage(unpacked["2"], degrees_of_freedom))
     ship = ShipManoeuvring()
     p, i, o = ship.parameters, ship.inputs, ship.outputs
     p.hydrodynamics, p.degrees_of_freedom = True, degrees_of_freedom
@@ -130,20 +79,16 @@ def test_a_host_without_python_moves_the_ship_as_the_python_model(
     assert len(set(lines[:10])) == 10
 
 
-@pytest.mark.parametrize(
-    "platform",
-    ["linux64", pytest.param("win64", marks=pytest.mark.needs("wine")),
-     pytest.param("aarch64-linux", marks=pytest.mark.needs("qemu-aarch64"))],
-)  # fmt: skip
+@pytest.mark.parametrize("platform", PLATFORMS)
 @pytest.mark.parametrize("flavour", list(FLAVOURS))
 def test_the_same_bits_on_each_platform(
     play: Play, unpacked: dict[str, Path], digests: list[str], platform: str, flavour: str
 ) -> None:
     """States and digests, in FMI 2.0; in FMI 3.0 a state has another table, so its digests are those of linux64."""
     script = write_voyage(unpacked[flavour])
-    lines = play(platform, flavour, script)
+    lines = play(platform, unpacked[flavour], script)
     assert vectors(lines).tolist() == vectors(digests).tolist()
-    assert lines == (digests if flavour == "2" else play("linux64", flavour, script))
+    assert lines == (digests if flavour == "2" else play("linux64", unpacked[flavour], script))
 
 
 def test_a_root_folder_without_python(
@@ -189,7 +134,7 @@ WIDE = {
 
 
 @pytest.mark.needs("wine")
-def test_what_windows_alone_has(wine: Callable[[], dict[str, str]], tmp_path: Path) -> None:
+def test_what_windows_alone_has(wine: Wine, tmp_path: Path) -> None:
     """Paths of any length, and functions whose frame is larger than the page by which a stack grows."""
     program = tmp_path / "parts.exe"
     compile_for_windows(program, Path(__file__).with_name("windows_parts.cpp"), find_native() / "wide_path.cpp")
