@@ -38,6 +38,13 @@ Rectangle find_rectangle(const HullMesh& solid, const BodyState& wall) {
 
 }  // namespace
 
+bool Body::refuse_by_name(Text& why) const {
+  const Text said = why;
+  why.clear();
+  why << name << ": " << said;
+  return false;
+}
+
 bool Bodies::prepare(const char* const* names, const CollisionParameters& parameters, const Feedback* feedbacks,
                      const char* directory, Text& why) {
   clear();

@@ -36,6 +36,11 @@ struct Body {
   void inverse_at(const Three& attitude, Matrix& inverse) const {
     tilt_inverse(upright_inverse, degrees_of_freedom, attitude[0], attitude[1], inverse);
   }
+  // The motion after H [s] by the law of the ship. False where it refuses it, with the name of the ship in front.
+  bool coast(const Motion& before, double H, Motion& after, Text& why) const {
+    return coasting.coast(before, H, after, why) || refuse_by_name(why);
+  }
+  bool refuse_by_name(Text& why) const;
   // Bound [m/s] of the speed of any point of the hull, in the mean over the step.
   double largest_speed(const BodyState& state) const {
     if (state.fixed) return 0.0;

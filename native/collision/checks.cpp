@@ -98,4 +98,16 @@ bool check_states(double t, const Bodies& bodies, const CollisionInputs& inputs,
   return true;
 }
 
+bool check_pending(double t, const Body& body, const Six& nu, const Six& applied, Text& why) {
+  const double speed = max(length(first_three(nu)), length(last_three(nu)) * body.hull.reach);
+  if (speed <= ABSURD_SPEED) return true;
+  const char* name = body.name.get();
+  why << name << ".impulse_applied = ";
+  why.list(applied.at, 6) << " at t = " << t << " s leaves an impulse pending that would move the ship at ";
+  why.short_number(speed) << " m/s, above ";
+  why.short_number(ABSURD_SPEED) << " m/s: return the part of " << name
+                                 << ".impulse that the ship has applied, at first zero";
+  return false;
+}
+
 }  // namespace shipcollision

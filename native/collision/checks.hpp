@@ -14,5 +14,7 @@ bool check_parameters(const CollisionParameters& p, Text& why);
 // False on a time, a step or a ship's state that is not finite, or absurd.
 bool check_step(double t, double H, const Bodies& bodies, const CollisionInputs& inputs, Text& why);
 bool check_states(double t, const Bodies& bodies, const CollisionInputs& inputs, Text& why);
+// False where the impulse that is pending is absurd. nu: the twist with it; applied: impulse_applied, which made it so.
+bool check_pending(double t, const Body& body, const Six& nu, const Six& applied, Text& why);
 
 }  // namespace shipcollision

@@ -1,5 +1,7 @@
 #include "exchange.hpp"
 
+#include "checks.hpp"
+
 namespace shipcollision {
 namespace {
 
@@ -11,12 +13,11 @@ bool is_upright_ahead(const ShipState& ship) {
 Motion motion_of(const ShipState& ship) { return {ship.position, ship.attitude, ship.velocity, ship.rate}; }
 
 // Lets the state follow the law of its ship through the step, from the twist `start`.
-bool follow_law(const CoastingLaw& law, BodyState& state, const ShipState& received, const Six& start, double H,
-                Text& why) {
+bool follow_law(const Body& body, BodyState& state, const ShipState& received, const Six& start, double H, Text& why) {
   const Motion before{received.position, received.attitude, first_three(start), last_three(start)};
-  if (law.is_straight(before)) return true;
+  if (body.coasting.is_straight(before)) return true;
   Motion end;
-  if (!law.coast(before, H, end, why)) return false;
+  if (!body.coast(before, H, end, why)) return false;
   state.follow(end, start, H);
   return true;
 }
@@ -76,7 +77,7 @@ bool ShipExchange::coast_absent(int i, double H, Text& why) {
     ends_[i] = coast(before, body.r_bg, H);
     return true;
   }
-  return body.coasting.coast(before, H, ends_[i], why);
+  return body.coast(before, H, ends_[i], why);
 }
 
 // State of a ship, corrected by what is pending and by other forces.
@@ -91,6 +92,10 @@ bool ShipExchange::receive(int i, double t, double H, BodyState& state, Text& wh
   Reading& reading = readings_[i];
   reading = ledgers_[i].read(body.feedback, state.applied, as_given, received.impulse_applied, M_inverse,
                              body.hull.reach, H);
+  if (body.feedback == Feedback::ledger && !is_zero(reading.pending) &&
+      !check_pending(t, body, reading.nu, received.impulse_applied, why)) {
+    return false;
+  }
   if (reading.delay == Delay::one_step && !is_zero(reading.pending)) {
     delayed_speeds_[i] = norm(first_three(reading.nu - as_given));
     has_delayed_speeds_ = true;
@@ -99,7 +104,7 @@ bool ShipExchange::receive(int i, double t, double H, BodyState& state, Text& wh
   const bool has_forces = has_last_received_[i] && body.feedback == Feedback::ledger;
   if (has_forces && !expect_other_forces(i, t, reading, state, nu, why)) return false;
   state.set_twist(nu);
-  if (body.has_coasting && H > 0.0 && !follow_law(body.coasting, state, received, reading.nu, H, why)) return false;
+  if (body.has_coasting && H > 0.0 && !follow_law(body, state, received, reading.nu, H, why)) return false;
   if (reading.delay == Delay::unknown ? has_delay_ : reading.delay == Delay::one_step) {
     const Pose then = state.pose_after(reading.nu, H);
     Matrix inverse_then;
@@ -119,7 +124,7 @@ bool ShipExchange::expect_other_forces(int i, double t, const Reading& reading, 
   bool found;
   if (!estimate_other_forces(before, as_received(t, 0.0, inputs_.ships[i]), inverse_before, body.r_bg, body.hull.reach,
                              body.has_coasting ? &body.coasting : nullptr, forces, found, why)) {
-    return false;
+    return body.refuse_by_name(why);
   }
   if (!found) return true;
   state.expect(forces.velocity_bias, forces.has_scheme_error ? &forces.scheme_error : nullptr);
@@ -138,8 +143,8 @@ bool ShipExchange::find_ends(double H, const BodyState* states, Text& why) {
     const ShipState& received = inputs_.ships[i];
     Motion& end = ends_[i];
     if (body.has_coasting && body.feedback == Feedback::state && state.has_end_gain && state.is_issued) {
-      if (!body.coasting.coast({received.position, received.attitude, first_three(state.nu), last_three(state.nu)}, H,
-                               end, why)) {
+      if (!body.coast({received.position, received.attitude, first_three(state.nu), last_three(state.nu)}, H, end,
+                      why)) {
         return false;
       }
     } else {

@@ -18,7 +18,7 @@ class ShipExchange {
   const bool* is_present() const { return is_present_.data(); }
 
   // States of the ships that are not quiet, at the start t of a step of H [s]. False where the law of a ship refuses
-  // its motion, here and below.
+  // its motion, here and below, and where an impulse pending is absurd.
   bool receive_active(double t, double H, BodyState* states, Text& why);
   // States of the quiet ships that are included as well. The other ships coast.
   bool receive_others(double t, double H, const bool* is_included, BodyState* states, Text& why);

@@ -6,11 +6,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from math import hypot
 from pathlib import Path
+from typing import TypeAlias
 
 import numpy as np
 
-from ..errors import InputError, ShipError
-from ..ship.coasting_law import CoastingLaw, make_coasting
+from ..errors import InputError, ShipError, StepError
+from ..ship.coasting_law import CoastingLaw, Motion, make_coasting
 from ..ship.degrees_of_freedom import free_inverse, held_mobility, tilted_inverse
 from ..ship.frames import Array, skew
 from ..ship.hull.hull import build_hull
@@ -25,6 +26,8 @@ from .interface import CollisionParameters, ShipParameters
 from .obstacles import Obstacle, read_obstacles
 
 __all__ = ["Body", "prepare_bodies"]
+
+Vector: TypeAlias = Sequence[float]
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,6 +66,21 @@ class Body:
             return 0.0
         u, v, w, p, q, r = state.nu_path.tolist()
         return hypot(u, v, w) + hypot(p, q, r) * self.reach
+
+
+class _NamedLaw:
+    """The law of a ship, whose refusals name the ship."""
+
+    def __init__(self, name: str, law: CoastingLaw) -> None:
+        self._name, self._coast = name, law.coast
+        self.keeps_course, self.is_straight = law.keeps_course, law.is_straight
+
+    def coast(self, position: Vector, attitude: Vector, velocity: Vector, rate: Vector, h: float) -> Motion:
+        """The motion after h [s]. Raises StepError, as the law does."""
+        try:
+            return self._coast(position, attitude, velocity, rate, h)
+        except StepError as error:
+            raise StepError(f"{self._name}: {error}") from None
 
 
 def prepare_bodies(names: Sequence[str], parameters: CollisionParameters, directory: Path | None = None) -> list[Body]:
@@ -116,9 +134,9 @@ def _predict_coasting(name: str, ship: Ship, parameters: ShipParameters) -> Coas
     if law == "straight":
         return None
     try:
-        return make_coasting(ship, free, law)
+        return _NamedLaw(name, make_coasting(ship, free, law))
     except ShipError:
-        return make_coasting(ship, free, "free")
+        return _NamedLaw(name, make_coasting(ship, free, "free"))
     except InputError as error:
         raise InputError(f"{name}.{error}") from None
 

@@ -6,12 +6,13 @@ from collections.abc import Sequence
 from math import hypot, isfinite
 
 from ..errors import InputError, StepError
+from ..ship.frames import Array
 from .bodies import Body
 from .feedback import COMMON_FEEDBACKS
 from .interface import CollisionParameters, ShipState
 from .responses import RESPONSES
 
-__all__ = ["MAXIMUM_FRICTION", "check_parameters", "check_states", "check_step"]
+__all__ = ["MAXIMUM_FRICTION", "check_parameters", "check_pending", "check_states", "check_step"]
 
 MAXIMUM_FRICTION = 10.0
 """Largest friction coefficient. More is a mistake, and 10 already sticks."""
@@ -70,6 +71,19 @@ def check_states(t: float, bodies: Sequence[Body], states: Sequence[ShipState]) 
                 f"{body.name}.{quantity} is {value:g} {unit} at t = {t} s, above {limit:g} {unit}: check the "
                 "signal and its unit, and after an impact the mass of the ship model (kg)"
             )
+
+
+def check_pending(t: float, body: Body, nu: Array, applied: Sequence[float]) -> None:
+    """Raises StepError where the impulse that is pending is absurd. nu (6,): twist with it; applied (6):
+    impulse_applied, which made it so."""
+    u, v, w, p, q, r = nu.tolist()
+    speed = max(hypot(u, v, w), hypot(p, q, r) * body.reach)
+    if not speed <= ABSURD_SPEED:
+        raise StepError(
+            f"{body.name}.impulse_applied = {[*applied]} at t = {t} s leaves an impulse pending that would move the "
+            f"ship at {speed:g} m/s, above {ABSURD_SPEED:g} m/s: return the part of {body.name}.impulse that the "
+            "ship has applied, at first zero"
+        )
 
 
 def _refuse_not_finite(name: str, state: ShipState, t: float) -> None:

@@ -20,6 +20,7 @@ from ..ship.coasting import coast
 from ..ship.coasting_law import CoastingLaw, Motion
 from ..ship.frames import Array, attitude_from_rotation, unwrap_attitude
 from .bodies import Body
+from .checks import check_pending
 from .dynamics.body_state import NOTHING, BodyState
 from .dynamics.impulse_ledger import ImpulseLedger, Reading
 from .dynamics.other_forces import ReceivedState, estimate_other_forces
@@ -51,7 +52,8 @@ class ShipExchange:
     # -- receive --------------------------------------------------------------------------------------
 
     def receive_active(self, t: float, H: float) -> list[BodyState | None]:
-        """States at the start t of a step of H [s]; None for quiet ships."""
+        """States at the start t of a step of H [s]; None for quiet ships. Raises StepError where the law of a ship
+        refuses its motion, here and below, and where an impulse pending is absurd."""
         self._readings.clear()
         self.delayed_speeds.clear()
         self._delay = any(ledger.one_step_delay for ledger in self.ledgers)
@@ -80,6 +82,8 @@ class ShipExchange:
         state = BodyState.at(x, received.attitude, nu, M_inverse, body.bullet.r_bg, body.held)
         applied = np.array(received.impulse_applied)
         reading = self.ledgers[i].read(feedback, x, state.R, nu, applied, M_inverse, body.reach, H)
+        if feedback == "ledger" and reading.nu is not nu:
+            check_pending(t, body, reading.nu, received.impulse_applied)
         if reading.one_step_delay and reading.pending.any():
             self.delayed_speeds[i] = float(np.linalg.norm((reading.nu - nu)[:3]))
         nu = reading.nu + M_inverse @ reading.deficit if reading.deficit is not NOTHING else reading.nu

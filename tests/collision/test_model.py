@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable
 from math import pi
 
@@ -424,6 +425,31 @@ def test_absurd_inputs_end_the_step_and_change_nothing(
 
 
 @QUICK_LANGUAGES
+@pytest.mark.parametrize("coasting", ["straight", "free"])
+@pytest.mark.parametrize(("k", "value"), [(1, 1e300), (3, -1e300), (0, 1e12)])
+def test_an_absurd_impulse_applied_is_refused_and_named(
+    make_ship: Make, world: MakeWorld, coasting: str, k: int, value: float
+) -> None:
+    """What is pending then would throw the ship away, or give numbers that are none; zero, as before, is taken."""
+    w = world([make_ship("a"), make_ship("b")], T_BONE, coasting=coasting)
+    w.step(0.05)
+    w.send()
+    before, outputs = w.model.get_state(), repr(w.model.outputs)
+    w.model.inputs.ships[1].impulse_applied[k] = value
+    listed = re.escape(repr(w.model.inputs.ships[1].impulse_applied[:]))
+    words = (
+        rf"^s1\.impulse_applied = {listed} at t = 0\.05 s leaves an impulse pending that would move the ship at "
+        r"\S+ m/s, above 1000 m/s: return the part of s1\.impulse that the ship has applied, at first zero$"
+    )
+    with pytest.raises(StepError, match=words):
+        w.model.step(w.t, 0.05)
+    assert (w.model.get_state(), repr(w.model.outputs)) == (before, outputs)
+    w.model.inputs.ships[1].impulse_applied[k] = 0.0
+    w.model.step(w.t, 0.05)
+    assert w.model.get_state() != before
+
+
+@QUICK_LANGUAGES
 @pytest.mark.parametrize("away", [0.0, 3000.0])
 def test_a_step_that_the_law_of_a_far_ship_refuses_changes_nothing(
     make_ship: Make, world: MakeWorld, away: float
@@ -437,7 +463,8 @@ def test_a_step_that_the_law_of_a_far_ship_refuses_changes_nothing(
     w.model.inputs.ships[0].position[0] -= away
     w.model.inputs.ships[2].rate[2] = 400.0
     before, outputs = w.model.get_state(), repr(w.model.outputs)
-    with pytest.raises(StepError, match=r"a step of 3 s takes .* substeps of a ship that coasts, at most 10000: take"):
+    words = r"^s2: a step of 3 s takes 1\.2e\+04 substeps of a ship that coasts, at most 10000: take shorter steps, or"
+    with pytest.raises(StepError, match=words):
         w.model.step(w.t + 1.0, 3.0)
     assert (w.model.get_state(), repr(w.model.outputs)) == (before, outputs)
     w.model.inputs.ships[2].rate[2] = 0.4
