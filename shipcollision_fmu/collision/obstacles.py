@@ -34,7 +34,8 @@ from ..errors import InputError
 from ..files import is_file
 from ..ship.frames import Array
 from ..ship.hull.solid import HullMesh
-from ..ship.loading.messages import describe_error
+from ..ship.loading.messages import describe_error, suggest
+from ..ship.loading.obstacle_tables import is_obstacle
 from ..ship.loading.toml import parse_toml, read_toml
 from ..ship.tables.table import Pair, Positive, Table
 from .fender import Fender
@@ -198,11 +199,24 @@ def read_obstacles(text: str) -> list[Obstacle]:
         content, source = parse_toml(text, "obstacles", InputError), "obstacles"
     if set(content) == {"obstacles"} and isinstance(content["obstacles"], dict):  # as in a scenario file
         content = content["obstacles"]
+    _refuse_other_tables(content, source)
     try:
         tables = _Obstacles.model_validate({"obstacles": content}).obstacles
     except ValidationError as error:
         raise InputError(f"{source}: {describe_error(error, _Obstacles)}") from None
     return [build_obstacle(name, table) for name, table in tables.items()]
+
+
+def _refuse_other_tables(content: Mapping[str, Any], source: str) -> None:
+    """Raise InputError for obstacles in a table of another name than [obstacles], and for one in no table."""
+    if is_obstacle(content):
+        raise InputError(
+            f"{source}: {next(iter(content))} stands in no table: begin the obstacle with its name, [NAME]"
+        )
+    for name, table in content.items():
+        if isinstance(table, Mapping) and not is_obstacle(table) and any(map(is_obstacle, table.values())):
+            meant = suggest(name, ["obstacles"]) or " call it obstacles, or leave it out"
+            raise InputError(f"{source}: [{name}] holds tables:{meant}")
 
 
 def format_obstacles(tables: Mapping[str, ObstacleTable]) -> str:

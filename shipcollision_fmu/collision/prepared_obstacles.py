@@ -15,6 +15,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from ..errors import InputError
+from ..ship.loading.obstacle_tables import are_obstacles
 from ..ship.loading.toml import read_toml
 from ..ship.prepared_lines import describe_hull, quote, reals, seal
 from .obstacles import Obstacle, read_obstacles
@@ -31,16 +32,8 @@ SUFFIX = ".obstacles"
 
 
 def is_obstacle_file(path: str) -> bool:
-    """Whether a path is that of a TOML file of obstacles, and not of a ship: it has the table [obstacles] alone, or a
-    table that says its kind and shape. What the others lack is then said of obstacles."""
-    if not (path.endswith(".toml") and Path(path).is_file()):
-        return False
-    content = read_toml(Path(path), InputError)
-    return set(content) == {"obstacles"} or ("ship" not in content and any(map(_is_obstacle, content.values())))
-
-
-def _is_obstacle(table: object) -> bool:
-    return isinstance(table, dict) and "shape" in table and "kind" in table
+    """Whether a path is that of a TOML file of obstacles, and not of a ship. What is wrong is then said of obstacles."""
+    return path.endswith(".toml") and Path(path).is_file() and are_obstacles(read_toml(Path(path), InputError))
 
 
 def prepare_obstacles(text: str) -> bytes:

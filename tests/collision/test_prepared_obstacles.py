@@ -10,6 +10,8 @@ from click.testing import CliRunner
 from shipcollision_fmu.cli import main
 from shipcollision_fmu.collision.obstacles import read_obstacles
 from shipcollision_fmu.collision.prepared_obstacles import prepare_obstacles
+from shipcollision_fmu.errors import ShipError
+from shipcollision_fmu.ship.loading.library import load_ship
 
 PIER = """
 [pier]
@@ -55,6 +57,11 @@ def test_the_command_writes_obstacles(text: str, tmp_path: Path, monkeypatch: py
         ('[obstacles.quay]\nkind = "quay"\n', "[obstacles.quay] shape is missing"),
         ('[quay]\nlength = 9.0\n[log]\nkind = "log"\nshape = "box"\n', "[obstacles.quay]"),
         ("[obstacles]\nquay = 1\n", "obstacles in harbour.toml: "),
+        (PIER.replace("[pier]", "[obstacle.pier]"), "harbour.toml: [obstacle] holds tables: did you mean obstacles?"),
+        (PIER.replace("[pier]", "[Obstacels.pier]"), "harbour.toml: [Obstacels] holds tables: did you mean obstacles?"),
+        (PIER.replace("[pier]", "[walls.pier]"), "harbour.toml: [walls] holds tables: call it obstacles, or leave it"),
+        (PIER.replace("shape", "shap"), "[obstacles.pier] shap is not a known key: did you mean shape?"),
+        (PIER.replace("[pier]", ""), "harbour.toml: kind stands in no table: begin the obstacle with its name, [NAME]"),
     ],
 )
 def test_what_lacks_keys_is_refused_as_an_obstacle_and_not_as_a_ship(
@@ -67,6 +74,14 @@ def test_what_lacks_keys_is_refused_as_an_obstacle_and_not_as_a_ship(
     assert line in done.output
     assert "particulars" not in done.output
     assert sorted(path.name for path in tmp_path.iterdir()) == ["harbour.toml"]
+
+
+@pytest.mark.parametrize("table", ["[obstacle.pier]", "[obstacles.pier]", "[pier]", ""])
+def test_obstacles_in_place_of_a_ship_are_named(table: str, tmp_path: Path) -> None:
+    path = tmp_path / "harbour.toml"
+    path.write_text(PIER.replace("[pier]", table))
+    with pytest.raises(ShipError, match=r"^harbour\.toml has obstacles, and no ship: name a ship file"):
+        load_ship(path)
 
 
 def test_a_wrong_obstacle_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

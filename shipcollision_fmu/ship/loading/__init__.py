@@ -5,6 +5,7 @@
     ship_file.py       validate_ship_file(): the tables, one by one and together
     consistency.py     find_contradictions(): between tables, with limits and remedies
     dimensions_estimate.py    complete_dimensions(): mass, depth, bow and stern from main dimensions and type
+    obstacle_tables.py are_obstacles(): a file of obstacles in place of one of a ship
     messages.py        describe_error(): one line with all problems of a failed validation
     mmg_estimate.py    complete_tables(): an MMG set from L, B, T and C_b
     rudder_estimate.py estimate_rudder(): a rudder by the type of ship

@@ -24,6 +24,7 @@ from ..file_stamp import Stamp, digest_content, take_stamp
 from ..ship import Ship
 from .assembly import assemble_ship
 from .messages import suggest_or_list
+from .obstacle_tables import are_obstacles
 from .ship_file import validate_ship_file
 from .toml import read_toml
 
@@ -146,6 +147,8 @@ def _read_tables(path: Path) -> dict[str, Any]:
     tables = read_toml(path, ShipError) if stamp is None else deepcopy(_read_unchanged(stamp))
     if "ships" in tables and "particulars" not in tables:
         raise ShipError(f"{path.name} is a scenario, not a ship: name one of the ship files in it")
+    if are_obstacles(tables):
+        raise ShipError(f"{path.name} has obstacles, and no ship: name a ship file")
     return tables
 
 
