@@ -11,6 +11,7 @@ from ..collision.interface import CollisionParameters
 from ..collision.obstacles import format_obstacles
 from ..collision.responses import RESPONSES
 from ..cosim.parameters import surroundings
+from ..cosim.prepared_files import refuse_response
 from ..cosim.scenario_helm import build_steering
 from ..scenario.order_schedule import schedule_headings, schedule_orders
 from ..scenario.scenario import Scenario
@@ -42,8 +43,10 @@ NEVER = -1.0
 def make_case(scenario: Scenario, files: PreparedShips, separation: float | None) -> EncounterCase:
     """The encounter of a scenario, with its ships and obstacles in `files`.
 
-    separation: time without contact [s] after which it ends. Raises ScenarioError for a ship that cannot be loaded.
+    separation: time without contact [s] after which it ends. Raises ScenarioError for a ship that cannot be loaded,
+    and for a contact response that needs Python.
     """
+    refuse_response(scenario, "simulate() with engine = 'python'")
     numbers = _collision_numbers(scenario)
     ships = scenario.load_ships()
     order = {name: i for i, name in enumerate(ships)}

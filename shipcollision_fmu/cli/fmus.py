@@ -144,7 +144,7 @@ def package(
     foreign = {ship: read_foreign_ship(Path(file)) for ship, file in map(_split_replacement, replace)}
     loaded = load_scenario(scenario)
     if native:
-        refuse_response(loaded)
+        refuse_response(loaded, "leave --native out")
     compiled = _compile(platforms) if native else ()
     if ssp:
         place = out if out is not None else Path(f"{loaded.name}.ssp")

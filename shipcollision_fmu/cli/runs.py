@@ -57,7 +57,7 @@ def run(
         raise click.UsageError(f"--in-process runs without FMI: leave out {'--native' if native else '--fmi'}")
     loaded = load_scenario(scenario)
     if native:
-        refuse_response(loaded)
+        refuse_response(loaded, "leave --native out")
     else:
         require_adapter(loaded.collision.response)
     folder = out if out is not None else Path("runs") / loaded.name

@@ -32,7 +32,7 @@ SUFFIX = ".obstacles"
 
 
 def is_obstacle_file(path: str) -> bool:
-    """Whether a path is that of a TOML file of obstacles, and not of a ship. What is wrong is then said of obstacles."""
+    """Whether a path is that of a TOML file of obstacles, and not of a ship. Faults are then said of obstacles."""
     return path.endswith(".toml") and Path(path).is_file() and are_obstacles(read_toml(Path(path), InputError))
 
 

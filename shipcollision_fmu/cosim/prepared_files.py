@@ -15,7 +15,7 @@ from ..collision.prepared_obstacles import SUFFIX as OBSTACLES
 from ..collision.prepared_obstacles import prepare_obstacles
 from ..errors import ScenarioError
 from ..manoeuvring.prepared_ship import SUFFIX, prepare_ship
-from ..scenario.scenario import Scenario
+from ..scenario.scenario import Scenario, list_scenario_names, load_scenario
 from ..ship.loading.library import list_ship_names
 from .component import Value
 
@@ -25,6 +25,8 @@ FOLDER = "ships"
 """Folder of ship files in an FMU's resources."""
 NATIVE_RESPONSE = "pgs"
 """The only contact response that runs without Python."""
+WITH_PYTHON = "packages whose FMUs run Python"
+"""What to take for another one."""
 
 
 @dataclass(frozen=True)
@@ -57,9 +59,10 @@ class PreparedFiles:
         return {**of_ships, **self.of_obstacles}
 
 
-def prepare_files(scenario: Scenario) -> PreparedFiles:
-    """The files of a scenario. Raises ScenarioError for a contact response that needs Python, ShipError for a ship."""
-    refuse_response(scenario)
+def prepare_files(scenario: Scenario, otherwise: str = WITH_PYTHON) -> PreparedFiles:
+    """The files of a scenario. Raises ScenarioError for a contact response that needs Python, with what to take
+    otherwise; ShipError for a ship."""
+    refuse_response(scenario, otherwise)
     packed = {name: pack_prepared_ship(name, scenario.ship_file(name)) for name in scenario.ships}
     of_obstacles = {}
     if scenario.obstacles:
@@ -72,14 +75,19 @@ def prepare_files(scenario: Scenario) -> PreparedFiles:
     )
 
 
-def refuse_response(scenario: Scenario) -> None:
-    """Raise ScenarioError for a contact response that needs Python."""
-    response = scenario.collision.response
-    if response not in (None, NATIVE_RESPONSE):
-        raise ScenarioError(
-            f"[collision] response = {response!r} needs Python, and native code has {NATIVE_RESPONSE!r} alone: take "
-            f"{NATIVE_RESPONSE!r}, or run the FMUs with Python"
-        )
+def refuse_response(scenario: Scenario, otherwise: str) -> None:
+    """Raise ScenarioError for a contact response that needs Python. otherwise: how the caller runs Python."""
+    if _is_native(scenario):
+        return
+    names = " and ".join(name for name in list_scenario_names() if _is_native(load_scenario(name)))
+    raise ScenarioError(
+        f"[collision] response = {scenario.collision.response!r} needs Python, and native code has "
+        f"{NATIVE_RESPONSE!r} alone: take {NATIVE_RESPONSE!r}, as the scenarios {names} do, or {otherwise}"
+    )
+
+
+def _is_native(scenario: Scenario) -> bool:
+    return scenario.collision.response in (None, NATIVE_RESPONSE)
 
 
 def pack_prepared_ship(name: str, ship: str) -> tuple[str, dict[str, bytes]]:

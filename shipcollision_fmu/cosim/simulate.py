@@ -74,7 +74,7 @@ def simulate(
     _check_engine(engine, in_process)
     if engine == "python":
         require_adapter(scenario.collision.response)  # else the FMU refuses to initialise; the wrapper answers fatal
-    prepared = prepare_files(scenario) if engine == "native" else None
+    prepared = prepare_files(scenario, "engine = 'python'") if engine == "native" else None
     if out is not None:
         check_writable(Path(out))
         if not overwrite:

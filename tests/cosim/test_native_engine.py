@@ -11,6 +11,7 @@ import pytest
 
 from shipcollision_fmu import load_scenario, simulate
 from shipcollision_fmu.cosim import native_fmu_files
+from shipcollision_fmu.cosim.prepared_files import prepare_files
 from shipcollision_fmu.cosim.run import Run
 from shipcollision_fmu.errors import HostError, ScenarioError
 from shipcollision_fmu.toolchain import libraries
@@ -52,7 +53,8 @@ def list_collisions(run: Run) -> list[tuple[Any, ...]]:
         ({"engine": "native", "in_process": True}, "engine = 'native' with in_process = True: in process Python runs"),
         (
             {"engine": "native"},
-            r"\[collision\] response = 'bullet' needs Python, and native code has 'pgs' alone: take 'pgs', or run the",
+            r"^\[collision\] response = 'bullet' needs Python, and native code has 'pgs' alone: take 'pgs', as the "
+            r"scenarios guan2014_added_mass and kvlcc2_crossing do, or engine = 'python'$",
         ),
     ],
 )
@@ -60,6 +62,11 @@ def test_what_does_not_fit_is_said_first(options: dict[str, Any], line: str, tmp
     with pytest.raises(ScenarioError, match=line):
         simulate("guan2014", out=tmp_path / "run", **options)
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("name", ["guan2014_added_mass", "kvlcc2_crossing"])
+def test_scenarios_that_a_refusal_names_are_native(name: str) -> None:
+    assert prepare_files(load_scenario(name)).ships
 
 
 def test_compilation_is_announced(
