@@ -215,8 +215,8 @@ def _refuse_other_tables(content: Mapping[str, Any], source: str) -> None:
         )
     for name, table in content.items():
         if isinstance(table, Mapping) and not is_obstacle(table) and any(map(is_obstacle, table.values())):
-            meant = suggest(name, ["obstacles"]) or " call it obstacles, or leave it out"
-            raise InputError(f"{source}: [{name}] holds tables:{meant}")
+            remedy = suggest(name, ["obstacles"]) or " call it obstacles, or leave it out"
+            raise InputError(f"{source}: [{name}] holds tables:{remedy}")
 
 
 def format_obstacles(tables: Mapping[str, ObstacleTable]) -> str:
