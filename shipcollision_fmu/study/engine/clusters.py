@@ -20,7 +20,7 @@ from ... import __version__
 from ...errors import HostError, InputError
 from .versions import DISTRIBUTION, describe_other_version
 
-__all__ = ["Cluster", "check_versions", "quiet_dask", "start_local_cluster", "use_scheduler"]
+__all__ = ["ANSWER", "Cluster", "check_versions", "quiet_dask", "start_local_cluster", "use_scheduler"]
 
 WRITER = "`dask scheduler --scheduler-file FILE` writes it"
 ANSWER = 10.0
@@ -56,7 +56,7 @@ def start_local_cluster(workers: int | None) -> Iterator[Cluster]:
             "the local cluster", lambda timeout: Client(cluster, timeout=timeout, set_as_default=False), False
         )
     finally:
-        cluster.close(timeout=ANSWER)
+        cluster.close(timeout=2.0)
 
 
 @contextmanager

@@ -13,15 +13,15 @@ from collections.abc import Callable
 from concurrent.futures import CancelledError
 from concurrent.futures import TimeoutError as WaitTimeoutError
 from queue import Empty, SimpleQueue
-from time import monotonic
+from time import monotonic, sleep
 from typing import Any
 
 from distributed import Future, KilledWorker
 
 from ... import __version__
-from ...errors import HostError, describe_installation
+from ...errors import HostError, InputError, describe_installation
 from .batches import Batch
-from .clusters import Cluster, check_versions
+from .clusters import ANSWER, Cluster, check_versions
 from .executor import Failure, Outcome
 from .interface import ComputeRows, Study
 from .work import Answer, compute_batch
@@ -51,7 +51,7 @@ class DaskExecutor:
         self._unsent: list[Batch] = []
         self._done: SimpleQueue[Future] = SimpleQueue()
         self._threads, self._looked, self._last_worker = 0, -LOOK, monotonic()
-        self._client = cluster.connect(10.0)
+        self._client = cluster.connect(ANSWER)
         self._prepare()
 
     @property
@@ -182,14 +182,23 @@ class DaskExecutor:
             raise HostError(f"{self._cluster.name} has ended: go on with --resume")
         self._notify(f"{self._cluster.name} went away; waiting for it to return")
         begin = monotonic()
-        while True:
+        while not self._try_again():
+            if monotonic() - begin > PATIENCE:
+                raise HostError(f"{self._cluster.name} did not return within {PATIENCE:g} s: go on with --resume")
             check()
-            try:
-                self._client = self._cluster.connect(2.0)
-                self._prepare()
-                break
-            except (HostError, OSError, CancelledError) as error:
-                if monotonic() - begin > PATIENCE:
-                    raise HostError(f"{error}; go on with --resume") from None
+            sleep(WAIT)
         self._last_worker = monotonic()
         self._notify(f"{self._cluster.name} is back; the study goes on")
+
+    def _try_again(self) -> bool:
+        """Whether a new client has the scheduler. Raises HostError for a cluster with another version."""
+        try:
+            self._client = self._cluster.connect(LOOK)
+        except (HostError, InputError):  # nobody listens, or the file of the scheduler is not written yet
+            return False
+        try:
+            self._prepare()
+        except (OSError, CancelledError):
+            self._client.close(timeout=LOOK)
+            return False
+        return True

@@ -6,7 +6,7 @@ from collections import deque
 from collections.abc import Callable
 
 from .batches import Batch
-from .executor import Outcome
+from .executor import Failure, Outcome
 from .interface import ComputeRows, Study
 from .work import compute_batch
 
@@ -30,4 +30,7 @@ class InProcess:
         """The outcome of the batch handed out first, computed here."""
         check()
         batch = self._batches.popleft()
-        return [Outcome(batch, compute_batch(self._study, self._compute, batch))]
+        try:
+            return [Outcome(batch, compute_batch(self._study, self._compute, batch))]
+        except MemoryError:
+            return [Outcome(batch, failure=Failure.DEADLY)]

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable
 from time import perf_counter
 
 from ...errors import HostError
 from .assembly import Assembly
-from .batches import BatchPlan
+from .batches import Batch, BatchPlan
 from .executor import Executor, Failure, Outcome
 from .folder import StudyFolder
 from .part_file import Mark
@@ -45,25 +46,38 @@ class Loop:
         self._executor, self._plan, self._assembly, self._folder = executor, plan, assembly, folder
         self._tally, self._rows, self._progress = tally, rows, progress or (lambda done, total: None)
         self._computed = tally.rows
+        self._out, self._suspects, self._is_alone = 0, deque[Batch](), False
         self.waited = 0.0
 
     def run(self, check: Callable[[], None]) -> None:
         """Returns when all is written. check: raises when the study is interrupted."""
-        out = 0
         self._progress(self._computed, self._rows)
         while True:
             check()
-            while out < self._executor.most and (batch := self._plan.take()) is not None:
-                self._executor.submit(batch)
-                out += 1
-            if not out:
+            self._hand_out()
+            if not self._out:
                 return
             begin = perf_counter()
             outcomes = self._executor.collect(check)
             self.waited += perf_counter() - begin
             for outcome in outcomes:
-                out -= 1
+                self._out -= 1
                 self._take(outcome)
+
+    def _hand_out(self) -> None:
+        """Hands out as many batches as may be out; a suspect one alone."""
+        self._is_alone = bool(self._suspects) and not self._out
+        if self._is_alone:
+            self._submit(self._suspects.popleft())
+        while not self._is_alone and not self._suspects and self._out < self._executor.most:
+            batch = self._plan.take()
+            if batch is None:
+                return
+            self._submit(batch)
+
+    def _submit(self, batch: Batch) -> None:
+        self._executor.submit(batch)
+        self._out += 1
 
     def _take(self, outcome: Outcome) -> None:
         """Keeps an answer and writes the part that it completes, or hands out the batch again."""
@@ -80,6 +94,8 @@ class Loop:
             self._plan.give_back(batch)
         elif batch.count > 1:
             self._plan.give_back_halves(batch)
+        elif not self._is_alone:  # Dask blames all rows that wait at a worker that dies
+            self._suspects.append(batch)
         else:
             raise HostError(
                 f"row {batch.first} ended one worker after the other, killed or out of memory: give each worker more "

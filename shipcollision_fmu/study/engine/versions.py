@@ -10,10 +10,10 @@ __all__ = ["DISTRIBUTION", "describe_other_version"]
 DISTRIBUTION = "shipcollision-fmu"
 
 
-def describe_other_version(name: str, version: str | None) -> str:
-    """The refusal of a member of a cluster that has another version of this package, or none."""
+def describe_other_version(name: str, version: str | None, client: str = __version__) -> str:
+    """The refusal of a member of a cluster that has another version of this package than the client, or none."""
     has = f"{DISTRIBUTION} {version}" if version else f"no {DISTRIBUTION}"
     return (
-        f"{name} has {has}, the client has {__version__}: {describe_installation('study')} on every machine of the "
+        f"{name} has {has}, the client has {client}: {describe_installation('study')} on every machine of the "
         "cluster, with the client's version"
     )

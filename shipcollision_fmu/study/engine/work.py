@@ -30,7 +30,7 @@ class Answer:
 def compute_batch(study: Study, compute: ComputeRows, batch: Batch, version: str = __version__) -> Answer:
     """The rows of a batch. version: that of the client; another one here raises HostError."""
     if version != __version__:
-        raise HostError(describe_other_version("a worker", __version__))
+        raise HostError(describe_other_version("a worker", __version__, version))
     begin = perf_counter()
     tables = compute(study, batch.first, batch.count)
     check_rows(tables, batch.first, batch.count)

@@ -43,7 +43,9 @@ class StandIn:
     """A file: rows from `gated` on wait until it is there, so that a test can act while they are out."""
     gated: int = 0
     deadly: int = -1
-    """A row that kills its worker when more than `bearable` rows are in its batch."""
+    """A row that ends its worker when more than `bearable` rows are in its batch."""
+    is_killed: bool = True
+    """Whether its worker is killed; it raises MemoryError otherwise."""
     bearable: int = 0
     fails: int = -1
     """A row whose computation raises ValueError."""
@@ -76,6 +78,8 @@ def compute_stand_in(study: StandIn, first: int, count: int) -> Tables:
         while not Path(study.gate).exists():
             time.sleep(0.01)
     if first <= study.deadly < first + count and count > study.bearable:
+        if not study.is_killed:
+            raise MemoryError
         os.kill(os.getpid(), signal.SIGKILL)
     if first <= study.fails < first + count:
         raise ValueError(f"row {study.fails} cannot be computed")

@@ -14,9 +14,12 @@ import pytest
 from shipcollision_fmu import __version__
 from shipcollision_fmu.errors import HostError, InputError
 from shipcollision_fmu.files import write_files
+from shipcollision_fmu.study.engine.batches import Batch
 from shipcollision_fmu.study.engine.folder import StudyFolder
 from shipcollision_fmu.study.engine.part_file import PartBytes
+from shipcollision_fmu.study.engine.parts import get_part
 from shipcollision_fmu.study.engine.run import StudyResult, run_study
+from shipcollision_fmu.study.engine.work import compute_batch
 from tests.study.engine.folders import STUDY, digest, list_files
 from tests.study.engine.stand_in import StandIn, Tables, compute_stand_in
 
@@ -302,3 +305,23 @@ def test_options_that_do_not_go_together(tmp_path: Path, options: dict[str, obje
     with pytest.raises(InputError, match=message):
         run_study(STUDY, tmp_path / "study", compute=compute_stand_in, **options)  # type: ignore[arg-type]
     assert not (tmp_path / "study").exists()
+
+
+def test_a_batch_that_is_too_much_is_halved_down_to_what_can_be_borne(whole: Path, tmp_path: Path) -> None:
+    run(tmp_path / "study", replace(STUDY, deadly=450, bearable=3, is_killed=False))
+    assert digest(tmp_path / "study") == digest(whole)
+
+
+def test_a_row_that_cannot_be_borne_is_named_and_the_rest_is_kept(whole: Path, tmp_path: Path) -> None:
+    out = tmp_path / "study"
+    with pytest.raises(HostError, match=r"^row 450 ended one worker after the other, killed or out of memory"):
+        run(out, replace(STUDY, deadly=450, is_killed=False))
+    assert digest(out).items() <= digest(whole).items()
+    run(out, resume=True)  # with more memory
+    assert digest(out) == digest(whole)
+
+
+def test_a_worker_of_another_version_computes_nothing(tmp_path: Path) -> None:
+    batch = Batch(get_part(0, 10, "sailed"), 0, 10)
+    with pytest.raises(HostError, match=rf"^a worker has shipcollision-fmu {__version__}, the client has 9\.9\.9"):
+        compute_batch(STUDY, compute_stand_in, batch, version="9.9.9")

@@ -1,0 +1,84 @@
+"""A scheduler and workers as processes on loopback: whatever dies, the tables are those of one process, bit for bit."""
+
+from __future__ import annotations
+
+import os
+import signal
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from shipcollision_fmu.study.engine.run import run_study
+from tests.study.engine.cluster import process_cluster, wait_for
+from tests.study.engine.folders import STUDY, digest
+from tests.study.engine.stand_in import StandIn, compute_stand_in
+
+pytestmark = pytest.mark.slow
+
+
+class AtTheGate:
+    """A study whose rows from some number on wait at a gate, and what happens when workers wait there."""
+
+    def __init__(self, tmp_path: Path, gated: int) -> None:
+        self.gate = tmp_path / "gate"
+        self.study: StandIn = replace(STUDY, gate=str(self.gate), gated=gated)
+
+    def wait(self, count: int) -> list[int]:
+        """The process ids of workers, at least so many, that wait at the gate."""
+        wait_for(lambda: len(self._found()) >= count)
+        return self._found()
+
+    def open(self) -> None:
+        """Lets all rows pass."""
+        self.gate.touch()
+
+    def _found(self) -> list[int]:
+        return [int(path.suffix[1:]) for path in self.gate.parent.glob("gate.*")]
+
+
+def test_a_worker_that_is_killed_in_the_middle(whole: Path, tmp_path: Path) -> None:
+    at = AtTheGate(tmp_path, gated=500)
+
+    def kill() -> int:
+        worker = at.wait(1)[0]
+        os.kill(worker, signal.SIGKILL)
+        at.open()
+        return worker
+
+    with process_cluster(tmp_path / "cluster", workers=3) as cluster, ThreadPoolExecutor() as aside:
+        killed = aside.submit(kill)
+        result = run_study(at.study, tmp_path / "study", scheduler=cluster.address, compute=compute_stand_in)
+        assert killed.result() in [worker.pid for worker in cluster.workers]
+    assert digest(tmp_path / "study") == digest(whole)
+    assert (result.rows, result.computed) == (1010, 1010)
+
+
+def test_a_scheduler_that_is_restarted(whole: Path, tmp_path: Path) -> None:
+    at = AtTheGate(tmp_path, gated=500)
+    lines: list[str] = []
+
+    def restart() -> None:
+        at.wait(3)
+        assert cluster.scheduler is not None
+        cluster.scheduler.kill()
+        cluster.scheduler.wait()
+        at.open()
+        for worker in cluster.workers:
+            worker.wait(timeout=60)  # by themselves: their scheduler is gone
+        cluster.start_scheduler()
+        cluster.start_workers(3)
+
+    with process_cluster(tmp_path / "cluster", workers=3) as cluster, ThreadPoolExecutor() as aside:
+        restarted = aside.submit(restart)
+        result = run_study(
+            at.study, tmp_path / "study", scheduler_file=cluster.file, compute=compute_stand_in, notify=lines.append
+        )
+        restarted.result()
+    assert digest(tmp_path / "study") == digest(whole)
+    assert (result.rows, result.computed) == (1010, 1010)
+    assert lines[-2:] == [
+        f"the scheduler of {cluster.file} went away; waiting for it to return",
+        f"the scheduler of {cluster.file} is back; the study goes on",
+    ]

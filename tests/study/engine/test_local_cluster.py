@@ -1,0 +1,108 @@
+"""A local cluster: the tables of one process, bit for bit, also when workers die under a row."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import dask
+import distributed  # its defaults must be there before one is changed
+import pytest
+
+from shipcollision_fmu.errors import HostError
+from shipcollision_fmu.study.engine.run import run_study
+from tests.study.engine.cluster import PROJECT, wait_for
+from tests.study.engine.folders import STUDY, digest
+from tests.study.engine.stand_in import StandIn, compute_stand_in
+
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture(autouse=True)
+def one_death_is_enough() -> Iterator[None]:
+    """Dask gives a row to four workers before it gives up; here to one, so that the tests are short."""
+    assert distributed.__version__
+    with dask.config.set({"distributed.scheduler.allowed-failures": 0}):
+        yield
+
+
+def test_two_workers_give_the_bytes_of_one_process(whole: Path, tmp_path: Path) -> None:
+    lines: list[str] = []
+    run_study(STUDY, tmp_path / "study", workers=2, compute=compute_stand_in, notify=lines.append)
+    assert digest(tmp_path / "study") == digest(whole)
+    assert [line.partition("127.0.0.1:")[0] for line in lines] == ["dashboard: http://"]
+
+
+def test_a_batch_that_kills_its_worker_is_halved(whole: Path, tmp_path: Path) -> None:
+    run_study(replace(STUDY, deadly=450, bearable=100), tmp_path / "study", workers=2, compute=compute_stand_in)
+    assert digest(tmp_path / "study") == digest(whole)
+
+
+def test_a_row_that_kills_every_worker_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("shipcollision_fmu.study.engine.batches.FIRST_ROWS", 1)
+    monkeypatch.setattr("shipcollision_fmu.study.engine.batches.TARGET", 1e-9)
+    with pytest.raises(HostError, match=r"^row 5 ended one worker after the other"):
+        run_study(StandIn(rows=8, deadly=5), tmp_path / "study", workers=1, compute=compute_stand_in)
+
+
+def test_a_row_that_cannot_be_computed_ends_the_study_with_its_error(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="row 5 cannot be computed"):
+        run_study(StandIn(rows=8, fails=5), tmp_path / "study", workers=1, compute=compute_stand_in)
+
+
+CLIENT = """
+from dataclasses import replace
+from pathlib import Path
+import sys
+from shipcollision_fmu.study.engine.run import run_study
+from tests.study.engine.folders import STUDY
+from tests.study.engine.stand_in import compute_stand_in
+
+if __name__ == "__main__":
+    study = replace(STUDY, gate=sys.argv[1], gated=500)
+    try:
+        run_study(study, Path(sys.argv[2]), workers=2, compute=compute_stand_in)
+    except KeyboardInterrupt as interrupt:
+        sys.exit(str(interrupt))
+"""
+
+
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGINT])
+def test_a_client_that_is_ended(whole: Path, tmp_path: Path, number: signal.Signals) -> None:
+    """Killed, or interrupted with all of its processes as by Ctrl-C in a terminal: the workers end, and the rest is
+    computed later."""
+    out, gate = tmp_path / "study", tmp_path / "gate"
+    (tmp_path / "client.py").write_text(CLIENT, encoding="utf-8")
+    client = subprocess.Popen(
+        [sys.executable, str(tmp_path / "client.py"), str(gate), str(out)],
+        env=os.environ | {"PYTHONPATH": str(PROJECT)}, stderr=subprocess.PIPE, text=True, start_new_session=True,
+    )  # fmt: skip
+    workers: list[int] = []
+    try:
+        wait_for(lambda: len(list(tmp_path.glob("gate.*"))) == 2)
+        wait_for(lambda: len(list((out / "encounters").glob("part-*"))) == 2)
+        workers += [int(path.suffix[1:]) for path in tmp_path.glob("gate.*")]
+        if number == signal.SIGINT:
+            os.killpg(client.pid, number)
+        else:
+            client.kill()
+        _, said = client.communicate(timeout=60)
+        wait_for(lambda: not any(Path(f"/proc/{pid}").exists() for pid in workers))
+    finally:
+        gate.touch()
+        client.kill()
+        client.wait()
+        for pid in workers:
+            if Path(f"/proc/{pid}").exists():
+                os.kill(pid, signal.SIGKILL)
+    if number == signal.SIGINT:
+        assert said == f"interrupted; 400 of 1010 rows are in {out}: go on with --resume\n"
+        assert client.returncode == 1
+    result = run_study(STUDY, out, workers=0, resume=True, compute=compute_stand_in)
+    assert result.computed == 610
+    assert digest(out) == digest(whole)
