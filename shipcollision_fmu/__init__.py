@@ -34,13 +34,16 @@ if TYPE_CHECKING:
     from .scenario.scenario import Scenario, load_scenario
     from .ship.loading.library import load_ship
     from .ship.ship import Ship
+    from .study.definition.study import read_study
+    from .study.engine.run import run_study
 
 __version__ = "0.1.0"
 
 __all__ = [
     "Encounters", "HostError", "InputError", "Run", "Scenario", "ScenarioError", "Ship", "ShipCollision",
     "ShipCollisionError", "ShipError", "ShipManoeuvring", "StepError", "__version__", "build_fmus", "collide",
-    "encounter", "imazu", "impact", "load_scenario", "load_ship", "run_encounters", "simulate", "traffic_scenario",
+    "encounter", "imazu", "impact", "load_scenario", "load_ship", "read_study", "run_encounters", "run_study",
+    "simulate", "traffic_scenario",
 ]  # fmt: skip
 
 _MODULES = {
@@ -60,6 +63,8 @@ _MODULES = {
     "scenario.scenario": ("Scenario", "load_scenario"),
     "ship.loading.library": ("load_ship",),
     "ship.ship": ("Ship",),
+    "study.definition.study": ("read_study",),
+    "study.engine.run": ("run_study",),
 }
 """Modules and what users import of them."""
 

@@ -2,11 +2,11 @@
 
 Exit status: 0 done, 1 the run or the check failed, 2 bad usage or input, 130 interrupted, 143 ended by SIGTERM.
 
-    runs.py, fmus.py, encounters.py, trials.py, lists.py   the commands, grouped by subject
+    runs.py, fmus.py, encounters.py, trials.py, studies.py, lists.py   the commands, grouped by subject
     run_table.py      what `run` prints                    trial_table.py   what `trial` prints
     table.py          the form of all tables               console.py       stdout, and progress on stderr
     mistakes.py       one line for every mistake           options.py       options of several commands
-    help.py           help on a narrow terminal
+    help.py           help on a narrow terminal      row_progress.py   progress of a study on stderr
 
 Imports from every room, but inside the commands: help is fast, and a missing package becomes one clear line.
 """
@@ -21,6 +21,7 @@ from .fmus import build, package, prepare, validate
 from .lists import scenarios, ships
 from .mistakes import Commands
 from .runs import run, show
+from .studies import study
 from .trials import trial
 
 __all__ = ["main"]
@@ -35,5 +36,5 @@ def main(ctx: click.Context) -> None:
         click.echo(ctx.get_help())
 
 
-for command in (build, encounter, import_, package, prepare, run, scenarios, ships, show, trial, validate):
+for command in (build, encounter, import_, package, prepare, run, scenarios, ships, show, study, trial, validate):
     main.add_command(command)

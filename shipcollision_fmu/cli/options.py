@@ -8,7 +8,7 @@ from typing import Any
 import click
 from click.shell_completion import CompletionItem
 
-__all__ = ["FMI", "NUMBER", "PATH", "SCENARIO", "SHIP", "TOML_PATH", "WHOLE_NUMBER", "Choice"]
+__all__ = ["FMI", "NUMBER", "PATH", "SCENARIO", "SHIP", "STUDY", "TOML_PATH", "WHOLE_NUMBER", "Choice"]
 
 
 class _Path(click.Path):
@@ -74,6 +74,8 @@ class _Named(click.types.StringParamType):
         """The names that begin so, after which the shell looks for files."""
         if self._of == "ship":
             from ..ship.loading.library import list_ship_names as list_names
+        elif self._of == "study":
+            from ..study.definition.study import list_study_names as list_names
         else:
             from ..scenario.scenario import list_scenario_names as list_names
         found = [CompletionItem(name) for name in list_names() if name.startswith(incomplete)]
@@ -84,4 +86,4 @@ PATH = _Path(path_type=Path)
 TOML_PATH = _TomlPath(path_type=Path)
 NUMBER, WHOLE_NUMBER = _Number(), _WholeNumber()
 FMI = Choice(["2", "3"])
-SHIP, SCENARIO = _Named("ship"), _Named("scenario")
+SHIP, SCENARIO, STUDY = _Named("ship"), _Named("scenario"), _Named("study")

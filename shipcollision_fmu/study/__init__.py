@@ -3,7 +3,7 @@
     definition/   the study file becomes a Study: distributions, fleets, tables of data, checks
     rows/         compute_rows(): some rows of a study as two tables, by row number alone
     engine/       run_study(): batches, workers, the folder of Parquet files
-    extra.py      pyarrow, which studies alone need
+    extra.py      pyarrow and Dask, which studies alone need
 
 Data flow: study file -> Study -> rows -> tables -> folder. Imports from: batch, cosim (interrupt.py), encounters,
 scenario, collision, ship, toolchain. Used by: cli and users of the package.

@@ -1,6 +1,7 @@
 """run_study(): the rows of a study, computed in batches by many workers, and its folder of Parquet files.
 
-    run.py           run_study()
+    run.py           run_study(), and the check of its options; result.py: what it returns
+    session.py       one call of it, from the folder's check to its status
     loop.py          Loop: hands out batches and writes the parts that come of the answers
     parts.py         Part: the fixed ranges of rows, a file each
     batches.py       Batch, and BatchPlan: ranges of rows within parts, sized by measured cost
@@ -16,7 +17,6 @@
     interface.py     what the engine asks of a study
     folder.py        StudyFolder: what is there, what is missing, what is of other origin
     csv_tables.py    both tables as CSV
-    extra.py         a clear line where pyarrow or Dask is missing
 
 Data flow: study -> parts -> batches -> workers -> bytes -> assembly -> folder. The client alone writes, so workers need
 no common disk. Bytes of a part depend on the study alone: not on workers, batches, order or resumption.

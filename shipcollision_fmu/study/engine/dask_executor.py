@@ -45,8 +45,11 @@ class _SchedulerLostError(Exception):
 class DaskExecutor:
     """An executor that hands batches to a cluster. notify takes lines for the user."""
 
-    def __init__(self, study: Study, compute: ComputeRows, cluster: Cluster, notify: Callable[[str], None]) -> None:
-        self._data, self._compute, self._cluster, self._notify = pickle.dumps(study), compute, cluster, notify
+    def __init__(
+        self, study: Study, compute: ComputeRows, engine: str, cluster: Cluster, notify: Callable[[str], None]
+    ) -> None:
+        self._data, self._compute, self._engine = pickle.dumps(study), compute, engine
+        self._cluster, self._notify = cluster, notify
         self._out: dict[Future, Batch] = {}
         self._unsent: list[Batch] = []
         self._done: SimpleQueue[Future] = SimpleQueue()
@@ -69,7 +72,9 @@ class DaskExecutor:
         if self._client.status != "running":
             self._unsent.append(batch)
             return
-        future = self._client.submit(compute_batch, self._study, self._compute, batch, __version__, pure=False)
+        future = self._client.submit(
+            compute_batch, self._study, self._compute, self._engine, batch, __version__, pure=False
+        )
         self._out[future] = batch
         future.add_done_callback(self._done.put)
 

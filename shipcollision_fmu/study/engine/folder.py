@@ -14,15 +14,14 @@ from __future__ import annotations
 import json
 import platform
 import shutil
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from importlib.metadata import version
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from ... import __version__
-from ...errors import HostError, InputError
+from ...errors import HostError, StudyError
 from ...files import check_writable, write_files
 from .interface import Study
 from .part_file import Mark, PartBytes, read_mark
@@ -41,20 +40,26 @@ class StudyFolder:
 
     def __init__(self, path: Path, study: Study) -> None:
         self.path = path
+        self.engine = ""
+        """What computes the rows; after check()."""
         self._study = study
 
-    def check(self, resume: bool) -> None:
-        """Raises InputError or HostError when the study cannot go there; writes nothing."""
+    def check(self, resume: bool, engine: Callable[[str | None], str]) -> None:
+        """Raises StudyError or HostError when the study cannot go there; writes nothing.
+
+        engine: chooses what computes the rows, by what computed those that are there.
+        """
         found = self._read_json()
         if found is None:
             self._refuse_foreign()
         elif not resume:
-            raise InputError(
+            raise StudyError(
                 f"{self.path} holds a study already: go on with it with --resume, or give another folder with --out"
             )
         else:
             self._refuse_other(found)
         check_writable(self.path)
+        self.engine = engine(None if found is None else str(found.get("engine")))
 
     def open(self) -> None:
         """Makes the folder, or takes up what is there. Raises HostError."""
@@ -107,7 +112,7 @@ class StudyFolder:
             )
 
     def _refuse_other(self, found: dict[str, Any]) -> None:
-        """Raises InputError unless the study of the folder is this one."""
+        """Raises StudyError unless the study of the folder is this one."""
         if found["fingerprint"] == self._study.fingerprint:
             return
         versions = found.get("versions")
@@ -116,21 +121,21 @@ class StudyFolder:
             reason = f"it was begun by version {there} of shipcollision-fmu, this is {__version__}"
         else:
             reason = "the study file, a ship or a table that it names has changed since"
-        raise InputError(f"{self.path} holds another study: {reason}; give a new folder with --out")
+        raise StudyError(f"{self.path} holds another study: {reason}; give a new folder with --out")
 
     def _describe(self, status: str, counts: dict[str, int]) -> str:
         study = self._study
-        names = ("numpy", "pyarrow", "dask", "distributed")
         content = {
             "fingerprint": study.fingerprint,
             "level": study.level,
+            "engine": self.engine,
             "rows": study.rows,
             "parts": count_parts(study.rows, study.level),
             "status": status,
             "counts": counts,
             "versions": {
                 "shipcollision_fmu": __version__, "python": platform.python_version(),
-                **{name: np.__version__ if name == "numpy" else version(name) for name in names},
+                **{name: version(name) for name in ("numpy", "pyarrow", "dask", "distributed") if find_spec(name)},
             },
         }  # fmt: skip
         return json.dumps(content, indent=1) + "\n"

@@ -18,8 +18,8 @@ class InProcess:
 
     most = 1
 
-    def __init__(self, study: Study, compute: ComputeRows) -> None:
-        self._study, self._compute = study, compute
+    def __init__(self, study: Study, compute: ComputeRows, engine: str) -> None:
+        self._study, self._compute, self._engine = study, compute, engine
         self._batches: deque[Batch] = deque()
 
     def submit(self, batch: Batch) -> None:
@@ -31,6 +31,6 @@ class InProcess:
         check()
         batch = self._batches.popleft()
         try:
-            return [Outcome(batch, compute_batch(self._study, self._compute, batch))]
+            return [Outcome(batch, compute_batch(self._study, self._compute, self._engine, batch))]
         except MemoryError:
             return [Outcome(batch, failure=Failure.DEADLY)]

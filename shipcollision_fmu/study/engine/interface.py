@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import Any, Protocol
 
 import pyarrow as pa
 
@@ -44,5 +44,5 @@ class RowTables(Protocol):
 class ComputeRows(Protocol):
     """A pure function of a study and its rows first to first + count - 1; workers find it by its module and name."""
 
-    def __call__(self, study: Study, first: int, count: int, /) -> RowTables:
-        """The tables of these rows."""
+    def __call__(self, study: Any, first: int, count: int, engine: str, /) -> RowTables:
+        """The tables of these rows. engine: "native" or "python"; HostError where a machine lacks it."""

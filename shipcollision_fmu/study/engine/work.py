@@ -27,12 +27,12 @@ class Answer:
     """The files, where the batch is a whole part: then the client only writes them."""
 
 
-def compute_batch(study: Study, compute: ComputeRows, batch: Batch, version: str = __version__) -> Answer:
+def compute_batch(study: Study, compute: ComputeRows, engine: str, batch: Batch, version: str = __version__) -> Answer:
     """The rows of a batch. version: that of the client; another one here raises HostError."""
     if version != __version__:
         raise HostError(describe_other_version("a worker", __version__, version))
     begin = perf_counter()
-    tables = compute(study, batch.first, batch.count)
+    tables = compute(study, batch.first, batch.count, engine)
     check_rows(tables, batch.first, batch.count)
     if batch.is_whole:
         part = encode_part(tables, batch.part, study.fingerprint)

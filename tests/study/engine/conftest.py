@@ -15,5 +15,5 @@ from tests.study.engine.stand_in import compute_stand_in
 def whole(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder of STUDY, computed in this process without a break."""
     out = tmp_path_factory.mktemp("whole") / "study"
-    run_study(STUDY, out, workers=0, compute=compute_stand_in)
+    run_study(STUDY, out, workers=0, engine="python", compute=compute_stand_in)
     return out

@@ -69,7 +69,7 @@ class Tables:
     collisions: pa.Table
 
 
-def compute_stand_in(study: StandIn, first: int, count: int) -> Tables:
+def compute_stand_in(study: StandIn, first: int, count: int, engine: str) -> Tables:
     """The rows of a range: every seventh is refused, and row n has n modulo 3 collisions."""
     if study.pause:
         time.sleep(study.pause * count)

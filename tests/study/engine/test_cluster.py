@@ -49,7 +49,9 @@ def test_a_worker_that_is_killed_in_the_middle(whole: Path, tmp_path: Path) -> N
 
     with process_cluster(tmp_path / "cluster", workers=3) as cluster, ThreadPoolExecutor() as aside:
         killed = aside.submit(kill)
-        result = run_study(at.study, tmp_path / "study", scheduler=cluster.address, compute=compute_stand_in)
+        result = run_study(
+            at.study, tmp_path / "study", scheduler=cluster.address, engine="python", compute=compute_stand_in
+        )
         assert killed.result() in [worker.pid for worker in cluster.workers]
     assert digest(tmp_path / "study") == digest(whole)
     assert (result.rows, result.computed) == (1010, 1010)
@@ -73,7 +75,12 @@ def test_a_scheduler_that_is_restarted(whole: Path, tmp_path: Path) -> None:
     with process_cluster(tmp_path / "cluster", workers=3) as cluster, ThreadPoolExecutor() as aside:
         restarted = aside.submit(restart)
         result = run_study(
-            at.study, tmp_path / "study", scheduler_file=cluster.file, compute=compute_stand_in, notify=lines.append
+            at.study,
+            tmp_path / "study",
+            scheduler_file=cluster.file,
+            engine="python",
+            compute=compute_stand_in,
+            notify=lines.append,
         )
         restarted.result()
     assert digest(tmp_path / "study") == digest(whole)

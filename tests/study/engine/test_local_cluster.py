@@ -33,13 +33,19 @@ def one_death_is_enough() -> Iterator[None]:
 
 def test_two_workers_give_the_bytes_of_one_process(whole: Path, tmp_path: Path) -> None:
     lines: list[str] = []
-    run_study(STUDY, tmp_path / "study", workers=2, compute=compute_stand_in, notify=lines.append)
+    run_study(STUDY, tmp_path / "study", workers=2, engine="python", compute=compute_stand_in, notify=lines.append)
     assert digest(tmp_path / "study") == digest(whole)
     assert [line.partition("127.0.0.1:")[0] for line in lines] == ["dashboard: http://"]
 
 
 def test_a_batch_that_kills_its_worker_is_halved(whole: Path, tmp_path: Path) -> None:
-    run_study(replace(STUDY, deadly=450, bearable=100), tmp_path / "study", workers=2, compute=compute_stand_in)
+    run_study(
+        replace(STUDY, deadly=450, bearable=100),
+        tmp_path / "study",
+        workers=2,
+        engine="python",
+        compute=compute_stand_in,
+    )
     assert digest(tmp_path / "study") == digest(whole)
 
 
@@ -47,12 +53,12 @@ def test_a_row_that_kills_every_worker_is_named(tmp_path: Path, monkeypatch: pyt
     monkeypatch.setattr("shipcollision_fmu.study.engine.batches.FIRST_ROWS", 1)
     monkeypatch.setattr("shipcollision_fmu.study.engine.batches.TARGET", 1e-9)
     with pytest.raises(HostError, match=r"^row 5 ended one worker after the other"):
-        run_study(StandIn(rows=8, deadly=5), tmp_path / "study", workers=1, compute=compute_stand_in)
+        run_study(StandIn(rows=8, deadly=5), tmp_path / "study", workers=1, engine="python", compute=compute_stand_in)
 
 
 def test_a_row_that_cannot_be_computed_ends_the_study_with_its_error(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="row 5 cannot be computed"):
-        run_study(StandIn(rows=8, fails=5), tmp_path / "study", workers=1, compute=compute_stand_in)
+        run_study(StandIn(rows=8, fails=5), tmp_path / "study", workers=1, engine="python", compute=compute_stand_in)
 
 
 CLIENT = """
@@ -66,7 +72,7 @@ from tests.study.engine.stand_in import compute_stand_in
 if __name__ == "__main__":
     study = replace(STUDY, gate=sys.argv[1], gated=500)
     try:
-        run_study(study, Path(sys.argv[2]), workers=2, compute=compute_stand_in)
+        run_study(study, Path(sys.argv[2]), workers=2, engine="python", compute=compute_stand_in)
     except KeyboardInterrupt as interrupt:
         sys.exit(str(interrupt))
 """
@@ -103,6 +109,6 @@ def test_a_client_that_is_ended(whole: Path, tmp_path: Path, number: signal.Sign
     if number == signal.SIGINT:
         assert said == f"interrupted; 400 of 1010 rows are in {out}: go on with --resume\n"
         assert client.returncode == 1
-    result = run_study(STUDY, out, workers=0, resume=True, compute=compute_stand_in)
+    result = run_study(STUDY, out, workers=0, resume=True, engine="python", compute=compute_stand_in)
     assert result.computed == 610
     assert digest(out) == digest(whole)

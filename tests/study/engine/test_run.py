@@ -12,7 +12,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from shipcollision_fmu import __version__
-from shipcollision_fmu.errors import HostError, InputError
+from shipcollision_fmu.errors import HostError, StudyError
 from shipcollision_fmu.files import write_files
 from shipcollision_fmu.study.engine.batches import Batch
 from shipcollision_fmu.study.engine.folder import StudyFolder
@@ -27,7 +27,7 @@ FIRST = "part-000000000000-000000000199.parquet"
 
 
 def run(out: Path, study: StandIn = STUDY, **options: object) -> StudyResult:
-    return run_study(study, out, workers=0, compute=compute_stand_in, **options)  # type: ignore[arg-type]
+    return run_study(study, out, workers=0, engine="python", compute=compute_stand_in, **options)  # type: ignore[arg-type]
 
 
 def test_each_row_is_there_once_and_in_order(whole: Path) -> None:
@@ -40,7 +40,7 @@ def test_each_row_is_there_once_and_in_order(whole: Path) -> None:
 
 
 def test_the_tables_are_those_of_the_study(whole: Path) -> None:
-    expected = compute_stand_in(STUDY, 200, 200)
+    expected = compute_stand_in(STUDY, 200, 200, "python")
     for name in ("encounters", "collisions"):
         found = pq.read_table(whole / name / "part-000000000200-000000000399.parquet")
         assert found.equals(getattr(expected, name))
@@ -96,14 +96,14 @@ def test_an_interrupted_study_goes_on_to_the_same_bytes(whole: Path, tmp_path: P
     out = tmp_path / "study"
     stop = Stop(calls)
 
-    def compute(study: StandIn, first: int, count: int) -> Tables:
+    def compute(study: StandIn, first: int, count: int, engine: str) -> Tables:
         if first % 200 == 0:
             stop()
-        return compute_stand_in(study, first, count)
+        return compute_stand_in(study, first, count, engine)
 
     text = rf"^interrupted; {200 * (calls - 1)} of 1010 rows are in {out}: go on with --resume$"
     with pytest.raises(KeyboardInterrupt, match=text):
-        run_study(STUDY, out, workers=0, compute=compute)
+        run_study(STUDY, out, workers=0, engine="python", compute=compute)
     assert json.loads((out / "study.json").read_text(encoding="utf-8"))["status"] == "interrupted"
     assert len(list((out / "encounters").glob("*"))) == calls - 1
     result = run(out, resume=True)
@@ -159,7 +159,7 @@ def test_a_finished_study_is_not_computed_again(whole: Path, tmp_path: Path) -> 
     shutil.copytree(whole, out)
     assert run(out, resume=True).computed == 0
     with pytest.raises(
-        InputError, match=rf"^{out} holds a study already: go on with it with --resume, or give another"
+        StudyError, match=rf"^{out} holds a study already: go on with it with --resume, or give another"
     ):
         run(out)
     assert digest(out) == digest(whole)
@@ -187,7 +187,7 @@ def test_a_folder_of_another_study_is_left_alone(whole: Path, tmp_path: Path) ->
     shutil.copytree(whole, out)
     before = {path: (out / path).read_bytes() for path in list_files(out)}
     with pytest.raises(
-        InputError, match="holds another study: the study file, a ship or a table that it names has chan"
+        StudyError, match="holds another study: the study file, a ship or a table that it names has chan"
     ):
         run(out, replace(STUDY, seed=2), resume=True)
     assert {path: (out / path).read_bytes() for path in list_files(out)} == before
@@ -195,7 +195,7 @@ def test_a_folder_of_another_study_is_left_alone(whole: Path, tmp_path: Path) ->
     content["versions"]["shipcollision_fmu"], content["fingerprint"] = "0.0.9", "of 0.0.9"
     (out / "study.json").write_text(json.dumps(content), encoding="utf-8")
     with pytest.raises(
-        InputError, match=rf"it was begun by version 0\.0\.9 of shipcollision-fmu, this is {__version__}"
+        StudyError, match=rf"it was begun by version 0\.0\.9 of shipcollision-fmu, this is {__version__}"
     ):
         run(out, resume=True)
 
@@ -257,15 +257,15 @@ def test_progress_counts_rows_and_begins_with_those_that_are_there(tmp_path: Pat
 
 
 def test_rows_that_are_lost_or_doubled_are_a_fault(tmp_path: Path) -> None:
-    def lose(study: StandIn, first: int, count: int) -> Tables:
-        return compute_stand_in(study, first, count - 1)
+    def lose(study: StandIn, first: int, count: int, engine: str) -> Tables:
+        return compute_stand_in(study, first, count - 1, engine)
 
-    def double(study: StandIn, first: int, count: int) -> Tables:
-        return compute_stand_in(study, max(0, first - 1), count)
+    def double(study: StandIn, first: int, count: int, engine: str) -> Tables:
+        return compute_stand_in(study, max(0, first - 1), count, engine)
 
     for number, compute in enumerate((lose, double)):
         with pytest.raises(RuntimeError, match=r"^rows \d+ to \d+ were computed as \d+ other rows$"):
-            run_study(STUDY, tmp_path / str(number), workers=0, compute=compute)
+            run_study(STUDY, tmp_path / str(number), workers=0, engine="python", compute=compute)
         assert list((tmp_path / str(number) / "encounters").glob("*")) in ([], [tmp_path / "1" / "encounters" / FIRST])
 
 
@@ -281,12 +281,12 @@ def test_memory_of_the_client_holds_one_part(tmp_path: Path, monkeypatch: pytest
     monkeypatch.setattr(StudyFolder, "write", keep)
     begun: list[int] = []
 
-    def compute(study: StandIn, first: int, count: int) -> Tables:
+    def compute(study: StandIn, first: int, count: int, engine: str) -> Tables:
         begun.append(first // 200)
         assert begun[-1] - len(written) <= 0
-        return compute_stand_in(study, first, count)
+        return compute_stand_in(study, first, count, engine)
 
-    run_study(STUDY, tmp_path / "study", workers=0, compute=compute)
+    run_study(STUDY, tmp_path / "study", workers=0, engine="python", compute=compute)
     assert written == [0, 1, 2, 3, 4, 5]
 
 
@@ -302,8 +302,8 @@ def test_memory_of_the_client_holds_one_part(tmp_path: Path, monkeypatch: pytest
     ],
 )
 def test_options_that_do_not_go_together(tmp_path: Path, options: dict[str, object], message: str) -> None:
-    with pytest.raises(InputError, match=message):
-        run_study(STUDY, tmp_path / "study", compute=compute_stand_in, **options)  # type: ignore[arg-type]
+    with pytest.raises(StudyError, match=message):
+        run_study(STUDY, tmp_path / "study", engine="python", compute=compute_stand_in, **options)  # type: ignore[arg-type]
     assert not (tmp_path / "study").exists()
 
 
@@ -324,4 +324,4 @@ def test_a_row_that_cannot_be_borne_is_named_and_the_rest_is_kept(whole: Path, t
 def test_a_worker_of_another_version_computes_nothing(tmp_path: Path) -> None:
     batch = Batch(get_part(0, 10, "sailed"), 0, 10)
     with pytest.raises(HostError, match=rf"^a worker has shipcollision-fmu {__version__}, the client has 9\.9\.9"):
-        compute_batch(STUDY, compute_stand_in, batch, version="9.9.9")
+        compute_batch(STUDY, compute_stand_in, "python", batch, version="9.9.9")

@@ -1,0 +1,92 @@
+"""run_session(): one call of run_study(), from the folder's check to its status."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from time import perf_counter
+
+from ...cosim.interrupt import delay_interrupts
+from .assembly import Assembly
+from .batches import BatchPlan
+from .csv_tables import write_csv
+from .executor import Executor
+from .folder import StudyFolder
+from .in_process import InProcess
+from .interface import ComputeRows, Study
+from .loop import Loop, Progress, Tally
+from .parts import Part
+from .result import StudyResult
+
+__all__ = ["Means", "run_session"]
+
+Notify = Callable[[str], None]
+
+
+@dataclass(frozen=True)
+class Means:
+    """Who computes: a scheduler by address or by file, else a local cluster; no workers: this process."""
+
+    scheduler: str | None
+    scheduler_file: Path | None
+    workers: int | None
+
+
+def run_session(
+    study: Study, out: Path, means: Means, compute: ComputeRows, engine: Callable[[str | None], str], resume: bool,
+    csv: bool, progress: Progress | None, notify: Notify,
+) -> StudyResult:  # fmt: skip
+    """What run_study() returns and raises. engine: that of the rows, by the one of the folder if it has one."""
+    begin = perf_counter()
+    folder = StudyFolder(out, study)
+    folder.check(resume, engine)
+    with _open_executor(study, compute, folder.engine, means, notify) as executor:
+        folder.open()
+        tally = Tally()
+        missing = list(_find_missing(folder, tally, notify))
+        loop = Loop(executor, BatchPlan(missing), Assembly(study.fingerprint), folder, tally, study.rows, progress)
+        there = tally.rows
+        try:
+            with delay_interrupts() as check:
+                loop.run(check)
+        except KeyboardInterrupt as interrupt:
+            folder.write_status("interrupted", tally.as_counts())
+            text = f"interrupted; {tally.rows} of {study.rows} rows are in {out}: go on with --resume"
+            raise type(interrupt)(text) from None
+    if csv:
+        write_csv(folder.path, study)
+    folder.write_status("complete", tally.as_counts())
+    computed, seconds = tally.rows - there, perf_counter() - begin
+    return StudyResult(out, tally.rows, tally.refused, tally.collisions, computed, folder.engine, seconds, loop.waited)
+
+
+@contextmanager
+def _open_executor(study: Study, compute: ComputeRows, engine: str, means: Means, notify: Notify) -> Iterator[Executor]:
+    if means.workers == 0:
+        yield InProcess(study, compute, engine)
+        return
+    from .clusters import quiet_dask, start_local_cluster, use_scheduler
+    from .dask_executor import DaskExecutor
+
+    is_local = means.scheduler is None and means.scheduler_file is None
+    opened = start_local_cluster(means.workers) if is_local else use_scheduler(means.scheduler, means.scheduler_file)
+    with quiet_dask(), opened as cluster:
+        executor = DaskExecutor(study, compute, engine, cluster, notify)
+        try:
+            notify(f"dashboard: {executor.dashboard}")
+            yield executor
+        finally:
+            executor.close()
+
+
+def _find_missing(folder: StudyFolder, tally: Tally, notify: Callable[[str], None]) -> Iterator[Part]:
+    """The parts that must be computed; those that are there are added to the tally."""
+    for part, mark in folder.find_marks():
+        if mark is not None:
+            tally.add(mark)
+            continue
+        for path in folder.find_damaged(part):
+            notify(f"{path} is cut short or no file of this study: its rows are computed again")
+        yield part

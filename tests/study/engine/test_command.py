@@ -1,0 +1,158 @@
+"""The command `study`: lines on stdout and stderr, exit statuses, and what a mistake leaves behind: nothing."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from shipcollision_fmu.cli import main, row_progress
+from shipcollision_fmu.study.engine import run as run_module
+from tests.study.engine.cluster import PROJECT
+from tests.study.engine.folders import digest
+
+SMALL = """
+[study]
+name = "small"
+level = "impact"
+rows = 40
+
+[own]
+ships = ["kvlcc2"]
+
+[encounter]
+kind = "crossing"
+angle_deg = { distribution = "uniform", least = 60.0, most = 120.0 }
+own_speed = 5.0
+target_speed = 3.0
+"""
+OPTIONS = ("--workers", "0", "--engine", "python")
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A working folder with a small study in it."""
+    (tmp_path / "small.toml").write_text(SMALL, encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def called(*arguments: str) -> Result:
+    return CliRunner().invoke(main, ["study", *arguments])
+
+
+def test_a_study_is_stored_and_said_in_two_lines(folder: Path) -> None:
+    result = called("small.toml", *OPTIONS)
+    assert result.exit_code == 0, result.stderr
+    first, last = result.stdout.splitlines()
+    assert first.startswith("40 rows: 0 refused, 40 collisions; 40 computed in ")
+    assert first.endswith(", engine python")
+    assert (
+        last
+        == "stored in studies/small: studies/small/encounters and studies/small/collisions are tables in Parquet files"
+    )
+    assert (folder / "studies" / "small" / "study.toml").read_text(encoding="utf-8") == SMALL
+
+
+def test_resume_and_another_engine(folder: Path) -> None:
+    assert called("small.toml", *OPTIONS, "--out", "a").exit_code == 0
+    again = called("small.toml", "--workers", "0", "--out", "a", "--resume")
+    assert ("; 0 computed in " in again.stdout, again.exit_code) == (True, 0)
+    for arguments, message in (
+        (OPTIONS, "error: a holds a study already: go on with it with --resume, or give another folder with --out"),
+        (
+            ("--workers", "0", "--resume", "--engine", "native"),
+            "error: a holds rows of engine 'python': go on with --engine python",
+        ),
+    ):
+        result = called("small.toml", *arguments, "--out", "a")
+        assert result.exit_code == 2
+        assert result.stderr.startswith(message)
+        assert len(result.stderr.splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    ("arguments", "status", "message"),
+    [
+        (["quik"], 2, "unknown study 'quik': did you mean quick?"),
+        (["small.toml", "--scheduler", "tcp://h:1", "--workers", "2"], 2, "a cluster that exists has its own workers"),
+        (["small.toml", "--workers", "-1"], 2, "--workers -1 must be 0 or more"),
+        (["small.toml", "--workers", "two"], 2, "'two' is not a whole number: give one such as 3"),
+        (["small.toml", "--engine", "nativ"], 2, "'nativ': did you mean native?"),
+        (["small.toml", "--scheduler-file", "none.json"], 2, "cannot read the scheduler file none.json: No such file"),
+        (["small.toml", "--scheduler-file", "small.toml"], 2, "small.toml is no scheduler file: it has no address"),
+        (["small.toml", "--out", "small.toml/x"], 1, "cannot write to small.toml/x: small.toml is not a folder"),
+        (["small.toml", "--out", "."], 1, ". holds small.toml, and no study.json of a study: give a new or an empty"),
+    ],
+)
+def test_a_mistake_is_one_line_and_leaves_nothing(
+    folder: Path, arguments: list[str], status: int, message: str
+) -> None:
+    result = called(*arguments)
+    assert message in result.stderr
+    assert len(result.stderr.splitlines()) == 1
+    assert (result.exit_code, result.stdout) == (status, "")
+    assert [path.name for path in folder.iterdir()] == ["small.toml"]
+
+
+def test_without_the_extra_the_remedy_is_a_command(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("shipcollision_fmu.study.extra.find_spec", lambda name: None)
+    result = called("small.toml", "--engine", "python")
+    assert "studies on many cores need Dask, which is missing: run `" in result.stderr
+    assert "'shipcollision-fmu[study]'" in result.stderr
+    assert result.stderr.rstrip().endswith("or give --workers 0")
+    assert called("small.toml", *OPTIONS).exit_code == 0, run_module.__doc__
+
+
+def test_lines_of_progress_in_a_pipe(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(row_progress, "PLAIN_PAUSE", 0.0)
+    lines = called("small.toml", *OPTIONS).stderr.splitlines()
+    assert lines[0] == "small: 0 of 40 rows"
+    assert lines[-1].startswith("small: 40 of 40 rows, ")
+    assert lines[-1].endswith(" rows/s, 0:00:00 left")
+
+
+def test_rate_and_time_left_are_of_the_rows_of_this_call() -> None:
+    assert row_progress.describe_pace(1_000, 1_000, 9_000, 0.5) == ""
+    assert row_progress.describe_pace(3_000, 1_000, 9_000, 4.0) == ", 500 rows/s, 0:00:12 left"
+    assert row_progress.describe_pace(1, 0, 10_000, 1.0) == ", 1 rows/s, 2:46:39 left"
+
+
+STOPPED = """
+import os, signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell that starts the tests may have it ignored
+from shipcollision_fmu.study.engine import folder
+write = folder.StudyFolder.write
+def write_and_stop(self, part):
+    write(self, part)
+    os.kill(os.getpid(), {number})
+folder.StudyFolder.write = write_and_stop
+from shipcollision_fmu.study.engine import parts
+parts.PART_ROWS["impact"] = 10
+from shipcollision_fmu.cli import main
+main()
+"""
+
+
+@pytest.mark.parametrize(
+    ("number", "status"), [(signal.SIGINT, 130), pytest.param(signal.SIGTERM, 143, marks=pytest.mark.slow)]
+)
+def test_an_interrupt_leaves_a_study_that_goes_on(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, number: signal.Signals, status: int
+) -> None:
+    monkeypatch.setattr("shipcollision_fmu.study.engine.parts.PART_ROWS", {"impact": 10})
+    assert called("small.toml", *OPTIONS, "--out", "whole").exit_code == 0
+    done = subprocess.run(
+        [sys.executable, "-c", STOPPED.format(number=int(number)), "study", "small.toml", *OPTIONS, "--out", "a"],
+        cwd=folder, env=os.environ | {"PYTHONPATH": str(PROJECT)}, capture_output=True, text=True, timeout=120,
+    )  # fmt: skip
+    assert done.stderr == "error: interrupted; 10 of 40 rows are in a: go on with --resume\n"
+    assert (done.returncode, done.stdout) == (status, "")
+    result = called("small.toml", *OPTIONS, "--out", "a", "--resume")
+    assert "; 30 computed in " in result.stdout
+    assert digest(folder / "a") == digest(folder / "whole")
