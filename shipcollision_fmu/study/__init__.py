@@ -5,6 +5,6 @@
     engine/       run_study(): batches, workers, the folder of Parquet files
     extra.py      pyarrow and Dask, which studies alone need
 
-Data flow: study file -> Study -> rows -> tables -> folder. Imports from: batch, cosim (interrupt.py), encounters,
-scenario, collision, ship, toolchain. Used by: cli and users of the package.
+Data flow: study file -> Study -> rows -> tables -> folder. Imports from: batch, cosim, encounters, scenario,
+collision, fmi (names), ship, toolchain. Used by: cli and users of the package.
 """

@@ -27,8 +27,8 @@ def read_distribution(given: Any) -> Distribution:
     except ValidationError:
         hint = '; a list of values is {distribution = "discrete", values = [...]}' if isinstance(given, list) else ""
         raise ValueError(
-            f'{given!r} must be a finite number, a word, or a table such as {{distribution = "uniform", least = 1.0, '
-            f"most = 9.0}}{hint}"
+            f'the value {given!r} must be a finite number, a word, or a table such as {{distribution = "uniform", '
+            f"least = 1.0, most = 9.0}}{hint}"
         ) from None
 
 
@@ -48,7 +48,7 @@ def _read_table(given: dict[str, Any]) -> Distribution:
 
 def _without_brackets(line: str) -> str:
     """ "[sd] = -1 must ..." as "sd = -1 must ...": the key is not a table here."""
-    return re.sub(r"^\[(\w+)\] ?(?=[\[ ]|= |is |must )", r"\1 ", line)
+    return re.sub(r"^\[(\w+)\] ?(?=[\[ ]|= |is |must )", r"\1 ", line).replace("[values]:", "values:")
 
 
 Variable = Annotated[Distribution, PlainValidator(read_distribution)]

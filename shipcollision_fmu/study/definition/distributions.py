@@ -38,7 +38,7 @@ def _check_values(given: Any) -> list[float] | list[str]:
             return given
         if all(type(value) in (int, float) and isfinite(value) for value in given):
             return [float(value) for value in given]
-    raise ValueError(f"{given!r} must be a list of finite numbers, or of words, e.g. [2.0, 5.0]")
+    raise ValueError(f"the value {given!r} must be a list of finite numbers, or of words, e.g. [2.0, 5.0]")
 
 
 NumbersOrWords = Annotated[Any, PlainValidator(_check_values)]

@@ -52,8 +52,8 @@ def read_empirical_table(name: str, path: Path, weight: str | None, place: str) 
         content = path.read_bytes()
     except OSError as error:
         raise StudyError(
-            f"{place} file = {str(path)!r} cannot be read: {error.strerror}: give the path of a CSV or Parquet file, "
-            "from the study file's folder"
+            f"{place} file = {path.name!r} cannot be read in {path.parent}: {error.strerror}: give the path of a CSV "
+            "or Parquet file, from the study file's folder"
         ) from None
     said = f"{place} file = {path.name!r}"
     is_parquet = path.suffix.lower() in (".parquet", ".pq") or content[:4] == b"PAR1"

@@ -93,7 +93,8 @@ def _read_ships(given: Any) -> dict[str, float] | TableColumn:
         if sum(given.values()) > 0.0:
             return {name: float(weight) for name, weight in given.items()}
     raise ValueError(
-        f'{given!r} must name ships: ["kvlcc2", "kcs"], or with weights {{kvlcc2 = 3.0, kcs = 1.0}}, not all 0'
+        f'the value {given!r} must name ships: ["kvlcc2", "kcs"], or with weights {{kvlcc2 = 3.0, kcs = 1.0}}, not '
+        "all 0"
     )
 
 

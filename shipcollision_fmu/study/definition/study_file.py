@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, PlainValidator, field_validator, model_validator
 
 from ...encounters.request import KINDS
+from ...scenario.tables.header import MAXIMUM_STEPS
 from ...ship.loading.messages import suggest_or_list
 from ...ship.tables.table import NotNegative, Table
 from .distribution_text import Variable
@@ -64,6 +65,16 @@ class RunTable(Table):
     )
     step: float = Field(default=0.05, ge=1e-3, le=10.0, description="the communication step [s]")
 
+    @model_validator(mode="after")
+    def _check_steps(self) -> RunTable:
+        steps = ((self.time or 0.0) + self.after) / self.step
+        if steps > MAXIMUM_STEPS:
+            raise ValueError(
+                f"[run] step = {self.step:g} s makes {steps:.2g} steps, the limit is {MAXIMUM_STEPS}: take a longer "
+                "step"
+            )
+        return self
+
 
 def _describe(name: str) -> str:
     of = NUMBERS[name]
@@ -103,7 +114,10 @@ class EncounterTable(Table):
     @model_validator(mode="after")
     def _check(self) -> EncounterTable:
         for name, given in self.list_given():
-            check_variable(name, given)
+            try:
+                check_variable(name, given)
+            except ValueError as error:
+                raise ValueError(f"[encounter] {error}") from None
         return self
 
     def list_given(self) -> list[tuple[str, Distribution]]:
@@ -140,13 +154,14 @@ def _read_axis(given: Any) -> list[float] | list[str]:
         return [least + i * (most - least) / (count - 1) for i in range(count)]
     if isinstance(given, list) and 0 < len(given) <= MOST_LEVELS:
         if len(set(map(str, given))) < len(given):
-            raise ValueError(f"{given!r} has a value twice: remove one of them")
+            raise ValueError(f"the list {given!r} has a value twice: remove one of them")
         if all(isinstance(value, str) for value in given):
             return given
         if all(type(value) in (int, float) and abs(value) < 1e12 for value in given):
             return [float(value) for value in given]
     raise ValueError(
-        f"{given!r} must be a list of numbers or of words, e.g. [30, 60, 90], or {{least = 30, most = 90, count = 3}}"
+        f"the value {given!r} must be a list of numbers or of words, e.g. [30, 60, 90], or {{least = 30, most = 90, "
+        "count = 3}"
     )
 
 

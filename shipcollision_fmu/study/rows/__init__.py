@@ -9,9 +9,11 @@
       fleet_ships.py       a ship of the fleet by number; ship_folder.py: as a file
       pairs.py             cases by pair of ships, pairs that stay open
       impact_rows.py       level impact; python_impacts.py without the native library
+      encounter_rows.py    level encounter    sailed_rows.py   level sailed
+        encounter_results.py   whole encounters by column; python_run.py without the native library
       results.py           what became of the cases, by column
     tables.py            the tables as Arrow; columns.py: names, units, meanings
 
-Data flow: Study, row numbers -> Cases -> Results -> RowTables. Imports from: definition, batch, encounters, collision,
-scenario, ship, toolchain. Used by: study/engine.
+Data flow: Study, row numbers -> Cases -> Results -> RowTables. Imports from: definition, batch, cosim, encounters,
+scenario, collision, fmi (names), ship, toolchain. Used by: study/engine.
 """

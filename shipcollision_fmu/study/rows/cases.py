@@ -115,11 +115,11 @@ def _complete(level: str, kind: npt.NDArray[Any], given: dict[str, npt.NDArray[A
                 values[is_kind] = np.nan
         numbers[name] = values
     if level != SAILED:
-        _drift(numbers)
+        _add_drift_speed(numbers)
     return numbers
 
 
-def _drift(numbers: dict[str, Array]) -> None:
+def _add_drift_speed(numbers: dict[str, Array]) -> None:
     """Where the target drifts, the drift is its own speed: in calm water it keeps its heading."""
     drifts = np.isfinite(numbers["drift_speed"])
     speed, towards = numbers["drift_speed"][drifts], np.radians(numbers["drift_deg"][drifts])

@@ -15,17 +15,21 @@ from functools import lru_cache
 from ...errors import HostError, StudyError
 from ...toolchain.load import load_library
 from ..definition.study import Study
-from ..definition.variables import IMPACT
+from ..definition.variables import COASTING, IMPACT, SAILED
 from .cases import Cases, draw_cases
+from .encounter_rows import run_coasting
 from .impact_rows import run_impacts
 from .results import Results
+from .sailed_rows import run_sailed
 from .tables import RowTables, build_tables
 
 __all__ = ["ENGINES", "choose_engine", "compute_rows"]
 
 ENGINES = ("auto", "native", "python")
 
-LEVEL_RUNNERS: dict[str, Callable[[Study, Cases, str], Results]] = {IMPACT: run_impacts}
+LEVEL_RUNNERS: dict[str, Callable[[Study, Cases, str], Results]] = {
+    IMPACT: run_impacts, COASTING: run_coasting, SAILED: run_sailed,
+}  # fmt: skip
 """What computes cases, by level of detail."""
 
 

@@ -18,7 +18,7 @@ from .pairs import Impacts, OpenPairs, group_pairs, refuse_all
 from .python_impacts import PythonImpacts
 from .results import MOTION, Results
 
-__all__ = ["run_impacts"]
+__all__ = ["PAIRS", "as_cases", "run_impacts"]
 
 
 def _open_native(own: FleetShip, target: FleetShip, degrees_of_freedom: int) -> Impacts:
@@ -33,7 +33,7 @@ PAIRS = {"native": OpenPairs(_open_native), "python": OpenPairs(PythonImpacts)}
 def run_impacts(study: Study, cases: Cases, engine: str) -> Results:
     """The results of the cases."""
     results = Results(cases, engine)
-    given = _as_cases(cases)
+    given = as_cases(cases)
     for own, target, places in group_pairs(study, cases, results):
         try:
             impacts = PAIRS[engine].find(own, target, study.run.degrees_of_freedom)
@@ -47,7 +47,8 @@ def run_impacts(study: Study, cases: Cases, engine: str) -> Results:
     return results
 
 
-def _as_cases(cases: Cases) -> npt.NDArray[Any]:
+def as_cases(cases: Cases) -> npt.NDArray[Any]:
+    """The cases as batch/ has them."""
     given = np.zeros(len(cases), CASES)
     for name in CASES.names or ():
         if name in cases.numbers:

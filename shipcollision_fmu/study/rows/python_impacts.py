@@ -66,16 +66,16 @@ class PythonImpacts:
 
     def _answer(self, given: Any, row: Any) -> tuple[str, str]:
         angle = radians(-given["angle_deg"] if given["is_starboard"] else given["angle_deg"])
-        struck = locate_place(
+        place = locate_place(
             self._target_section, self._middle + float(given["at"]) * self._L_oa,
             "starboard" if given["is_starboard"] else "port",
         )  # fmt: skip
-        contact = find_contacts(struck, self._own_section, angle)[0]
+        contact = find_contacts(place, self._own_section, angle)[0]
         heading = radians(given["heading_deg"])
         own_motion = np.array([given["own_speed"], given["own_sway"], given["own_yaw_rate"]])
         motion = np.array([given["target_speed"], given["target_sway"], given["target_yaw_rate"]])
-        own_point = _turn(struck.point - contact.position, -angle)
-        velocity = _turn(_velocity_at(own_motion, own_point), angle) - _velocity_at(motion, struck.point)
+        own_point = _turn(place.point - contact.position, -angle)
+        velocity = _turn(_velocity_at(own_motion, own_point), angle) - _velocity_at(motion, place.point)
         closing = min(float(-velocity @ normal) for normal in contact.normals)
         least = max(SLOWEST_CLOSING, GRAZING * float(np.linalg.norm(velocity)))
         if closing < least:
@@ -85,13 +85,13 @@ class PythonImpacts:
             )
         self._model.parameters.friction = float(given["friction"])
         self._model.parameters.restitution = float(given["restitution"])
-        normal, own = _turn(contact.normals[0], heading), _turn(contact.position - struck.point, heading)
+        normal, own = _turn(contact.normals[0], heading), _turn(contact.position - place.point, heading)
         overlap, deeper, out = OVERLAP, DEEPER, self._model.outputs
         for _ in range(ATTEMPTS):
             if overlap >= DEEPEST:
                 break
             self._give_state(0, own - overlap * normal, heading + angle, own_motion)
-            self._give_state(1, -_turn(struck.point, heading), heading, motion)
+            self._give_state(1, -_turn(place.point, heading), heading, motion)
             try:
                 self._model.set_state(self._first_state)
                 self._model.step(0.0, INSTANT)

@@ -1,0 +1,97 @@
+"""Level `encounter`: whole collisions of coasting ships, as collide() has them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ...batch.collide import collide
+from ...errors import InputError, ShipError, StepError
+from ...scenario.scenario import Scenario
+from ...scenario.tables.collision import Collision
+from ..definition.study import Study
+from .cases import Cases
+from .encounter_results import put_encounters, put_run
+from .fleet_ships import FleetShip
+from .impact_rows import PAIRS, as_cases
+from .pairs import group_pairs, refuse_all
+from .python_run import run_python
+from .results import Results
+from .ship_folder import ShipFolder
+
+__all__ = ["run_coasting"]
+
+GIVEN = (
+    "angle_deg", "at", "own_speed", "target_speed", "own_sway", "target_sway", "heading_deg", "friction", "restitution",
+)  # fmt: skip
+"""Numbers that collide() takes."""
+USUAL_TIME = 1.0
+"""[s] from the start to the impact: coasting ships that close have touched nothing before it."""
+
+Places = npt.NDArray[np.intp]
+
+
+def run_coasting(study: Study, cases: Cases, engine: str) -> Results:
+    """The results of the cases."""
+    results = Results(cases, engine)
+    for own, target, places in group_pairs(study, cases, results):
+        try:
+            if engine == "native":
+                _run_native(study, own, target, places, results)
+            else:
+                _run_python(study, own, target, places, results)
+        except ShipError as error:
+            refuse_all(results, places, error)
+    return results
+
+
+def _run_native(study: Study, own: FleetShip, target: FleetShip, places: Places, results: Results) -> None:
+    cases, run = results.cases, study.run
+    given: dict[str, Any] = {name: cases.numbers[name][places] for name in GIVEN}
+    tables = collide(
+        own.loaded, target.loaded, side=cases.side[places], **given,
+        degrees_of_freedom=run.degrees_of_freedom, before=run.time or USUAL_TIME, after=run.after,
+        separation=run.separation, step=run.step,
+    )  # fmt: skip
+    put_encounters(results, places, tables)
+
+
+def _run_python(study: Study, own: FleetShip, target: FleetShip, places: Places, results: Results) -> None:
+    rows = PAIRS["python"].find(own, target, study.run.degrees_of_freedom).run(as_cases(results.cases)[places])
+    with ShipFolder() as folder:
+        files = {"own": folder.write(own), "target": folder.write(target)}
+        for place, row in zip(places, rows, strict=True):
+            if row["status"]:
+                results.refuse(int(place), row["reason"].decode())
+                continue
+            try:
+                scenario = _make_scenario(study, files, row, results.cases, int(place))
+                put_run(results, int(place), run_python(scenario, study.run.separation))
+            except (InputError, StepError) as error:
+                results.refuse(int(place), str(error))
+
+
+def _make_scenario(study: Study, files: dict[str, str], row: Any, cases: Cases, place: int) -> Scenario:
+    """The scenario of two ships that coast to the impact in the row."""
+    run = study.run
+    steps = round((run.time or USUAL_TIME) / run.step) or 1
+    ships = {}
+    for role, file in files.items():
+        heading, (surge, sway) = float(row[f"{role}_heading"]), row[f"{role}_before"][:2].tolist()
+        c, s, time = np.cos(heading), np.sin(heading), steps * run.step
+        north, east = row[f"{role}_position"][:2] - time * np.array([surge * c - sway * s, surge * s + sway * c])
+        ships[role] = {
+            "ship": file, "position": [float(north), float(east)], "heading_deg": float(np.degrees(heading)),
+            "surge": surge, "sway": sway, "degrees_of_freedom": run.degrees_of_freedom, "hydrodynamics": False,
+            **({"coasting": "straight"} if sway else {}),
+        }  # fmt: skip
+    duration = (steps + (round(run.after / run.step) or 1)) * run.step
+    contact = Collision(friction=cases.numbers["friction"][place], restitution=cases.numbers["restitution"][place])
+    return Scenario.model_validate(
+        {
+            "scenario": {"name": study.name, "duration": duration, "step": run.step}, "ships": ships,
+            "collision": contact,
+        }
+    )  # fmt: skip

@@ -1,0 +1,287 @@
+"""Bad study files: one clear line each, with the key, its value, the limit and the remedy."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from shipcollision_fmu.errors import StudyError
+from shipcollision_fmu.study.definition.study import parse_study, read_study
+
+GOOD = """
+[study]
+name = "strait"
+level = "impact"
+rows = 100
+[own]
+ships = ["kcs"]
+[encounter]
+own_speed = {distribution = "uniform", least = 2.0, most = 8.0}
+"""
+SPEED = 'own_speed = {distribution = "uniform", least = 2.0, most = 8.0}'
+SHIPS = 'ships = ["kcs"]'
+POOL = """[[own.sampled]]
+kind = "tanker"
+L_pp = 200.0
+L_over_B = 6.0
+B_over_T = 2.6
+C_b = 0.8"""
+TABLES = {"data.csv": "v,word,ship,w\n3.0,port,kcs,1\n70.0,left,titanic,-1\n"}
+DATA = '\n[tables.data]\nfile = "data.csv"'
+
+REFUSALS: dict[str, tuple[tuple[str, str], str]] = {
+    # -- [study]
+    "no table [study]": (("[study]", "[stdy]"), "[stdy] is not a known key: did you mean study?"),
+    "no name": (('name = "strait"', ""), "[study] name is missing: give the name of the study"),
+    "a name with a slash": (('"strait"', '"a/b"'), "[study] name: 'a/b' cannot name a folder: take letters"),
+    "an unknown level": (('"impact"', '"contact"'), "[study] level = 'contact' must be 'impact', 'encounter' or"),
+    "no rows": (("rows = 100", ""), "[study] rows is missing: give the number of cases, or a table [grid]"),
+    "rows of 0": (("rows = 100", "rows = 0"), "[study] rows = 0 must be greater than or equal to 1"),
+    "rows as text": (("rows = 100", 'rows = "100"'), "[study] rows = '100' must be a whole number"),
+    "rows as a float": (("rows = 100", "rows = 1e6"), "[study] rows = 1000000.0 must be a whole number"),
+    "too many rows": (("rows = 100", "rows = 100_000_000_000"), "[study] rows = 100000000000 must be less than"),
+    "a negative seed": (("rows = 100", "rows = 100\nseed = -1"), "[study] seed = -1 must be greater than or equal"),
+    "an unknown sampler": (
+        ("rows = 100", 'rows = 100\nsampler = "halton"'), "[study] sampler = 'halton' must be 'latin-hypercube', ",
+    ),
+    "a misspelt key": (("rows = 100", "row = 100"), "[study] row is not a known key: did you mean rows?"),
+    # -- [own] and [target]
+    "no own": (("[own]\n" + SHIPS, ""), "[own] is missing: give the table [own]: the ships that strike"),
+    "no ships": ((SHIPS, ""), 'has no ships: give ships = ["kvlcc2"], or a table [[own.sampled]]'),
+    "an empty list of ships": ((SHIPS, "ships = []"), "[own] ships: the value [] must name ships: "),
+    "an unknown ship": ((SHIPS, 'ships = ["kvlc2"]'), "[own] ships: kvlc2: unknown ship 'kvlc2': did you mean kvlcc2?"),
+    "a missing ship file": (
+        (SHIPS, 'ships = ["my/ship.toml"]'), "[own] ships: my/ship.toml: ship file my/ship.toml does not exist: give",
+    ),
+    "a ship twice": ((SHIPS, 'ships = ["kcs", "kcs"]'), "[own] ships: 'kcs' is there twice: give a table of weights"),
+    "a negative weight": (
+        (SHIPS, "ships = {kcs = -1.0}"), "kcs = -1.0 must be a weight, a number of at least 0",
+    ),
+    "no weight above 0": ((SHIPS, "ships = {kcs = 0.0}"), "must name ships: "),
+    "a loading out of range": (
+        (SHIPS, SHIPS + "\nloading = 0.1"), "[own]: loading = 0.1 must be 0.3 to 1: 1 is the draught of the ship file",
+    ),
+    "a loading of many values": (
+        (SHIPS, SHIPS + '\nloading = {distribution = "uniform", least = 0.5, most = 1.0}'),
+        "[own]: loading must be a number or discrete: each value makes another ship of each name",
+    ),
+    "a loading of a mesh": (
+        (SHIPS, 'ships = ["mesh_example"]\nloading = 0.8'), "a hull from a mesh has one draught: take loading = 1",
+    ),
+    "an unknown kind of ship": (
+        (SHIPS, POOL.replace("tanker", "submarine")), "'submarine' names no type of ship: take one of the words ferry",
+    ),
+    "breadth given twice": ((SHIPS, POOL + "\nB = 30.0"), "has B and L_over_B: give one of the two"),
+    "no draught": (
+        (SHIPS, POOL.replace("B_over_T = 2.6", "")), "has neither T nor B_over_T: give one of the two",
+    ),
+    "a length in feet": ((SHIPS, POOL.replace("200.0", "650.0")), "L_pp = 650 must be 0.5 to 500"),
+    "a pool of no ship": ((SHIPS, POOL + "\ncount = 0"), "count = 0 must be greater than or equal to 1"),
+    "a block coefficient without end": (
+        (SHIPS, POOL.replace("C_b = 0.8", 'C_b = {distribution = "normal", mean = 0.8, sd = 0.05}')),
+        "C_b goes down to -inf, must be 0.4 to 0.9: change or give least",
+    ),
+    # -- [encounter]
+    "an unknown variable": ((SPEED, "own_sped = 3.0"), "[encounter] own_sped is not a known key: did you mean own_spe"),
+    "an unknown kind of encounter": (
+        (SPEED, 'kind = "tbone"'), "[encounter] kind = 'tbone' is unknown: did you mean t-bone?",
+    ),
+    "a kind that is a number": ((SPEED, "kind = 3"), "[encounter] kind must be a word, or discrete with words: take"),
+    "an unknown side": ((SPEED, 'side = "left"'), "[encounter] side = 'left' is unknown: known: port, starboard"),
+    "a speed in knots": ((SPEED, "own_speed = 120.0"), "own_speed = 120 must be -50 to 50: give metres per second"),
+    "a speed that is a word": ((SPEED, 'own_speed = "fast"'), "own_speed = 'fast' must be a number, -50 to 50: give"),
+    "a speed that is not finite": ((SPEED, "own_speed = nan"), "[encounter] own_speed: the value nan must be a finite"),
+    "a list without a distribution": (
+        (SPEED, "own_speed = [2.0, 4.0]"), 'a list of values is {distribution = "discrete", values = [...]}',
+    ),
+    "no word for the distribution": (
+        (SPEED, "own_speed = {least = 2.0, most = 3.0}"), "[encounter.own_speed] distribution is missing: give one of",
+    ),
+    "an unknown distribution": (
+        (SPEED, 'own_speed = {distribution = "gauss", mean = 3.0}'),
+        "[encounter.own_speed] distribution = 'gauss' is unknown: known: constant, uniform, normal,",
+    ),
+    "a misspelt key of a distribution": (
+        (SPEED, 'own_speed = {distribution = "normal", mean = 3.0, std = 1.0, least = 0.0, most = 9.0}'),
+        "std is not a known key: did you mean sd?",
+    ),
+    "a negative standard deviation": (
+        (SPEED, 'own_speed = {distribution = "normal", mean = 3.0, sd = -1.0, least = 0.0, most = 9.0}'),
+        "[encounter.own_speed] sd = -1.0 must be greater than 0: it is the standard deviation",
+    ),
+    "limits in falling order": (
+        (SPEED, 'own_speed = {distribution = "uniform", least = 8.0, most = 2.0}'),
+        "[encounter.own_speed] least = 8 must be below most = 2: exchange them",
+    ),
+    "a mode outside": (
+        (SPEED, 'own_speed = {distribution = "triangular", least = 2.0, mode = 9.0, most = 8.0}'),
+        "[encounter.own_speed] mode = 9 must be between least = 2 and most = 8: put the three in rising order",
+    ),
+    "cuts that leave nothing": (
+        (SPEED, 'own_speed = {distribution = "normal", mean = 3.0, sd = 0.1, least = 5.0, most = 9.0}'),
+        "[encounter.own_speed] least and most leave 3e-89 of the distribution, at least 1e-09 is needed: move them",
+    ),
+    "a distribution without end": (
+        (SPEED, 'own_speed = {distribution = "normal", mean = 3.0, sd = 1.0}'),
+        "own_speed goes down to -inf, must be -50 to 50: change or give least; give metres per second",
+    ),
+    "a tail without end": (
+        (SPEED, 'own_speed = {distribution = "lognormal", median = 3.0, sigma = 1.0}'),
+        "own_speed goes up to inf, must be -50 to 50: change or give most; give metres per second",
+    ),
+    "weights that do not fit": (
+        (SPEED, 'own_speed = {distribution = "discrete", values = [2, 3], weights = [1]}'),
+        "[encounter.own_speed] weights has 1 entries and values has 2: give one weight for each",
+    ),
+    "weights that are all 0": (
+        (SPEED, 'own_speed = {distribution = "discrete", values = [2, 3], weights = [0, 0]}'),
+        "[encounter.own_speed] weights are all 0: give at least one that is above 0",
+    ),
+    "numbers among words": (
+        (SPEED, 'own_speed = {distribution = "discrete", values = [2, "a"]}'),
+        "values: the value [2, 'a'] must be a list of finite numbers, or of words, e.g. [2.0, 5.0]",
+    ),
+    "a variable of another level": (
+        (SPEED, "rudder_deg = 10.0"),
+        '[encounter] rudder_deg has no effect at level = "impact": remove it, or take level = "sailed"',
+    ),
+    "a kind of another level": (
+        (SPEED, 'kind = "late-evasive"'),
+        '[encounter] kind = "late-evasive" needs ships that steer: take level = "sailed", or another kind',
+    ),
+    "an angle of another kind": (
+        (SPEED, 'kind = "overtaking"\nangle_deg = 90.0'),
+        '[encounter] angle_deg goes from 90 to 90, must be 0 to 67.5 for kind "overtaking": change it, or take',
+    ),
+    "a drift of a kind without it": (
+        (SPEED, "drift_speed = 1.0"),
+        '[encounter] drift_speed has no effect with kind "crossing": remove it, or take kind drifting-target',
+    ),
+    "a speed of a target that drifts": (
+        (SPEED, 'kind = "drifting-target"\ntarget_speed = 1.0'),
+        '[encounter] target_speed has no effect with kind "drifting-target": remove it, or take kind head-on',
+    ),
+    # -- [run]
+    "degrees of freedom of no ship": ((SPEED, "[run]\ndegrees_of_freedom = 5"), "degrees_of_freedom = 5 must be 3, 4"),
+    "a time in minutes": ((SPEED, "[run]\nafter = 0.0"), "[run] after = 0.0 must be greater than 0"),
+    "too many steps": (
+        (SPEED, "[run]\nafter = 7200.0\nstep = 0.001"),
+        "[run] step = 0.001 s makes 7.2e+06 steps, the limit is 1000000: take a longer step",
+    ),
+    # -- [grid]
+    "an unknown axis": ((SPEED, "[grid]\nangel_deg = [30.0]"), "[grid] angel_deg is not a known key: did you mean"),
+    "an axis that is drawn, too": (
+        (SPEED, SPEED + "\n[grid]\nown_speed = [3.0]"), "[grid] own_speed is also a key of [encounter]: remove one of",
+    ),
+    "an axis of one number": ((SPEED, "[grid]\nat = 0.1"), "at: the value 0.1 must be a list of numbers or"),
+    "a value twice": ((SPEED, "[grid]\nat = [0.1, 0.1]"), "at: the list [0.1, 0.1] has a value twice: remove"),
+    "an axis out of range": (
+        (SPEED, "[grid]\nat = {least = -0.5, most = 0.7, count = 3}"), "[grid] at = 0.7 must be -0.5 to 0.5: -0.5 is",
+    ),
+    "an axis of one step": (
+        (SPEED, "[grid]\nat = {least = -0.5, most = 0.5, count = 1}"), "count = 1 must be a whole number, 2 to 100000",
+    ),
+    "rows that are no whole grid": (
+        (SPEED, "[grid]\nat = [-0.1, 0.0, 0.1]"),
+        "[study] rows = 100 is 33.33 times the 3 cells of [grid], must be a whole number of times: take 99 or 102",
+    ),
+    # -- [tables]
+    "a missing table": (
+        (SPEED, '[tables.data]\nfile = "no.csv"'), "[tables.data] file = 'no.csv' cannot be read in ",
+    ),
+    "a table that is not there": (
+        (SPEED, 'own_speed = {table = "data", column = "v"}'),
+        "[encounter] own_speed: table = 'data' is not in [tables]: add a table [tables.NAME] with file",
+    ),
+    "a column that is not there": (
+        (SPEED, 'own_speed = {table = "data", column = "x"}' + DATA),
+        "[encounter] own_speed: column = 'x' is not in table 'data': known: v, word, ship, w",
+    ),
+    "a column of words": (
+        (SPEED, 'own_speed = {table = "data", column = "word"}' + DATA),
+        "[encounter] own_speed: column 'word' of table 'data' holds 'port', must hold numbers: take another column",
+    ),
+    "a value out of range in a column": (
+        (SPEED, 'own_speed = {table = "data", column = "v"}' + DATA),
+        "own_speed: column 'v' of table 'data' holds 70 in line 3, must be -50 to 50: remove the line, or convert",
+    ),
+    "an unknown word in a column": (
+        (SPEED, 'side = {table = "data", column = "word"}' + DATA),
+        "[encounter] side: column 'word' of table 'data' holds 'left': known: port, starboard",
+    ),
+    "an unknown ship in a column": (
+        (SHIPS, 'ships = {table = "data", column = "ship"}' + DATA), "[own] ships: titanic: unknown ship 'titanic'",
+    ),
+    "a weight below 0": (
+        (SPEED, DATA + '\nweight = "w"'), "[tables.data] weight = 'w': a weight in this column is no number, or below",
+    ),
+    "a weight that is no column": ((SPEED, DATA + '\nweight = "x"'), "[tables.data] weight = 'x' is no column: known:"),
+    "a table without lines": (
+        (SPEED, '[tables.data]\nfile = "empty.csv"'), "file = 'empty.csv' has 0 lines below its names, must have 1 to",
+    ),
+    "a table without names": (
+        (SPEED, '[tables.data]\nfile = "none.csv"'), "file = 'none.csv' has no line of column names, each once",
+    ),
+    "a line cut short": (
+        (SPEED, '[tables.data]\nfile = "short.csv"'),
+        "file = 'short.csv' line 3 has 1 values, must have 2 as its first line: complete it",
+    ),
+    "a number that is not finite": (
+        (SPEED, '[tables.data]\nfile = "nan.csv"'), "file = 'nan.csv' column 'b' line 2 is nan, must be finite: remove",
+    ),
+    "Parquet that is none": (
+        (SPEED, '[tables.data]\nfile = "cut.parquet"'), "file = 'cut.parquet' is not Parquet: ",
+    ),
+    # -- other files
+    "no TOML": (("[own]", "[own"), "is not valid TOML: "),
+    "a scenario": ((GOOD, '[scenario]\nname = "a"'), "is a scenario, not a study: give a study, which has a table"),
+    "a ship": ((GOOD, "[particulars]\nL_pp = 3.0"), "is a ship, not a study: give a study, which has a table [study]"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", REFUSALS)
+def test_a_bad_study_is_refused_in_one_line(name: str, tmp_path: Path) -> None:
+    (old, new), message = REFUSALS[name]
+    assert old in GOOD
+    for file, text in {
+        **TABLES, "empty.csv": "a,b\n", "none.csv": "", "short.csv": "a,b\n1,2\n3\n", "nan.csv": "a,b\n1,nan\n",
+        "cut.parquet": "PAR1 and no more",
+    }.items():  # fmt: skip
+        (tmp_path / file).write_text(text)
+    with pytest.raises(StudyError, match=re.escape(message)) as refusal:
+        parse_study(GOOD.replace(old, new), "mine.toml", tmp_path)
+    line = str(refusal.value)
+    assert line.startswith("mine.toml")
+    assert "\n" not in line
+
+
+def test_the_good_study_is_read(tmp_path: Path) -> None:
+    """Each refusal above is due to its own change."""
+    assert parse_study(GOOD, "mine.toml", tmp_path).rows == 100
+    assert parse_study(GOOD.replace(SHIPS, POOL), "mine.toml", tmp_path).own.size == 100
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ("quik", "unknown study 'quik': did you mean quick? Else give the path of a TOML file"),
+        (
+            "my/study.toml",
+            "study file my/study.toml does not exist: give the path of a TOML file or one of",
+        ),
+        ("", "study = '' is no study: give a name or the path of a TOML file"),
+        ("./", "./ is a folder: give the path of a study file, or one of million, quick"),
+    ],
+)
+def test_a_study_that_is_not_there_is_refused(given: str, message: str) -> None:
+    with pytest.raises(StudyError, match=re.escape(message)):
+        read_study(given)
+
+
+def test_text_that_is_not_utf8_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "latin.toml"
+    path.write_bytes(b'[study]\nname = "\xe9"')
+    with pytest.raises(StudyError, match=r"latin.toml is not UTF-8 text \(byte 16\): save it as UTF-8"):
+        read_study(path)
