@@ -73,7 +73,8 @@ def describe(scene: Scene, folder: Path) -> list[str]:
     ships = ", ".join(_replace_unprintable(ship.name) for ship in scene.ships)
     count = len(scene.events)
     collisions = f"{count or 'no'} collision{'' if count == 1 else 's'}"
-    lines = [f"{_replace_unprintable(scene.name)}: {scene.end - scene.start:g} s, {collisions}, ships {ships}"]
+    kind = ", native run" if scene.is_native else ""
+    lines = [f"{_replace_unprintable(scene.name)}: {scene.end - scene.start:g} s{kind}, {collisions}, ships {ships}"]
     for name, what in PICTURES.items():
         there = "" if (folder / name).exists() else " (not written yet)"
         lines.append(f"  {name:<12} {what}{there}")

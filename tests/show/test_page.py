@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import csv
+import json
 import time
 from math import degrees
 from pathlib import Path
@@ -17,6 +18,7 @@ from shipcollision_fmu import load_scenario, simulate
 from shipcollision_fmu.ship.frames import rotation, rotation_from_quaternion
 from shipcollision_fmu.show.gltf.gltf import build_glb
 from shipcollision_fmu.show.gltf.ribbons import lay_ribbon
+from shipcollision_fmu.show.outputs import describe
 from shipcollision_fmu.show.page import build_page, write_page
 from shipcollision_fmu.show.scene.run_folder import STATE
 from shipcollision_fmu.show.scene.scene import Scene, load_scene
@@ -308,6 +310,20 @@ def test_no_contact_is_said_in_words(browser: Chrome, meeting: MakeRun) -> None:
     ]  # fmt: skip
     apart.driver.find_element(By.ID, "picture").send_keys("np")
     assert apart.complaints() == []
+
+
+@pytest.mark.parametrize("engine", ["python", "native"])
+def test_a_native_run_is_called_one(browser: Chrome, meeting: MakeRun, engine: str) -> None:
+    """Below its name, and in the line on the command line; of a run with Python nothing is said."""
+    folder = meeting()
+    if engine == "native":
+        path = folder / "summary.json"
+        path.write_text(json.dumps({**json.loads(path.read_text()), "engine": engine}) + "\n")
+    page = Page(browser, write_page(folder))
+    said = page.run("return [...document.querySelectorAll('.title p')].map((p) => p.textContent)")
+    assert said[0].startswith("own runs into a barge")
+    assert said[1:] == (["Native run: its FMUs ran without Python."] if engine == "native" else [])
+    assert (", native run, " in describe(load_scene(folder), folder)[0]) == (engine == "native")
 
 
 @pytest.mark.slow

@@ -84,6 +84,7 @@ def _collect_data(scene: Scene) -> dict[str, Any]:
         **collect_extras(scene),
         "name": scene.name,
         "version": __version__,
+        "is_native": scene.is_native,
         "ships": [_describe_ship(i, ship) for i, ship in enumerate(scene.ships)],
         "scratches": [
             {"id": s.id, "ship": s.ship, "other": s.other, "times": s.times.tolist()} for s in scene.scratches

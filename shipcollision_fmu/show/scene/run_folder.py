@@ -138,6 +138,8 @@ class Summary(_Model):
     description: str = ""
     steps: int = Field(ge=1)
     algorithm: str = ""
+    engine: str = "python"
+    """A run with Python has no such key."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -115,6 +115,7 @@ class Scene:
 
     name: str
     description: str
+    is_native: bool  # its FMUs ran without Python
     start: float
     end: float
     origin: Array
@@ -154,6 +155,7 @@ def build_scene(run: RunFolder) -> Scene:
     return Scene(
         name=run.summary.scenario,
         description=run.summary.description,
+        is_native=run.summary.engine == "native",
         start=float(run.times[0]),
         end=float(run.times[-1]),
         origin=_choose_origin(run),

@@ -28,7 +28,9 @@ function makeTitle(data) {
     return element("li", {}, dot, element("b", { text: ship.name }), element("span", { text: size }));
   });
   return element("header", { class: "title" }, element("h1", { text: data.name }),
-    element("p", { text: data.description }), element("ul", {}, ...ships));
+    element("p", { text: data.description }),
+    ...(data.is_native ? [element("p", { text: "Native run: its FMUs ran without Python." })] : []),
+    element("ul", {}, ...ships));
 }
 
 async function start() {
