@@ -9,7 +9,7 @@ from pydantic import Field, field_validator
 
 from ...ship.tables.table import Table
 
-__all__ = ["CurrentTable", "Environment", "WindTable"]
+__all__ = ["MAXIMUM_CURRENT", "MAXIMUM_WIND", "CurrentTable", "Environment", "WindTable"]
 
 MAXIMUM_CURRENT = 10.0
 """[m/s] Limit of each component. The strongest tidal streams run 8 m/s; a larger value was meant in another unit."""

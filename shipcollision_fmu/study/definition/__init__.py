@@ -9,7 +9,8 @@
       fleet_tables.py       [own] and [target]
       fleet.py              the ships among which rows choose, by number
       partial_loading.py    a ship at a lesser draught
-      table_checks.py       checks that need the tables of data
+      situations.py         files of traffic in place of kinds of encounter
+    table_checks.py       checks that need the tables of data
       level_checks.py       checks that need the level of detail
 
 Imports from: encounters (kinds), ship. Used by: study/rows, study/engine.

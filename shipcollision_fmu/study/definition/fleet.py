@@ -92,9 +92,11 @@ class Fleet:
 
 
 def make_fleet(
-    role: str, table: FleetTable, tables: Mapping[str, EmpiricalTable], folder: Path, source: str
+    role: str, table: FleetTable | None, tables: Mapping[str, EmpiricalTable], folder: Path, source: str
 ) -> Fleet:  # fmt: skip
-    """The fleet of [own] or [target]. Raises StudyError for a ship that cannot be loaded."""
+    """The fleet of [own] or [target], empty without the table. Raises StudyError for a ship that cannot be loaded."""
+    if table is None:
+        return Fleet((), np.zeros(0), np.zeros(0, np.int64))
     place = f"{source}: [{role}]"
     if isinstance(table.ships, TableColumn):
         names = dict.fromkeys(sorted(set(tables[table.ships.table].columns[table.ships.column].tolist())), 1.0)

@@ -8,7 +8,7 @@ from ...encounters.request import KINDS
 from ...errors import StudyError
 from .distributions import Distribution, TableColumn
 from .study_file import StudyFile
-from .variables import NUMBERS, WORDS, acts_with
+from .variables import IMPACT, NUMBERS, SITUATION, SURROUNDINGS, WORDS, acts_with
 
 __all__ = ["check_level"]
 
@@ -16,7 +16,11 @@ __all__ = ["check_level"]
 def check_level(file: StudyFile, variables: Mapping[str, Distribution], source: str) -> None:
     """Raise StudyError for a variable that does not act at the level or with the kinds of the study."""
     level, kinds = file.study.level, _list_kinds(file, variables)
+    if file.situations is not None:
+        _check_situations(file, source)
     for name in (*variables, *file.grid):
+        if name in WORDS and file.situations is not None:
+            continue
         place = f"{source}: [{'grid' if name in file.grid else 'encounter'}] {name}"
         if name in NUMBERS and level not in NUMBERS[name].levels:
             raise StudyError(
@@ -25,11 +29,27 @@ def check_level(file: StudyFile, variables: Mapping[str, Distribution], source: 
         _check_kinds(place, name, kinds, _find_limits(name, file, variables))
     place = f"{source}: [{'grid' if 'kind' in file.grid else 'encounter'}] kind"
     for kind in kinds:
-        if KINDS[kind].sailed and level != "sailed":
+        if kind != SITUATION and KINDS[kind].sailed and level != "sailed":
             raise StudyError(f'{place} = "{kind}" needs ships that steer: take level = "sailed", or another kind')
 
 
+def _check_situations(file: StudyFile, source: str) -> None:
+    if file.study.level == IMPACT:
+        raise StudyError(f'{source}: [situations] needs ships that move: take level = "encounter" or "sailed"')
+    for name in WORDS:
+        if name in file.encounter.model_fields_set or name in file.grid:
+            raise StudyError(f"{source}: {name} has no effect with [situations]: remove it")
+    given = {*file.encounter.model_fields_set, *file.grid}
+    for what in ("current", "wind"):
+        both = {name for name in SURROUNDINGS if name.startswith(what)}
+        if len(given & both) == 1:
+            (missing,) = both - given
+            raise StudyError(f"{source}: [encounter] {missing} is missing: a {what} has a speed and a direction")
+
+
 def _list_kinds(file: StudyFile, variables: Mapping[str, Distribution]) -> list[str]:
+    if file.situations is not None:
+        return [SITUATION]
     if "kind" in file.grid:
         return [str(word) for word in file.grid["kind"]]
     given = variables["kind"]
@@ -48,6 +68,8 @@ def _find_limits(name: str, file: StudyFile, variables: Mapping[str, Distributio
 def _check_kinds(place: str, name: str, kinds: list[str], limits: tuple[float, float] | None) -> None:
     """A variable must act with one of the kinds at least, and its values fit all of them."""
     for kind in kinds if name == "angle_deg" and limits is not None else ():
+        if kind == SITUATION:
+            break
         least, most = KINDS[kind].angles
         if limits is not None and not least <= limits[0] <= limits[1] <= most:
             raise StudyError(
@@ -56,4 +78,7 @@ def _check_kinds(place: str, name: str, kinds: list[str], limits: tuple[float, f
             )
     if kinds and not any(acts_with(name, kind) for kind in kinds):
         able = [kind for kind in KINDS if acts_with(name, kind)]
+        if kinds == [SITUATION] or not able:
+            words = "with [situations]: remove it" if kinds == [SITUATION] else "without [situations]: remove it"
+            raise StudyError(f"{place} has no effect {words}")
         raise StudyError(f'{place} has no effect with kind "{kinds[0]}": remove it, or take kind {" or ".join(able)}')

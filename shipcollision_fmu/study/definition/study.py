@@ -25,8 +25,10 @@ from .distributions import Distribution
 from .empirical import EmpiricalTable, read_empirical_table
 from .fleet import Fleet, digest_fleet, make_fleet
 from .level_checks import check_level
+from .situations import read_situations
 from .study_file import Header, RunTable, StudyFile
 from .table_checks import check_columns
+from .variables import WORDS
 
 __all__ = ["Study", "list_study_names", "parse_study", "read_study"]
 
@@ -44,7 +46,8 @@ class Study:
     variables     distributions by name
     grid          values by name, all combined; the first name varies slowest
     tables        empirical tables by name
-    own, target   the ships
+    own, target   the ships; empty fleets where those of the situations stay
+    situations    contents of files of traffic by name, and their duration [s] if one is given
     """
 
     text: str
@@ -58,6 +61,8 @@ class Study:
     tables: dict[str, EmpiricalTable]
     own: Fleet
     target: Fleet
+    situations: dict[str, bytes]
+    situation_duration: float | None
 
     @property
     def name(self) -> str:
@@ -115,11 +120,20 @@ def parse_study(text: str, source: str = "study", folder: str | Path = ".") -> S
     check_columns(file, tables, source)
     variables = dict(file.encounter.list_given())
     check_level(file, variables, source)
+    if file.situations is not None:  # their files say how the ships meet
+        variables = {name: given for name, given in variables.items() if name not in WORDS}
     own = make_fleet("own", file.own, tables, folder, source)
-    target = own if file.target is None else make_fleet("target", file.target, tables, folder, source)
+    situations = {}
+    if file.situations is not None:
+        situations = read_situations(file.situations, folder, f"{source}: [situations]")
+    target = own
+    if file.target is not None or situations:
+        target = make_fleet("target", file.target, tables, folder, source)
     return Study(
-        text, source, _digest(text, own, target, tables), file.study, _count_rows(file, source), file.run, variables,
-        file.grid, tables, own, target,
+        text, source, _digest(text, own, target, tables, situations), file.study,
+        _count_rows(file, len(situations), source), file.run, variables,
+        {"situation": list(situations), **file.grid} if situations else file.grid, tables, own, target, situations,
+        None if file.situations is None else file.situations.duration,
     )  # fmt: skip
 
 
@@ -129,30 +143,34 @@ def _refuse_other_file(data: dict[str, Any], source: str) -> None:
             raise StudyError(f"{source} is {what}, not a study: give a study, which has a table [study]")
 
 
-def _count_rows(file: StudyFile, source: str) -> int:
+def _count_rows(file: StudyFile, situations: int, source: str) -> int:
     """The number of rows, a whole number of grids."""
-    cells, rows = prod(len(values) for values in file.grid.values()), file.study.rows
+    cells, rows = max(situations, 1) * prod(len(values) for values in file.grid.values()), file.study.rows
     if rows is None:
-        if not file.grid:
+        if not file.grid and not situations:
             raise StudyError(f"{source}: [study] rows is missing: give the number of cases, or a table [grid]")
         return cells
     if rows % cells:
+        cell = "cells of [grid]" if not situations else "situations" if not file.grid else "situations and cells"
         near = [n * cells for n in (rows // cells, rows // cells + 1) if n]
         raise StudyError(
-            f"{source}: [study] rows = {rows} is {rows / cells:.4g} times the {cells} cells of [grid], must be a whole "
+            f"{source}: [study] rows = {rows} is {rows / cells:.4g} times the {cells} {cell}, must be a whole "
             f"number of times: take {' or '.join(map(str, near))}, or leave rows out"
         )
     return rows
 
 
-def _digest(text: str, own: Fleet, target: Fleet, tables: dict[str, EmpiricalTable]) -> str:
+def _digest(
+    text: str, own: Fleet, target: Fleet, tables: dict[str, EmpiricalTable], situations: dict[str, bytes]
+) -> str:  # fmt: skip
     from ... import __version__
 
     digests = {
         name: [[column, sha256(values.tobytes()).hexdigest()] for column, values in sorted(table.columns.items())]
         for name, table in tables.items()
     }
-    parts = [FORMAT, __version__, text, digest_fleet(own), digest_fleet(target), digests]
+    files = [[name, sha256(content).hexdigest()] for name, content in situations.items()]
+    parts = [FORMAT, __version__, text, digest_fleet(own), digest_fleet(target), digests, files]
     return sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()
 
 

@@ -14,6 +14,7 @@ from ...ship.tables.table import NotNegative, Table
 from .distribution_text import Variable
 from .distributions import Constant, Distribution, TableColumn
 from .fleet_tables import FleetTable, check_limits
+from .situations import SituationsTable
 from .variables import NUMBERS, WORDS
 
 __all__ = ["SAMPLERS", "EncounterTable", "Header", "RunTable", "StudyFile", "TableFile"]
@@ -110,6 +111,10 @@ class EncounterTable(Table):
     drift_deg: Variable | None = _number("drift_deg")
     before: Variable | None = _number("before")
     rudder_deg: Variable | None = _number("rudder_deg")
+    current_speed: Variable | None = _number("current_speed")
+    current_towards_deg: Variable | None = _number("current_towards_deg")
+    wind_speed: Variable | None = _number("wind_speed")
+    wind_from_deg: Variable | None = _number("wind_from_deg")
 
     @model_validator(mode="after")
     def _check(self) -> EncounterTable:
@@ -179,12 +184,23 @@ class StudyFile(Table):
     """A whole study file."""
 
     study: Header = Field(description="the table [study]: name, level, rows, seed, sampler")
-    own: FleetTable = Field(description="the table [own]: the ships that strike")
-    target: FleetTable | None = Field(default=None, description="the table [target]: the ships that are struck")
+    own: FleetTable | None = Field(default=None, description="the table [own]: the ships that strike")
+    target: FleetTable | None = Field(
+        default=None, description="the table [target]: the ships that are struck; those of [own] without it"
+    )
     encounter: EncounterTable = Field(default=EncounterTable(), description="the table [encounter]: how they meet")
     run: RunTable = Field(default=RunTable(), description="the table [run]: what is the same in every case")
+    situations: SituationsTable | None = Field(
+        default=None, description="the table [situations]: files of traffic in place of [encounter] kind"
+    )
     grid: dict[str, Axis] = Field(default={}, description="the table [grid]: values that are all combined")
     tables: dict[str, TableFile] = Field(default={}, description="a table [tables.NAME] for each file of data")
+
+    @model_validator(mode="after")
+    def _check_own(self) -> StudyFile:
+        if self.own is None and self.situations is None:
+            raise ValueError("[own] is missing: give the table [own]: the ships that strike")
+        return self
 
     @model_validator(mode="after")
     def _check_grid(self) -> StudyFile:

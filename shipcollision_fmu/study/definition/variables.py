@@ -5,12 +5,21 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from ...encounters.request import FASTEST, KINDS
+from ...scenario.tables.environment import MAXIMUM_CURRENT, MAXIMUM_WIND
 
-__all__ = ["COASTING", "IMPACT", "LEVELS", "NUMBERS", "SAILED", "SIDES", "WORDS", "Number", "acts_with"]
+__all__ = [
+    "COASTING", "IMPACT", "LEVELS", "NUMBERS", "SAILED", "SIDES", "SITUATION", "SURROUNDINGS", "WORDS", "Number",
+    "acts_with",
+]  # fmt: skip
 
 LEVELS = ("impact", "encounter", "sailed")
 """Levels of detail: the contact alone, coasting ships before and after it, sailed ships with orders to their helm."""
 
+SITUATION = "situation"
+"""Stands for the kind of encounter where a file of traffic is the case."""
+SURROUNDINGS = ("current_speed", "current_towards_deg", "wind_speed", "wind_from_deg")
+OF_A_SITUATION = ("friction", "restitution", *SURROUNDINGS)
+"""Variables of a situation; the others are in its file."""
 SIDES = ("port", "starboard")
 
 IMPACT, COASTING, SAILED = LEVELS
@@ -69,6 +78,16 @@ NUMBERS = {
     "rudder_deg": Number(
         "deg", -90.0, 90.0, (SAILED,), "the angle of own's rudder order", "positive is to starboard", None
     ),
+    "current_speed": Number(
+        "m/s", 0.0, MAXIMUM_CURRENT, (SAILED,), "the speed of the water in a situation", _SPEED, None
+    ),
+    "current_towards_deg": Number(
+        "deg", -360.0, 720.0, (SAILED,), "the direction to which the water flows", "clockwise from north", None
+    ),
+    "wind_speed": Number("m/s", 0.0, MAXIMUM_WIND, (SAILED,), "the speed of the wind in a situation", _SPEED, None),
+    "wind_from_deg": Number(
+        "deg", -360.0, 720.0, (SAILED,), "the direction from which the wind comes", "clockwise from north", None
+    ),
 }  # fmt: skip
 """By key of [encounter]."""
 
@@ -77,8 +96,12 @@ WORDS = {"kind": tuple(KINDS), "side": SIDES}
 
 
 def acts_with(name: str, kind: str) -> bool:
-    """Whether a variable acts in encounters of a kind."""
+    """Whether a variable acts in encounters of a kind, or in a situation of traffic."""
+    if kind == SITUATION:
+        return name in OF_A_SITUATION
     of = KINDS[kind]
+    if name in SURROUNDINGS:
+        return False
     if name in ("before", "rudder_deg"):
         return bool(of.helm)
     if name in ("drift_speed", "drift_deg"):

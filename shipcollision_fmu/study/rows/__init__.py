@@ -9,7 +9,9 @@
       fleet_ships.py       a ship of the fleet by number; ship_folder.py: as a file
       pairs.py             cases by pair of ships, pairs that stay open
       impact_rows.py       level impact; python_impacts.py without the native library
-      encounter_rows.py    level encounter    sailed_rows.py   level sailed
+      encounter_rows.py    level encounter
+      sailed_rows.py       level sailed
+      situation_rows.py    files of traffic
         encounter_results.py   whole encounters by column; python_run.py without the native library
       results.py           what became of the cases, by column
     tables.py            the tables as Arrow; columns.py: names, units, meanings

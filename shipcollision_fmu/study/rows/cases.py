@@ -13,7 +13,7 @@ from ...encounters.request import KINDS
 from ...ship.frames import Array
 from ..definition.distributions import Constant, TableColumn
 from ..definition.study import Study
-from ..definition.variables import NUMBERS, SAILED, acts_with
+from ..definition.variables import NUMBERS, SAILED, SITUATION, acts_with
 from .sampling import Sampler
 
 __all__ = ["Cases", "draw_cases", "list_dimensions"]
@@ -25,6 +25,7 @@ class Cases:
 
     rows      their numbers (n,)
     kind, side   words (n,)
+    situation    name of the file of traffic (n,), empty without one
     numbers   by variable (n,), NaN where a variable does not act
     ships     by role the numbers of the ships in their fleets (n,)
     """
@@ -32,6 +33,7 @@ class Cases:
     rows: npt.NDArray[np.int64]
     kind: npt.NDArray[Any]
     side: npt.NDArray[Any]
+    situation: npt.NDArray[Any]
     numbers: dict[str, Array]
     ships: dict[str, npt.NDArray[np.int64]]
 
@@ -81,8 +83,9 @@ def draw_cases(study: Study, first: int, count: int) -> Cases:
             ships[role] = fleet.choose(sampler.draw(f"{role}.ship", first, count))
         else:
             ships[role] = np.zeros(count, np.int64)
-    kind, side = given.pop("kind"), given.pop("side")
-    return Cases(rows, kind, side, _complete(study.level, kind, given), ships)
+    situation = given.pop("situation", np.full(count, ""))
+    kind, side = given.pop("kind", np.full(count, SITUATION)), given.pop("side", np.full(count, ""))
+    return Cases(rows, kind, side, situation, _complete(study.level, kind, given), ships)
 
 
 def _cross(study: Study, rows: npt.NDArray[np.int64]) -> dict[str, npt.NDArray[Any]]:
@@ -109,12 +112,12 @@ def _complete(level: str, kind: npt.NDArray[Any], given: dict[str, npt.NDArray[A
         else:
             values = np.zeros(len(kind))
             for word, is_kind in masks.items():
-                values[is_kind] = getattr(KINDS[word], name)
+                values[is_kind] = getattr(KINDS.get(word), name, np.nan)
         for word, is_kind in masks.items():
             if not acts_with(name, word):
                 values[is_kind] = np.nan
         numbers[name] = values
-    if level != SAILED:
+    if level != SAILED and SITUATION not in masks:
         _add_drift_speed(numbers)
     return numbers
 

@@ -2,6 +2,7 @@
 
     draw_cases   the values of all variables            cases.py
     run          level impact, encounter or sailed      impact_rows.py, encounter_rows.py, sailed_rows.py
+                 or files of traffic                    situation_rows.py
     build        the two tables                         tables.py
 
 Rows of two calls are those of one call over both: bit for bit, whatever was computed before.
@@ -21,6 +22,7 @@ from .encounter_rows import run_coasting
 from .impact_rows import run_impacts
 from .results import Results
 from .sailed_rows import run_sailed
+from .situation_rows import run_situations
 from .tables import RowTables, build_tables
 
 __all__ = ["ENGINES", "choose_engine", "compute_rows"]
@@ -41,8 +43,8 @@ def compute_rows(study: Study, first: int, count: int, engine: str = "auto") -> 
             f"{study.source}: rows {first} to {first + count - 1} are not in the study: it has rows 0 to "
             f"{study.rows - 1}"
         )
-    cases = draw_cases(study, first, count)
-    return build_tables(study, LEVEL_RUNNERS[study.level](study, cases, choose_engine(engine)))
+    run = run_situations if study.situations else LEVEL_RUNNERS[study.level]
+    return build_tables(study, run(study, draw_cases(study, first, count), choose_engine(engine)))
 
 
 def choose_engine(engine: str) -> str:

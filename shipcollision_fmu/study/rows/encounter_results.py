@@ -16,8 +16,6 @@ __all__ = ["put_encounters", "put_run"]
 
 Values = npt.NDArray[Any]
 
-ROLES = ("own", "target")
-
 
 def put_encounters(results: Results, places: npt.NDArray[np.intp], tables: Encounters) -> None:
     """Put the encounters of the native library at the places of their cases."""
@@ -26,7 +24,7 @@ def put_encounters(results: Results, places: npt.NDArray[np.intp], tables: Encou
         if row["status"]:
             results.refuse(int(place), row["reason"].decode())
     done = encounters["status"] == 0
-    for name in ("energy", "energy_normal", "energy_tangential", "collisions", "unconverged"):
+    for name in ("energy", "energy_normal", "energy_tangential", "clearance", "collisions", "unconverged"):
         results.put(name, places[done], encounters[name][done])
     results.put("duration", places[done], encounters["time"][done])
     found = found[done[found["case"]]]
@@ -55,9 +53,9 @@ def _put_collisions(results: Results, places: npt.NDArray[np.intp], collisions: 
     for name in ("closing_speed", "relative_speed", "impulse"):
         results.put(name, cases, collisions[name][first])
     results.put("collision_angle_deg", cases, collisions["angle_deg"][first])
-    for letter in "ab":
-        for role in ROLES:
-            is_role = collisions[f"ship_{letter}"][first] == role
+    for letter, other in ("ab", "ba"):
+        for role, of in (("own", letter), ("target", other)):
+            is_role = collisions[f"ship_{of}"][first] == "own"
             for name in ("x", "y", "z", *(f"{motion}_after" for motion in MOTION)):
                 results.put(f"{role}_{name}", cases[is_role], collisions[f"{letter}_{name}"][first][is_role])
 
@@ -69,6 +67,7 @@ def put_run(results: Results, place: int, run: Run) -> None:
     results.put("energy", where, signals["energy.dissipated"])
     for name in ("normal", "tangential"):
         results.put(f"energy_{name}", where, signals[f"energy.{name}"])
+    results.put("clearance", where, run.summary["least_clearance"])
     results.put("collisions", where, len(events))
     results.put("unconverged", where, run.summary["solver"]["unconverged"])
     rows = [_describe_collision(run, place, event) for event in events]

@@ -70,7 +70,7 @@ def _run_python(study: Study, own: FleetShip, target: FleetShip, places: Places,
                 scenario = _make_scenario(study, files, row, results.cases, int(place))
                 put_run(results, int(place), run_python(scenario, study.run.separation))
             except (InputError, StepError) as error:
-                results.refuse(int(place), str(error))
+                results.refuse(int(place), folder.name_ships(str(error)))
 
 
 def _make_scenario(study: Study, files: dict[str, str], row: Any, cases: Cases, place: int) -> Scenario:

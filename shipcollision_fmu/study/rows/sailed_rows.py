@@ -42,7 +42,7 @@ def run_sailed(study: Study, cases: Cases, engine: str) -> Results:
                 else:
                     put_run(results, place, run_python(scenario, study.run.separation))
             except (InputError, StepError) as error:
-                results.refuse(place, str(error))
+                results.refuse(place, folder.name_ships(str(error)))
     return results
 
 

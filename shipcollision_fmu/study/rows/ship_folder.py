@@ -26,6 +26,12 @@ class ShipFolder:
     ) -> None:
         self._folder.cleanup()
 
+    def name_ships(self, text: str) -> str:
+        """The text with the ships' names in place of their paths, which differ from machine to machine."""
+        for ship in self._ships:
+            text = text.replace(self._paths[id(ship)], ship.label)
+        return text
+
     def write(self, ship: FleetShip) -> str:
         """The name or path of the ship."""
         if isinstance(ship.source, str):

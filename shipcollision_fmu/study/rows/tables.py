@@ -31,7 +31,9 @@ def build_tables(study: Study, results: Results) -> RowTables:
     cases = results.cases
     n, refused = len(cases), np.array([bool(reason) for reason in results.reasons])
     given: dict[str, Values] = {
-        "row": cases.rows, "status": np.where(refused, "refused", "done"), "kind": cases.kind, "side": cases.side,
+        "row": cases.rows, "status": np.where(refused, "refused", "done"), "kind": cases.kind,
+        "side": _as_words(cases.side),
+        "situation": _as_words(cases.situation),
         "reason": np.array([reason or None for reason in results.reasons], object),
         "level": np.full(n, study.level), "engine": np.full(n, results.engine), **cases.numbers, **results.numbers,
     }  # fmt: skip
@@ -40,8 +42,15 @@ def build_tables(study: Study, results: Results) -> RowTables:
     return RowTables(_make_table(ENCOUNTERS, given, n), _make_collisions(results))
 
 
+def _as_words(values: Values) -> Values:
+    """The words with None, which becomes null, in place of empty ones."""
+    return np.where(values == "", np.array(None, object), values.astype(object))
+
+
 def _describe_ships(study: Study, role: str, numbers: npt.NDArray[np.int64]) -> dict[str, Values]:
-    """Columns of the ships of a role."""
+    """Columns of the ships of a role; none where they are those of the situations."""
+    if not getattr(study, role).size:
+        return {}
     found, places = np.unique(numbers, return_inverse=True)
     ships = [find_ship(study, role, int(number)) for number in found]
     values: dict[str, list[Any]] = {name: [] for name in ("ship", "L_pp", "B", "T", "C_b", "mass")}

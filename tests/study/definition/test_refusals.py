@@ -20,6 +20,9 @@ ships = ["kcs"]
 [encounter]
 own_speed = {distribution = "uniform", least = 2.0, most = 8.0}
 """
+END = '"impact"' + GOOD.partition('"impact"')[2]
+SAILED = END.partition("[encounter]")[0].replace("impact", "sailed")
+BESIDE = SAILED + '[situations]\nfolder = "."\n[encounter]\n'
 SPEED = 'own_speed = {distribution = "uniform", least = 2.0, most = 8.0}'
 SHIPS = 'ships = ["kcs"]'
 POOL = """[[own.sampled]]
@@ -233,6 +236,34 @@ REFUSALS: dict[str, tuple[tuple[str, str], str]] = {
     ),
     "Parquet that is none": (
         (SPEED, '[tables.data]\nfile = "cut.parquet"'), "file = 'cut.parquet' is not Parquet: ",
+    ),
+    # -- [situations]
+    "situations without motion": (
+        (SPEED, '[situations]\nfolder = "."'), '[situations] needs ships that move: take level = "encounter" or "sail',
+    ),
+    "a folder that is not there": (
+        (END, SAILED + '[situations]\nfolder = "no"'),
+        "[situations] folder = 'no' cannot be read in ",
+    ),
+    "a folder without situations": (
+        (END, SAILED + '[situations]\nfolder = "."'),
+        "[situations] folder = '.' holds 0 files *.json and *.xml, must hold 1 to 100000: give a folder of situations",
+    ),
+    "a kind beside situations": (
+        (END, BESIDE + 'kind = "t-bone"'),
+        "kind has no effect with [situations]: remove it",
+    ),
+    "an angle beside situations": (
+        (END, BESIDE + 'angle_deg = 30.0'),
+        "[encounter] angle_deg has no effect with [situations]: remove it",
+    ),
+    "a current without a direction": (
+        (END, BESIDE + 'current_speed = 1.0'),
+        "[encounter] current_towards_deg is missing: a current has a speed and a direction",
+    ),
+    "a current without situations": (
+        (END, SAILED + "[encounter]\ncurrent_speed = 1.0"),
+        "[encounter] current_speed has no effect without [situations]: remove it",
     ),
     # -- other files
     "no TOML": (("[own]", "[own"), "is not valid TOML: "),
