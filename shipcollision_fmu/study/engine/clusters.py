@@ -5,16 +5,19 @@ Scheduler and workers import this package, so each must have the client's versio
 
 from __future__ import annotations
 
+import asyncio
 import json
 import logging
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from dask.system import CPU_COUNT
-from distributed import Client, LocalCluster
+from distributed import Client, LocalCluster, Security
+from distributed.comm import connect
 
 from ... import __version__
 from ...errors import HostError, InputError
@@ -64,17 +67,19 @@ def use_scheduler(address: str | None, file: Path | None) -> Iterator[Cluster]:
     """A cluster that exists, by its scheduler's address or by the file that the scheduler writes."""
     name = f"the scheduler at {address}" if file is None else f"the scheduler of {file}"
 
-    def connect(timeout: float) -> Client:
-        where = address if file is None else _read_address(file)
+    def reach(timeout: float) -> Client:
+        where = str(address) if file is None else _read_address(file)
         try:
+            with ThreadPoolExecutor(1) as aside:  # not in this thread: a notebook has a loop there
+                aside.submit(lambda: asyncio.run(_greet(where, timeout))).result()
             return Client(where, timeout=timeout, set_as_default=False)
-        except (OSError, ValueError, ImportError) as error:
+        except (OSError, ValueError, ImportError, TimeoutError, asyncio.TimeoutError) as error:
             raise HostError(
-                f"no scheduler of Dask answers at {where} within {timeout:g} s ({_first_line(error)}): start one with "
-                "`dask scheduler`, or run without --scheduler on this machine's cores"
+                f"no scheduler of Dask answers at {where or repr(where)} within {timeout:g} s ({_first_line(error)}): "
+                "start one with `dask scheduler`, or run without --scheduler on this machine's cores"
             ) from None
 
-    yield Cluster(name, connect, True)
+    yield Cluster(name, reach, True)
 
 
 def check_versions(client: Client) -> None:
@@ -84,7 +89,7 @@ def check_versions(client: Client) -> None:
     for name, info in members.items():
         version = (info or {}).get("packages", {}).get(DISTRIBUTION)
         if version != __version__:
-            raise HostError(describe_other_version(name, version))
+            raise HostError(describe_other_version(name, version, __version__))
 
 
 @contextmanager
@@ -101,6 +106,13 @@ def quiet_dask() -> Iterator[None]:
     finally:
         for logger, level in zip(loggers, before, strict=True):
             logger.setLevel(level)
+
+
+async def _greet(address: str, timeout: float) -> None:
+    """Returns when a scheduler has greeted. A client of Dask waits for the greeting without limit."""
+    connection = Security().get_connection_args("client")
+    comm = await asyncio.wait_for(connect(address, timeout=timeout, **connection), timeout)
+    await comm.close()
 
 
 def _read_address(file: Path) -> str:

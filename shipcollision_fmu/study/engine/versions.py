@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from ... import __version__
-from ...errors import describe_installation
-
 __all__ = ["DISTRIBUTION", "describe_other_version"]
 
 DISTRIBUTION = "shipcollision-fmu"
 
 
-def describe_other_version(name: str, version: str | None, client: str = __version__) -> str:
+def describe_other_version(name: str, version: str | None, client: str) -> str:
     """The refusal of a member of a cluster that has another version of this package than the client, or none."""
     has = f"{DISTRIBUTION} {version}" if version else f"no {DISTRIBUTION}"
     return (
-        f"{name} has {has}, the client has {client}: {describe_installation('study')} on every machine of the "
-        "cluster, with the client's version"
+        f"{name} has {has}, the client has {client}: run `python -m pip install '{DISTRIBUTION}[study]=={client}'` on "
+        "every machine of the cluster, and start it again"
     )

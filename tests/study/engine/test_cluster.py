@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import os
 import signal
+import site
+import sys
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from shipcollision_fmu import __version__
+from shipcollision_fmu.errors import HostError
 from shipcollision_fmu.study.engine.run import run_study
 from tests.study.engine.cluster import process_cluster, wait_for
 from tests.study.engine.folders import STUDY, digest
@@ -89,3 +93,36 @@ def test_a_scheduler_that_is_restarted(whole: Path, tmp_path: Path) -> None:
         f"the scheduler of {cluster.file} went away; waiting for it to return",
         f"the scheduler of {cluster.file} is back; the study goes on",
     ]
+
+
+def test_a_cluster_without_the_package_is_refused_in_one_line(tmp_path: Path) -> None:
+    """Its Python has the packages of this one, but ours."""
+    packages = tmp_path / "packages"
+    packages.mkdir()
+    for place in map(Path, site.getsitepackages()):
+        for entry in place.iterdir():
+            if "shipcollision" not in entry.name and entry.suffix != ".pth":
+                (packages / entry.name).symlink_to(entry)
+    python = (sys.executable, "-S")  # no site: the development install is not on its path
+    with process_cluster(tmp_path / "cluster", workers=1, python=python, path=packages) as cluster:
+        text = f"^the scheduler has no shipcollision-fmu, the client has {__version__}: run `python -m pip install"
+        with pytest.raises(HostError, match=text):
+            run_study(STUDY, tmp_path / "study", scheduler=cluster.address, engine="python", compute=compute_stand_in)
+    assert not (tmp_path / "study").exists()
+
+
+def test_a_cluster_with_another_version_is_refused_in_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("shipcollision_fmu.study.engine.clusters.__version__", "9.9.9")
+    with process_cluster(tmp_path / "cluster", workers=0) as cluster:
+        text = rf"^the scheduler has shipcollision-fmu {__version__}, the client has 9\.9\.9"
+        with pytest.raises(HostError, match=text):
+            run_study(STUDY, tmp_path / "study", scheduler=cluster.address, engine="python", compute=compute_stand_in)
+    assert not (tmp_path / "study").exists()
+
+
+def test_a_cluster_without_workers_is_waited_for_and_then_left(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("shipcollision_fmu.study.engine.dask_executor.PATIENCE", 1.0)
+    with process_cluster(tmp_path / "cluster", workers=0) as cluster:
+        text = "has had no worker for 1 s: start one with `dask worker`, then go on with --resume$"
+        with pytest.raises(HostError, match=text):
+            run_study(STUDY, tmp_path / "study", scheduler=cluster.address, engine="python", compute=compute_stand_in)
