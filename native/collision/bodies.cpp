@@ -65,12 +65,14 @@ bool Bodies::prepare(const char* const* names, const CollisionParameters& parame
   for (int i = 0; i < obstacles.count(); ++i) {
     if (!add_wall(obstacles, why)) return false;
   }
+  checksums_.add(obstacles.checksum());
   return true;
 }
 
 void Bodies::clear() {
   for (Body* body : bodies_) delete body;
   bodies_.clear();
+  checksums_.clear();
   ships_ = 0;
 }
 
@@ -101,6 +103,7 @@ bool Bodies::add_ship(const char* name, const CollisionShipParameters& parameter
     why << name << ".degrees_of_freedom = " << free << " must be 3 (surge, sway, yaw), 4 (and roll) or 6 (all)";
     return false;
   }
+  checksums_.add(ship.checksum);
   body->name << name;
   body->degrees_of_freedom = free;
   body->feedback = feedback;

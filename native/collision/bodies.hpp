@@ -51,7 +51,7 @@ struct Body {
 // The ships in the order of the build, then the obstacles.
 class Bodies {
  public:
-  explicit Bodies(Memory& memory) : memory_(memory), bodies_(memory) {}
+  explicit Bodies(Memory& memory) : memory_(memory), bodies_(memory), checksums_(memory) {}
   ~Bodies() { clear(); }
   Bodies(const Bodies&) = delete;
   Bodies& operator=(const Bodies&) = delete;
@@ -62,6 +62,8 @@ class Bodies {
 
   int size() const { return bodies_.size(); }
   int ships() const { return ships_; }
+  // Checksums of the files: of each ship, then of the obstacles, 0 without any.
+  const Buffer<uint32_t>& checksums() const { return checksums_; }
   Body& operator[](int i) { return *bodies_[i]; }
   const Body& operator[](int i) const { return *bodies_[i]; }
 
@@ -74,6 +76,7 @@ class Bodies {
 
   Memory& memory_;
   Buffer<Body*> bodies_;
+  Buffer<uint32_t> checksums_;
   int ships_ = 0;
 };
 

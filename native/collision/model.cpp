@@ -433,6 +433,8 @@ void ShipCollision::publish_contacts(Run& run) {
   outputs.impact = run.collisions.latest();
 }
 
+uint32_t ShipCollision::file_checksum(int file) const { return world_->bodies.checksums()[file]; }
+
 int ShipCollision::event_count() const { return run_ == nullptr ? 0 : run_->collisions.opened_count(); }
 
 const char* ShipCollision::event(int i) const {

@@ -39,6 +39,9 @@ class ShipCollision : public OnHeap {
   bool initialise(Text& why);
   bool step(double t, double H, Text& why);
 
+  // Checksums of the files that were read: of each ship, then of the obstacles. To be called after initialise().
+  uint32_t file_checksum(int file) const;
+
   // A line about each collision that began in the last step.
   int event_count() const;
   const char* event(int i) const;

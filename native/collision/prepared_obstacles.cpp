@@ -24,6 +24,7 @@ bool ends_with(const char* text, const char* end) {
 
 bool PreparedObstacles::open(const char* path, const char* directory, Text& why) {
   count_ = 0;
+  checksum_ = 0;
   if (is_blank(path)) return true;
   if (!ends_with(path, SUFFIX)) {
     why << "obstacles: a native FMU reads no TOML; write prepared obstacles with `shipcollision prepare "
@@ -37,7 +38,7 @@ bool PreparedObstacles::open(const char* path, const char* directory, Text& why)
   }
   file_.clear();
   file_ << "obstacles: " << path;
-  if (!check_prepared(KIND, content_.data(), content_.size(), file_.get(), why)) return false;
+  if (!check_prepared(KIND, content_.data(), content_.size(), file_.get(), checksum_, why)) return false;
   lines_ = new PreparedLines(content_.data(), content_.size());
   if (lines_ == nullptr) {
     why << "there is no memory for the obstacles";

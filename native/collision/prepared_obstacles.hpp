@@ -25,6 +25,7 @@ class PreparedObstacles {
   // path: of a prepared file, looked for in `directory` first; empty for no obstacles.
   bool open(const char* path, const char* directory, Text& why);
   int count() const { return count_; }
+  uint32_t checksum() const { return checksum_; }  // of the file; 0 without one
   bool next(Obstacle& obstacle, HullMesh& solid, Text& why);
 
  private:
@@ -32,6 +33,7 @@ class PreparedObstacles {
   PreparedLines* lines_ = nullptr;
   Text file_;
   int count_ = 0;
+  uint32_t checksum_ = 0;
 };
 
 }  // namespace shipcollision

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stddef.h>
+#include <stdint.h>
 
 #include "../memory.hpp"
 #include "../numbers/text.hpp"
@@ -18,6 +19,14 @@ struct Place {
   size_t item_count = 0;
 };
 
+// A file that a model has read. ship: whose parameter names it, null for one that is of no ship; value: of the parameter.
+struct ReadFile {
+  const char* ship;
+  const char* parameter;
+  const char* value;
+  uint32_t checksum;
+};
+
 // A model in time. What can be refused answers false and says why; everything is then as it was.
 class Model : public OnHeap {
  public:
@@ -31,6 +40,9 @@ class Model : public OnHeap {
   virtual void forget_inputs_set() {}
   virtual void note_input_set(const char* /*path*/) {}
 
+  // Files that initialise() has read; asked for after it alone.
+  virtual size_t file_count() const { return 0; }
+  virtual ReadFile file(size_t) const { return {}; }
   // The next initialise() reads files that an earlier one read, too: they may have changed.
   virtual void forget_files() {}
   // Reads parameters and start values, computes the outputs of the start. May be called again.

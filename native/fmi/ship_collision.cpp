@@ -145,6 +145,14 @@ void ShipCollisionFmu::note_input_set(const char* path) {
   }
 }
 
+ReadFile ShipCollisionFmu::file(size_t i) const {
+  const ShipCollision& collision = framed_.collision;
+  const int file = static_cast<int>(i);
+  const uint32_t checksum = collision.file_checksum(file);
+  if (file == collision.ship_count()) return {nullptr, "obstacles", collision.parameters.obstacles, checksum};
+  return {collision.name(file), "ship", collision.parameters.ships[file].ship, checksum};
+}
+
 Model* make_model(const Variables& variables, const char* resources, Text& why) {
   if (strcmp(variables.fmu(), "ShipCollision") != 0) return refuse_model(variables, why);
   ShipCollisionFmu* model = new ShipCollisionFmu;

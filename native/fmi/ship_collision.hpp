@@ -16,6 +16,8 @@ class ShipCollisionFmu : public Model {
   bool asks_for_inputs_set() const override { return true; }
   void forget_inputs_set() override;
   void note_input_set(const char* path) override;
+  size_t file_count() const override { return static_cast<size_t>(framed_.collision.ship_count()) + 1; }
+  ReadFile file(size_t i) const override;
   void forget_files() override { framed_.collision.forget_files(); }
   bool initialise(Text& why) override { return framed_.initialise(why); }
   bool step(double t, double h, Text& why) override { return framed_.step(t, h, why); }

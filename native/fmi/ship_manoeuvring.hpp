@@ -14,6 +14,8 @@ class ShipManoeuvringFmu : public Model {
   bool find(const char* path, int index, Place& place) override;
   bool initialise(Text& why) override { return ship_.initialise(why); }
   bool step(double t, double h, Text& why) override { return ship_.step(t, h, why); }
+  size_t file_count() const override { return 1; }
+  ReadFile file(size_t) const override { return {nullptr, "ship", ship_.parameters.ship, ship_.file_checksum()}; }
   size_t state_size() const override { return ShipManoeuvring::state_size(); }
   void get_state(void* bytes) const override { ship_.get_state(bytes); }
   bool set_state(const void* bytes, size_t size, Text& why) override { return ship_.set_state(bytes, size, why); }

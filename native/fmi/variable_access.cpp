@@ -433,6 +433,9 @@ void VariableAccess::save(ByteWriter& bytes) const {
   bytes.value(is_read_);
   bytes.value(static_cast<uint32_t>(parameters_size_));
   bytes.put(parameters_, parameters_size_);
+  const size_t files = is_read_ ? model_->file_count() : 0;
+  bytes.value(static_cast<uint32_t>(files * sizeof(uint32_t)));
+  for (size_t i = 0; i < files; i++) bytes.value(model_->file(i).checksum);
   const size_t size = is_read_ ? model_->state_size() : 0;
   bytes.value(static_cast<uint32_t>(size));
   if (unsigned char* room = bytes.room(size); room != nullptr && size > 0) model_->get_state(room);
@@ -450,30 +453,35 @@ bool VariableAccess::restore(ByteReader& bytes, bool is_running, Text& why) {
   }
   ByteWriter written(before, counted.size());
   save(written);
-  const bool was_running = is_running_, is_restored = write_all(bytes, is_running, why);
+  const bool was_running = is_running_, is_restored = write_all(bytes, is_running, true, why);
   if (!is_restored) {
     ByteReader again(before, counted.size());
     Text ignored;
-    write_all(again, was_running, ignored);
+    write_all(again, was_running, false, ignored);  // files of its own may have changed since, too
   }
   free(before);
   return is_restored;
 }
 
-bool VariableAccess::write_all(ByteReader& bytes, bool is_running, Text& why) {
+bool VariableAccess::write_all(ByteReader& bytes, bool is_running, bool checks_files, Text& why) {
   bool is_dirty = true, is_read = false;
-  uint32_t parameters_size = 0, state_size = 0;
+  uint32_t parameters_size = 0, files_size = 0, state_size = 0;
   bool is_right = bytes.flag(is_dirty) && bytes.flag(is_read) && bytes.value(parameters_size);
   is_right = is_right && (is_dirty ? !is_running : is_read);  // outputs follow from parameters that were read
   const unsigned char* parameters = is_right ? bytes.take(parameters_size) : nullptr;
-  is_right = parameters != nullptr && parameters_size <= parameters_capacity_ && bytes.value(state_size);
+  is_right = parameters != nullptr && parameters_size <= parameters_capacity_ && bytes.value(files_size);
+  const unsigned char* files = is_right ? bytes.take(files_size) : nullptr;
+  is_right = files != nullptr && bytes.value(state_size);
   const unsigned char* state = is_right ? bytes.take(state_size) : nullptr;
   if (state == nullptr) {
     why << name() << ": this saved state cannot be read";
     return false;
   }
   if (is_read) {
-    if (!read_again(parameters, parameters_size, why) || !model_->set_state(state, state_size, why)) return false;
+    if (!read_again(parameters, parameters_size, why) || (checks_files && !check_files(files, files_size, why)) ||
+        !model_->set_state(state, state_size, why)) {
+      return false;
+    }
   }
   if (!take_values(bytes, false) || !take_set(bytes)) {
     why << name() << ": the values of this saved state cannot be read";
@@ -503,6 +511,25 @@ bool VariableAccess::read_again(const unsigned char* parameters, size_t size, Te
     return false;
   }
   return is_same || compute_outputs(why);
+}
+
+// Whether the model has read the files of these checksums.
+bool VariableAccess::check_files(const unsigned char* checksums, size_t size, Text& why) const {
+  if (size != model_->file_count() * sizeof(uint32_t)) {
+    why << name() << ": the files of this saved state cannot be read";
+    return false;
+  }
+  for (size_t i = 0; i < model_->file_count(); i++) {
+    const ReadFile file = model_->file(i);
+    if (memcmp(checksums + i * sizeof(uint32_t), &file.checksum, sizeof(uint32_t)) == 0) continue;
+    why << name() << ": the file that ";
+    if (file.ship != nullptr) why << file.ship << ".";
+    why << file.parameter << " = ";
+    why.quote(file.value) << " names is not that of the saved state: give the file of then, or initialise without "
+                          << "this state";
+    return false;
+  }
+  return true;
 }
 
 void VariableAccess::write_start_values() {

@@ -96,8 +96,9 @@ class VariableAccess {
   bool take_set(ByteReader& bytes);
   void put_values(ByteWriter& bytes, bool parameters_alone) const;
   bool take_values(ByteReader& bytes, bool parameters_alone) const;
-  bool write_all(ByteReader& bytes, bool is_running, Text& why);
+  bool write_all(ByteReader& bytes, bool is_running, bool checks_files, Text& why);
   bool read_again(const unsigned char* parameters, size_t size, Text& why);
+  bool check_files(const unsigned char* checksums, size_t size, Text& why) const;
 
   const Variables* variables_ = nullptr;
   Model* model_ = nullptr;

@@ -453,6 +453,8 @@ void ShipManoeuvring::publish(const State& state) {
   copy(outputs.wind, state.forces.wind);
 }
 
+uint32_t ShipManoeuvring::file_checksum() const { return set_up_->ship.checksum; }
+
 size_t ShipManoeuvring::state_size() { return sizeof(State); }
 
 size_t ShipManoeuvring::get_state(void* bytes) const {

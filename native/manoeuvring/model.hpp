@@ -1,6 +1,8 @@
 // The motion of one ship: the twin of shipcollision_fmu/manoeuvring/model.py.
 #pragma once
 
+#include <stdint.h>
+
 #include "../memory.hpp"
 #include "../numbers/text.hpp"
 #include "interface.hpp"
@@ -26,6 +28,9 @@ class ShipManoeuvring : public OnHeap {
 
   bool initialise(Text& why);
   bool step(double t, double h, Text& why);
+
+  // Checksum of the ship's file. To be called after initialise().
+  uint32_t file_checksum() const;
 
   // The state as bytes; size 0 before initialise().
   static size_t state_size();

@@ -1,7 +1,5 @@
 #include "prepared_lines.hpp"
 
-#include <stdint.h>
-
 #include "../folder.hpp"
 #include "../numbers/crc32.hpp"
 #include "../numbers/elementary.hpp"
@@ -49,7 +47,8 @@ void put_checksum(Text& text, uint32_t checksum) {
   }
 }
 
-bool check_checksum(const PreparedKind& kind, const char* content, size_t size, const char* file, Text& why) {
+bool check_checksum(const PreparedKind& kind, const char* content, size_t size, const char* file, uint32_t& checksum,
+                    Text& why) {
   if (has_other_line_ends(content)) {
     why << file << " is damaged: its line ends were changed, as git and editors of Windows do; copy it as a binary "
         << "file, or " << kind.what << " again with `shipcollision prepare " << kind.argument << "`";
@@ -63,7 +62,8 @@ bool check_checksum(const PreparedKind& kind, const char* content, size_t size, 
     return false;
   }
   Text computed, stated;
-  put_checksum(computed, crc32(content, size - LAST_LINE));
+  checksum = crc32(content, size - LAST_LINE);
+  put_checksum(computed, checksum);
   for (size_t i = 0; i < 8; ++i) {
     const char digit[2] = {last[sizeof CHECKSUM - 1 + i], '\0'};
     stated << digit;
@@ -114,8 +114,9 @@ bool is_prepared_folder(const char* path, const char* directory) {
   return (is_below(path, directory) && join(directory, path, "", below) && is_folder(below)) || is_folder(path);
 }
 
-bool check_prepared(const PreparedKind& kind, const char* content, size_t size, const char* file, Text& why) {
-  return check_first_line(kind, content, size, file, why) && check_checksum(kind, content, size, file, why);
+bool check_prepared(const PreparedKind& kind, const char* content, size_t size, const char* file, uint32_t& checksum,
+                    Text& why) {
+  return check_first_line(kind, content, size, file, why) && check_checksum(kind, content, size, file, checksum, why);
 }
 
 PreparedLines::PreparedLines(char* content, size_t size) : reader_(content, size - LAST_LINE) { reader_.next_line(); }

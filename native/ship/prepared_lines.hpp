@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stddef.h>
+#include <stdint.h>
 #include <string.h>
 
 #include "../files.hpp"
@@ -30,8 +31,10 @@ bool read_prepared_file(const char* path, const char* directory, FileContent& co
 // Whether there is a folder, and no file, where read_prepared_file() looks.
 bool is_prepared_folder(const char* path, const char* directory);
 
-// Whether a file is of that kind and version, and as it was written. It ends with a zero after `size` bytes.
-bool check_prepared(const PreparedKind& kind, const char* content, size_t size, const char* file, Text& why);
+// Whether a file is of that kind and version, and as it was written. It ends with a zero after `size` bytes. checksum:
+// that of its content.
+bool check_prepared(const PreparedKind& kind, const char* content, size_t size, const char* file, uint32_t& checksum,
+                    Text& why);
 
 // Reads line by line what was written; after a line that is not as expected, nothing more. The content is changed.
 class PreparedLines : public OnHeap {

@@ -68,7 +68,7 @@ void read_machines(PreparedLines& lines, PreparedShip& ship) {
 
 bool read_prepared_ship(char* content, size_t size, const char* file, PreparedShip& ship, Text& why, HullMesh* hull) {
   why.clear();
-  if (!check_prepared(KIND, content, size, file, why)) return false;
+  if (!check_prepared(KIND, content, size, file, ship.checksum, why)) return false;
   PreparedLines lines(content, size);
   read_body(lines, ship);
   read_machines(lines, ship);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stddef.h>
+#include <stdint.h>
 
 #include "../memory.hpp"
 #include "../numbers/text.hpp"
@@ -45,6 +46,7 @@ struct PreparedShip : OnHeap {
   RudderTable rudder;
   EngineTable engine;
   Text hull_refusal;  // why there is no hull, where it was asked for
+  uint32_t checksum;  // of its file
 
   // Inverse of the free block of M; degrees_of_freedom: 3, 4 or 6.
   const Matrix& inverse(int degrees_of_freedom) const {

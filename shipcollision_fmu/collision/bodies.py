@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from math import hypot
 from pathlib import Path
 from typing import TypeAlias
+from zlib import crc32
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from ..ship.frames import Array, skew
 from ..ship.hull.hull import build_hull
 from ..ship.hull.solid import HullMesh
 from ..ship.loading.library import Ship, load_ship
+from ..ship.ship_checksum import compute_checksum
 from .dynamics.body_state import BodyState
 from .feedback import PRESCRIBED, choose_feedbacks
 from .fender import Fender, build_fender
@@ -36,7 +38,7 @@ class Body:
 
     reach: no point of the hull is farther from CO [m]; free: degrees of freedom, 0 for an obstacle; fender_thickness:
     how far before the hull the fender acts [m], 0 without one; coasting: law of motion between impulses; wall: the
-    state of an obstacle, None for a ship; rectangle: where an obstacle stands.
+    state of an obstacle, None for a ship; rectangle: where an obstacle stands; checksum: of what was read of it.
     """
 
     name: str
@@ -51,6 +53,7 @@ class Body:
     feedback: str = PRESCRIBED  # of a ship; an obstacle never answers
     wall: BodyState | None = None
     rectangle: Rectangle = (0.0, 0.0, 0.0, 0.0)
+    checksum: int = 0
     fender_thickness: float = field(init=False)
 
     def __post_init__(self) -> None:
@@ -121,7 +124,7 @@ def _ship(name: str, ship: Ship, parameters: ShipParameters, feedback: str) -> B
         name, hull, float(np.linalg.norm(hull.vertices, axis=1).max()),
         parameters.degrees_of_freedom, M_inverse, held, BulletBody(ship.mass, inertia_g, np.array(ship.r_bg)),
         build_fender(f"{name}.fender", fender.stiffness, fender.damping, fender.thickness),
-        _predict_coasting(name, ship, parameters), feedback,
+        _predict_coasting(name, ship, parameters), feedback, checksum=_add_hull(compute_checksum(ship), hull),
     )  # fmt: skip
 
 
@@ -148,8 +151,16 @@ def _wall(obstacle: Obstacle) -> Body:
     return Body(
         obstacle.name, obstacle.solid, float(np.linalg.norm(obstacle.solid.vertices, axis=1).max()),
         0, wall.M_inverse, None, BulletBody(0.0, np.zeros(3), np.zeros(3)), obstacle.fender, None, PRESCRIBED, wall,
-        (n_0, n_1, e_0, e_1),
+        (n_0, n_1, e_0, e_1), _add_hull(crc32(repr((obstacle.name, corners.tolist(), obstacle.fender)).encode()),
+                                        obstacle.solid),
     )  # fmt: skip
+
+
+def _add_hull(checksum: int, hull: HullMesh) -> int:
+    """The checksum of a body with its hull."""
+    for part in hull.parts:
+        checksum = crc32(np.ascontiguousarray(part).tobytes(), checksum)
+    return checksum
 
 
 def _refuse_what_bullet_lacks(

@@ -28,6 +28,7 @@ from __future__ import annotations
 from collections.abc import Collection, Container, Sequence
 from pathlib import Path
 from typing import Any
+from zlib import crc32
 
 from ..errors import StepError
 from ..ship.coasting_law import Motion
@@ -286,6 +287,14 @@ class ShipCollision:
         if self._detector is None:
             return {}
         return self._get_mechanics() | {"diagnosis": self._diagnosis.get_state()}
+
+    def list_files(self) -> dict[str, int]:
+        """Checksums of what was read, by the parameter that names its file; empty before initialise()."""
+        if self._detector is None:
+            return {}
+        ships, walls = self._bodies[: len(self.names)], self._bodies[len(self.names) :]
+        obstacles = crc32(repr([wall.checksum for wall in walls]).encode())
+        return {**{f"{ship.name}.ship": ship.checksum for ship in ships}, "obstacles": obstacles}
 
     def _get_mechanics(self) -> dict[str, Any]:
         """The part of the state that a step changes before it can fail."""

@@ -36,7 +36,8 @@ _PLANS = 1000
 
 class Model(Protocol):
     """A model in time: plain Python without FMI. The paths of the table lead to its attributes. A model may have a
-    method `note_inputs_set`, which is given the paths of all Reals that were ever set."""
+    method `note_inputs_set`, which is given the paths of all Reals that were ever set, and a method `list_files`, which
+    returns checksums of the files that it has read by the names of the parameters that name them."""
 
     def initialise(self) -> None:
         """Read parameters and start values, compute the outputs of the start. May be called again; raises
@@ -218,6 +219,7 @@ class VariableAccess:
             "values": [container[key] for container, key in self._cells],
             "model": self.model.get_state(),
             "read": self._initialised_from,
+            "files": self._list_files(),
             "dirty": self._dirty,
             "running": self._running,
             "broken": self._broken,
@@ -235,7 +237,7 @@ class VariableAccess:
             self._put(state)
         except Exception as error:
             if before is not None:
-                self._put(before)
+                self._put(before, checks_files=False)  # files of its own may have changed since, too
             if isinstance(error, ShipCollisionError):
                 raise
             raise InputError(f"{self.name}: this saved state cannot be read: {_described(error)}") from error
@@ -277,7 +279,20 @@ class VariableAccess:
         if close is not None:
             close()
 
-    def _put(self, state: Mapping[str, Any]) -> None:
+    def _list_files(self) -> dict[str, int]:
+        list_files = getattr(self.model, "list_files", None)
+        return {} if list_files is None or self._initialised_from is None else dict(list_files())
+
+    def _refuse_other_files(self, saved: Mapping[str, int]) -> None:
+        """Raise InputError when the model has read other files than the model that was saved."""
+        for name, checksum in self._list_files().items():
+            if saved[name] != checksum:
+                raise InputError(
+                    f"{self.name}: the file that {name} = {self._value(self._references[name])!r} names is not that of "
+                    "the saved state: give the file of then, or initialise without this state"
+                )
+
+    def _put(self, state: Mapping[str, Any], *, checks_files: bool = True) -> None:
         if state["read"] is not None:
             if state["read"] != self._initialised_from:
                 # What the model derives from its parameters is not in its state: it reads them again, inputs harmless.
@@ -285,6 +300,8 @@ class VariableAccess:
                 self._write_parameters(state["read"])
                 self._initialise()
             self._write_parameters(state["read"])  # others may have been set since the model read these
+            if checks_files:
+                self._refuse_other_files(state["files"])
             self.model.set_state(state["model"])
         self._write_all(state["values"])
         self._dirty = state["dirty"]

@@ -29,6 +29,7 @@ from ..ship.coasting_law import CoastingLaw, make_coasting
 from ..ship.degrees_of_freedom import free_inverse, tilted_inverse
 from ..ship.frames import Array
 from ..ship.loading.library import Ship, load_ship
+from ..ship.ship_checksum import compute_checksum
 from .actuators import NEUTRAL, Gear
 from .held_motions import project_start
 from .interface import ShipInputs, ShipOutputs, ShipParameters
@@ -70,6 +71,7 @@ class _SetUp(NamedTuple):
 
     parameters: tuple[object, ...]
     ship: Ship
+    checksum: int  # of the ship
     free: int  # degrees of freedom
     upright: Array  # (6, 6) inverse of the free block of M
     M_inverse: list[list[float]]  # the same as lists
@@ -148,7 +150,10 @@ class ShipManoeuvring:
                     f"substep = {substep} s is too long for the heave, roll or pitch of ship {ship.name!r}: must be at "
                     f"most {mmg.shortest_time:.3g} s, a sixth of its shortest period"
                 )
-        return _SetUp(parameters, ship, p.degrees_of_freedom, upright, upright.tolist(), mmg, coasting, substep)
+        return _SetUp(
+            parameters, ship, compute_checksum(ship), p.degrees_of_freedom, upright, upright.tolist(), mmg, coasting,
+            substep,
+        )  # fmt: skip
 
     # -- a step ---------------------------------------------------------------------------------------------------
 
@@ -286,6 +291,10 @@ class ShipManoeuvring:
         if self._state is None:
             return {}
         return {key: list(value) if isinstance(value, tuple) else value for key, value in self._state._asdict().items()}
+
+    def list_files(self) -> dict[str, int]:
+        """Checksums of what was read, by the parameter that names its file; empty before initialise()."""
+        return {} if self._set_up is None else {"ship": self._set_up.checksum}
 
     def set_state(self, state: dict[str, Any]) -> None:
         """Restore what get_state gave, and the outputs, to the bit. The parameters must be those it was taken with.

@@ -18,6 +18,7 @@
     restoring.py, damping.py    forces of buoyancy and weight, and of waves and friction
     windage.py               areas above the water and Blendermann's coefficients
     ship.py                  Ship: all numbers of a ship, which cannot be changed
+    ship_checksum.py         compute_checksum(): of these, by which a saved state recognises its ship
     file_stamp.py            when a file that was read once must be read again
     tables/                  every key of a ship file with its description, unit and limits
     hull/                    the hull: a closed surface and its convex parts

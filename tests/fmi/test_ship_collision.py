@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from fmpy import extract, read_model_description
 
+from shipcollision_fmu.collision.prepared_obstacles import prepare_obstacles
 from shipcollision_fmu.fmi.builder import native_fmus as builder
 from shipcollision_fmu.fmi.builder.native_fmus import native_instance_fmu
 from shipcollision_fmu.fmi.names import APPLIED, ATTITUDE, IMPULSE, POSITION, POST, RATE, STATE, VELOCITY, named
@@ -20,6 +21,7 @@ from shipcollision_fmu.fmi.variable_access import VariableAccess
 from shipcollision_fmu.manoeuvring.prepared_ship import prepare_ship
 from shipcollision_fmu.ship.frames import rotation
 from shipcollision_fmu.toolchain.fmu_binaries import Binary
+from tests.fmi.files_of_states import check_changed_file
 from tests.fmi.test_limits import LIMITED
 from tests.ship_files import ship_toml
 
@@ -236,6 +238,31 @@ def test_what_is_received_without_a_pose_or_twist_does_not_make_a_ship(collision
     begin_alone(fmu)
     pass_the_origin(fmu)
     assert count_impacts(fmu) == 0
+
+
+WALL = '[wall]\nkind = "quay"\nshape = "box"\nlength = 50.0\nbreadth = 9.0\nposition = [0.0, {east}]\n'
+
+
+@pytest.mark.parametrize("name", ["own.ship", "target.ship", "obstacles"])
+def test_a_state_is_refused_when_a_file_of_it_has_changed(
+    collision: Make, form: str, name: str, tmp_path: Path
+) -> None:
+    """The parameter names the same file; heights of decks differ, or the place of a wall, and nothing else."""
+    is_ship = name != "obstacles"
+    kind = "toml" if form == "Python" else "ship" if is_ship else "obstacles"
+    path, any_toml = tmp_path / f"changed.{kind}", tmp_path / "any.toml"
+    contents = []
+    for depth, east in ((8.0, 500.0), (8.5, 510.0)):
+        any_toml.write_text(ship_toml(hull={"depth": depth}) if is_ship else WALL.format(east=east))
+        prepared = prepare_ship(any_toml) if is_ship else prepare_obstacles(str(any_toml))
+        contents.append(any_toml.read_bytes() if form == "Python" else prepared)
+
+    def begin(fmu: Any) -> None:
+        fmu.fmu.setString(fmu.reference(name), [str(path)])
+        begin_alone(fmu)
+
+    line = f"ShipCollision: the file that {name} = '{path}' names is not that of the saved state: give the file of then"
+    check_changed_file(collision, begin, path, (contents[0], contents[1]), line)
 
 
 REFUSED = [

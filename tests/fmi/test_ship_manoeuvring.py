@@ -15,6 +15,9 @@ from fmpy import extract, read_model_description
 from shipcollision_fmu.errors import ShipCollisionError
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE
 from shipcollision_fmu.fmi.variable_access import VariableAccess
+from shipcollision_fmu.manoeuvring.prepared_ship import prepare_ship
+from tests.fmi.files_of_states import check_changed_file
+from tests.ship_files import ship_toml
 
 OK, DISCARD, ERROR, FATAL = 0, 2, 3, 4
 Make = Callable[..., Any]
@@ -224,6 +227,27 @@ def test_a_state_goes_into_an_instance_whose_parameters_were_set_since(ship: Mak
     assert b.messages == []
     assert (a.step(1), b.step(1)) == (OK, OK)
     assert b.everything() == a.everything()
+
+
+def test_a_state_is_refused_when_the_file_of_its_ship_has_changed(ship: Make, form: str, tmp_path: Path) -> None:
+    """The parameter names the same file; masses differ, and nothing else."""
+    path = tmp_path / ("own.toml" if form == "Python" else "own.ship")
+    texts = [ship_toml(particulars={"mass": mass}) for mass in (8.2e6, 8.3e6)]
+    contents = [text.encode() if form == "Python" else prepare(tmp_path, text) for text in texts]
+
+    def begin(instance: Any) -> None:
+        instance.fmu.setString(instance.reference("ship"), [str(path)])
+        assert instance.begin() == OK
+
+    line = f"ShipManoeuvring: the file that ship = '{path}' names is not that of the saved state: give the file of then"
+    check_changed_file(ship, begin, path, (contents[0], contents[1]), line)
+
+
+def prepare(folder: Path, text: str) -> bytes:
+    """The prepared file of a ship file."""
+    path = folder / "any.toml"
+    path.write_text(text)
+    return prepare_ship(path)
 
 
 def test_an_unknown_ship_fails_initialisation(ship: Make, form: str) -> None:
