@@ -5,7 +5,9 @@ What property tests draw depends on the test itself and on nothing else.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import gc
+from collections import defaultdict
+from collections.abc import Callable, Iterator, Sequence
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -86,7 +88,9 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 @pytest.hookimpl(wrapper=True, tryfirst=True)
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> Iterator[None]:
-    """Before pytest selects by -m, fixtures give their tests the mark `needs`; afterwards tests are left out."""
+    """Before pytest selects by -m, fixtures give their tests the mark `needs`, and `one_in` the mark `slow` to most
+    cases; afterwards tests are left out."""
+    mark_slow_cases(items)
     for item in items:
         for name in sorted(needs.BY_FIXTURE.keys() & set(getattr(item, "fixturenames", ()))):
             item.add_marker(pytest.mark.needs(needs.BY_FIXTURE[name]))
@@ -96,6 +100,36 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     config.stash[LEFT_OUT] = [(item.nodeid, names) for item, names in unmet.items() if names]
     config.hook.pytest_deselected(items=[item for item, names in unmet.items() if names])
     items[:] = [item for item, names in unmet.items() if not names]
+
+
+def mark_slow_cases(items: list[pytest.Item]) -> None:
+    """Most cases of a grid that is marked `one_in(n)` become slow."""
+    grids: dict[tuple[str, str], list[Any]] = defaultdict(list)
+    for item in items:
+        if isinstance(item, pytest.Function) and item.get_closest_marker("one_in"):
+            grids[item.nodeid.partition("::")[0], item.originalname].append(item)
+    for cases in grids.values():
+        (n,) = cases[0].get_closest_marker("one_in").args
+        lengths = [len(mark.args[1]) for mark in cases[0].iter_markers("parametrize")]
+        for k, case in enumerate(cases):
+            if not is_quick(k, lengths, n):
+                case.add_marker(pytest.mark.slow)
+
+
+def is_quick(k: int, lengths: Sequence[int], n: int) -> bool:
+    """Whether the places of case `k` in the lists of parameters add up to a multiple of n. The last list varies fastest,
+    parameters of fixtures slowest. So the quick cases have each value of a list, if the others have some n values."""
+    total = 0
+    for length in reversed(lengths):
+        k, place = divmod(k, length)
+        total += place
+    return total % n == 0
+
+
+def pytest_collection_finish(session: pytest.Session) -> None:
+    """The collector of cycles passes over modules and tests from here on, which takes a twentieth off a run."""
+    del session
+    gc.freeze()
 
 
 def pytest_sessionfinish(session: pytest.Session) -> None:

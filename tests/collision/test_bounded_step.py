@@ -73,6 +73,7 @@ def last_resort(monkeypatch: pytest.MonkeyPatch) -> list[int]:
 SLOW = [pytest.param(e, marks=pytest.mark.slow) for e in (0.05, 0.1, 0.5)]
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("restitution", [0.0, *SLOW, 1.0])
 def test_ships_pressed_on_each_other_and_a_quay(
     world: MakeWorld, box: str, last_resort: list[int], restitution: float

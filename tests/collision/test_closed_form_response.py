@@ -28,6 +28,7 @@ HEAD_ON = [
 ]
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("restitution", [0.0, 0.5])
 @pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
 def test_collision_balances_the_ledger(
@@ -170,6 +171,7 @@ ROW = [
 ]
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("restitution", [0.0, 0.5])
 @pytest.mark.parametrize("start", [WEDGED[:3], ROW, pytest.param(WEDGED, marks=pytest.mark.slow)])
 def test_the_order_in_which_ships_are_named_does_not_matter(

@@ -32,6 +32,7 @@ BASIN = "".join(
 """A closed basin of 320 x 280 m around the origin."""
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize(
     ("language", "degrees_of_freedom", "duration"),
     [
@@ -73,6 +74,7 @@ def test_a_ship_in_a_closed_basin_gains_no_energy(
         assert energy() == pytest.approx(before, rel=1e-9)
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("friction", [0.0, 0.3])
 def test_a_raked_bow_climbs_no_more_than_its_buoyancy_lets_it(
     make_ship: Make, world: MakeWorld, friction: float

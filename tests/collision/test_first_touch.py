@@ -270,6 +270,7 @@ THIN = [
 ]
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
 @pytest.mark.parametrize(("form", "speed", "h", "obstacle"), THIN)
 def test_what_overlaps_little_in_height_stops_a_ship(

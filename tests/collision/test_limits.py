@@ -21,6 +21,7 @@ RAKED = 'shape = "parametric"\ndepth = 20.0\nbow_length = 40.0\nstern_length = 5
 HIGHER = SHIP.replace("depth = 20.0", "depth = 26.0")
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.needs("pybullet")
 @pytest.mark.parametrize(
     ("north", "heading", "friction"),

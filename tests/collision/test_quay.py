@@ -243,6 +243,7 @@ def test_a_wind_that_fluctuates_a_little_counts_no_answer_as_scaled(berthed: Mak
     assert b.model.outputs.solver.scaled == 0
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
 @pytest.mark.parametrize("push", [0.0, 0.1])
 def test_contact_is_active_in_the_steps_of_touch_and_the_clearance_bounds_the_rest(

@@ -59,6 +59,7 @@ def impulses(world: MakeWorld, folder: Path, case: str, scale: float) -> np.ndar
     return np.concatenate([np.array(w.model.outputs.ships[i].impulse) / (unit * scale**3) for i in (0, 1)])
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("scale", [10.0, *(pytest.param(s, marks=pytest.mark.slow) for s in (0.1, 0.022)), 0.01])
 @pytest.mark.parametrize("case", list(CASES))
 def test_a_scaled_impact_is_the_impact_scaled(world: MakeWorld, tmp_path: Path, case: str, scale: float) -> None:

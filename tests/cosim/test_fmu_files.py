@@ -30,6 +30,7 @@ def test_an_installed_package_keeps_its_fmus_in_the_users_cache(
     assert fmu_directory() == tmp_path / "home" / ".cache" / "shipcollision-fmu"
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", ["ShipCollision", "ShipManoeuvring"])
 def test_fmus_are_built_when_missing_or_broken_and_kept_when_current(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, name: str

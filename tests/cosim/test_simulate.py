@@ -34,6 +34,7 @@ def compared_files(out: Path) -> dict[str, bytes]:
     return {path.name: path.read_bytes() for path in out.iterdir() if path.name != "timing.json"}
 
 
+@pytest.mark.one_in(2)
 @BOTH
 def test_fmus_and_models_in_process_give_the_same_files(scenario_file: Write, tmp_path: Path, algorithm: str) -> None:
     path = scenario_file()

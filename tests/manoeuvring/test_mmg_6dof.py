@@ -274,6 +274,7 @@ def test_a_beam_impact_rolls_but_hardly_heaves_or_pitches(start: Start) -> None:
 # -- signs, current, plane motion ----------------------------------------------------------------------------------
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("mode", [FOUR, SIX], ids=["4", "6"])
 @pytest.mark.parametrize("side", [1, -1], ids=["starboard", "port"])
 def test_heel_in_a_turn_is_first_inwards_then_outwards(start: Start, mode: dict[str, Any], side: int) -> None:
@@ -330,6 +331,7 @@ def test_without_levers_it_is_the_plane_motion(start: Start, decoupled: str, mod
     np.testing.assert_allclose(state(spatial), state(plane), rtol=1e-9, atol=1e-8)
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize(("mode", "apart"), [(FOUR, 0.3), (SIX, 1.0)], ids=["4", "6"])
 def test_plane_track_of_a_stiff_ship(start: Start, mode: dict[str, Any], apart: float) -> None:
     """KVLCC2 heels half a degree in a turn: its track of 5 km stays within a metre of that in 3 degrees of freedom."""
@@ -341,6 +343,7 @@ def test_plane_track_of_a_stiff_ship(start: Start, mode: dict[str, Any], apart: 
         assert np.abs(state(spatial)[:2] - state(plane)[:2]).max() < apart
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("mode", [FOUR, SIX], ids=["4", "6"])
 def test_manoeuvre_in_a_current_is_the_same_manoeuvre_carried_along(start: Start, mode: dict[str, Any]) -> None:
     c_n, c_e, psi, T = 0.7, -0.4, 0.9, 200.0

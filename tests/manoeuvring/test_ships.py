@@ -40,6 +40,7 @@ def test_service_speed_is_near_equilibrium(name: str) -> None:
     assert thrust == pytest.approx(drag, rel=0.01)
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.usefixtures("engine")
 @pytest.mark.parametrize("name", SAILING)
 @pytest.mark.parametrize("degrees_of_freedom", [3, 6])

@@ -20,6 +20,7 @@ from tests.oracles.conftest import Collide, box_ship
 LENGTH, SIDE = 90.0, 20.0
 
 
+@pytest.mark.one_in(5)
 @pytest.mark.parametrize("response", ["pgs", "closed_form"])
 @pytest.mark.parametrize("v_i", [-0.5, 0.0, 0.8])
 @pytest.mark.parametrize("ratio", [0.02, 0.5, 30.0])

@@ -46,6 +46,7 @@ def integrals(ship: Ship, state: Any, free: list[int]) -> Array:
     return np.array([0.5 * nu @ P, *p, *(R @ P[3:] + np.cross(x, p))])
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("h", [0.05, 1.0, 20.0])
 @pytest.mark.parametrize("ship", [KVLCC2, LOPSIDED], ids=["kvlcc2", "lopsided"])
 @pytest.mark.parametrize("degrees_of_freedom", [3, 4, 6])
@@ -102,6 +103,7 @@ def _cd(x: float, k: float) -> float:
     return sin(phase)
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("degrees_of_freedom", [3, 6])
 @pytest.mark.parametrize("drift", [0.05, 1.0, 1.5])
 def test_a_drifting_body_swings_about_broadside_like_a_pendulum(degrees_of_freedom: int, drift: float) -> None:

@@ -42,6 +42,7 @@ def blow(collide: Collide, part: str, mass: float, speed: float, **parameters: A
     return w.model.outputs.energy.dissipated
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize(("part", "mass", "speed", "published"), CASES)
 @pytest.mark.parametrize("degrees_of_freedom", [3, 6])
 @pytest.mark.parametrize("response", ["pgs", "closed_form"])

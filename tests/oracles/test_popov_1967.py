@@ -148,6 +148,7 @@ def test_mass_reduction_of_the_contact_solver(tmp_path: Path, name: str) -> None
     assert bow.mass * W[0, 0] == pytest.approx(bow.C_o(bow.normal, np.array(bow.point)), rel=1e-9)
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("response", ["pgs", "closed_form"])
 @pytest.mark.parametrize("side", [1.0, -1.0])
 @pytest.mark.parametrize("name", BOWS)

@@ -155,6 +155,7 @@ START = (
 )
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("wiring", [WIRING, WIRING.replace("psi = 1.5", "")])
 def test_the_scenarios_start_is_said_unless_the_vessel_is_given_one(
     scenario_file: Write, tmp_path: Path, wiring: str

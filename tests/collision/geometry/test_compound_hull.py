@@ -91,6 +91,7 @@ def test_joints_are_no_outer_faces() -> None:
     assert not any(np.allclose(n, [0, 0, 1]) for n in flared.outer_normals(1))  # nor the upper one a keel
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("x", [-60.0, -59.99, -20.3, 0.0, 19.999, 20.001, 20.2, 59.5, 60.0])
 @pytest.mark.parametrize("depth", [0.01, 0.3])
 def test_a_stem_on_a_side_in_pieces_touches_it_as_on_one_box(pair: Pair, x: float, depth: float) -> None:

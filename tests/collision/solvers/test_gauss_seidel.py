@@ -104,6 +104,7 @@ def test_wedges_are_solved_by_newtons_method_and_aclm_in_turns(case: tuple[int, 
     assert solve_gauss_seidel(*random_patch(seed, k, dof, 0.5), mu).residual <= 1e-10
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("case", [(35, 2, 3, 1.0), (26, 6, 4, 1.0), (22, 6, 6, 1.0), (32, 3, 6, 0.6)])
 def test_aclm_alone_solves_these_patches(case: tuple[int, int, int, float]) -> None:
     """From zero impulses, to the law of contact."""
