@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +19,6 @@ from shipcollision_fmu.scenario.scenario import Scenario, list_scenario_names
 from shipcollision_fmu.ship.degrees_of_freedom import FREE
 from shipcollision_fmu.ship.frames import rotation
 from shipcollision_fmu.ship.loading.library import load_ship
-from tests.needs import NEEDS
 
 ALGORITHMS = ("gauss-seidel", "jacobi")
 OWN_RESPONSE = "guan2014"
@@ -28,13 +29,6 @@ def scenario_param(name: str, *more: str, marks: tuple[Any, ...] = ()) -> Any:
     """A scenario, and more, as parameters of a test."""
     needs = (pytest.mark.needs("pybullet"),) if name == OWN_RESPONSE else ()
     return pytest.param(name, *more, marks=(*needs, *marks))
-
-
-SCENARIOS_IN_FMUS = [
-    scenario_param(name, marks=(pytest.mark.slow,) if name == "kvlcc2_crossing" else ())
-    for name in list_scenario_names()
-]
-"""kvlcc2_crossing is the longest run: seconds through FMUs."""
 
 
 @dataclass
@@ -68,40 +62,44 @@ class Watched:
     watch: Watch
 
 
-@pytest.fixture(scope="module")
-def runs() -> dict[tuple[str, str], Watched]:
-    """Every scenario in process, with step 0.05 s, watched."""
-    found = {}
-    for name in list_scenario_names():
-        if name == OWN_RESPONSE and not NEEDS["pybullet"].is_met():
-            continue
-        scenario = load_scenario(name)
-        for algorithm in ALGORITHMS:
-            watch = Watch()
-            step, apply_pending = ShipCollision.step, ShipManoeuvring._apply_pending
-            with pytest.MonkeyPatch.context() as patch:
-                patch.setattr(ShipCollision, "step", lambda m, t, h, w=watch, o=step: w.step(m, o, t, h))
-                patch.setattr(
-                    ShipManoeuvring, "_apply_pending", lambda m, *a, w=watch, o=apply_pending: w.strike(m, o, *a)
-                )
-                run = simulate(scenario, algorithm=algorithm, step=0.05, in_process=True)
-            found[name, algorithm] = Watched(scenario, run, watch)
-    return found
+@cache
+def run_watched(name: str, algorithm: str) -> Watched:
+    """A scenario in process, with step 0.05 s, watched."""
+    scenario, watch = load_scenario(name), Watch()
+    step, apply_pending = ShipCollision.step, ShipManoeuvring._apply_pending
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(ShipCollision, "step", lambda m, t, h: watch.step(m, step, t, h))
+        patch.setattr(ShipManoeuvring, "_apply_pending", lambda m, *a: watch.strike(m, apply_pending, *a))
+        run = simulate(scenario, algorithm=algorithm, step=0.05, in_process=True)
+    return Watched(scenario, run, watch)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _runs_end_with_the_module() -> Iterator[None]:
+    yield
+    run_watched.cache_clear()
+
+
+LONG = "kvlcc2_crossing"
+"""The longest run. Default tests make it once, in process under a sequential master."""
+SCENARIOS = [scenario_param(name, marks=(pytest.mark.slow,) * (name == LONG)) for name in list_scenario_names()]
 
 
 def each() -> Any:
     return pytest.mark.parametrize(
-        ("name", "algorithm"), [scenario_param(n, a) for n in list_scenario_names() for a in ALGORITHMS]
+        ("name", "algorithm"),
+        [
+            scenario_param(n, a, marks=(pytest.mark.slow,) * ((n, a) == (LONG, "jacobi")))
+            for n in list_scenario_names()
+            for a in ALGORITHMS
+        ],
     )
-
-
-Runs = dict[tuple[str, str], Watched]
 
 
 @pytest.mark.slow
 @each()
-def test_nothing_is_found_wrong_with_the_wiring(runs: Runs, name: str, algorithm: str) -> None:
-    assert runs[name, algorithm].watch.diagnosis == []
+def test_nothing_is_found_wrong_with_the_wiring(name: str, algorithm: str) -> None:
+    assert run_watched(name, algorithm).watch.diagnosis == []
 
 
 @pytest.mark.slow
@@ -117,18 +115,18 @@ def test_nothing_is_found_wrong_with_the_wiring_in_coarse_steps(name: str, algor
 
 
 @each()
-def test_ships_collide_once_and_come_clear(runs: Runs, name: str, algorithm: str) -> None:
-    watched = runs[name, algorithm]
+def test_ships_collide_once_and_come_clear(name: str, algorithm: str) -> None:
+    watched = run_watched(name, algorithm)
     assert watched.run.summary["collisions"] == 1
     assert watched.run.contacts["time"].max() < watched.run.states["time"][-1] - 0.1
 
 
 @each()
-def test_impulses_and_moments_on_the_ships_are_equal_and_opposite(runs: Runs, name: str, algorithm: str) -> None:
+def test_impulses_and_moments_on_the_ships_are_equal_and_opposite(name: str, algorithm: str) -> None:
     """As the ships take them, where they are by then, about n's origin, and so about any fixed point; to 1e-12 of the
     impulse and of its moment there. In every step of a sequential master. A parallel one takes the first impulse at
     poses for which it was not meant, and what that was short of in the next steps: there the whole run balances."""
-    watched = runs[name, algorithm]
+    watched = run_watched(name, algorithm)
     n, strikes = len(watched.scenario.ships), watched.watch.strikes
     taken = [[(s["x"], s["R"], s["impulse"]) for s in strikes[k : k + n]] for k in range(0, len(strikes), n)]
     steps = [rows for rows in taken if any(J.any() for _, _, J in rows)]
@@ -147,8 +145,8 @@ def test_impulses_and_moments_on_the_ships_are_equal_and_opposite(runs: Runs, na
 
 
 @each()
-def test_every_application_is_inertia_times_change_of_velocity(runs: Runs, name: str, algorithm: str) -> None:
-    struck = [s for s in runs[name, algorithm].watch.strikes if s["impulse"].any()]
+def test_every_application_is_inertia_times_change_of_velocity(name: str, algorithm: str) -> None:
+    struck = [s for s in run_watched(name, algorithm).watch.strikes if s["impulse"].any()]
     assert struck
     for s in struck:
         free = s["free"]
@@ -159,17 +157,17 @@ def test_every_application_is_inertia_times_change_of_velocity(runs: Runs, name:
 
 
 @each()
-def test_all_that_was_issued_has_been_applied(runs: Runs, name: str, algorithm: str) -> None:
-    for books in runs[name, algorithm].run.summary["ledger"].values():
+def test_all_that_was_issued_has_been_applied(name: str, algorithm: str) -> None:
+    for books in run_watched(name, algorithm).run.summary["ledger"].values():
         assert books["issued"] == books["applied"]
         assert books["pending"] == [0.0] * 6
 
 
 @each()
-def test_contact_never_gives_kinetic_energy(runs: Runs, name: str, algorithm: str) -> None:
+def test_contact_never_gives_kinetic_energy(name: str, algorithm: str) -> None:
     """Neither in the collision model's account nor in that of the ships, in any step; and not by any step of a parallel
     master, in which a single one may give back what the one before took too much of, a thousandth of the whole."""
-    watched = runs[name, algorithm]
+    watched = run_watched(name, algorithm)
     dissipated = np.array([0.0, *watched.watch.dissipated])
     assert np.diff(dissipated).min() >= -1e-9 * dissipated[-1]
     n, work = len(watched.scenario.ships), []
@@ -186,11 +184,11 @@ def test_contact_never_gives_kinetic_energy(runs: Runs, name: str, algorithm: st
     assert -sum(work) == pytest.approx(dissipated[-1], rel=0.02)
 
 
-@pytest.mark.parametrize("name", [scenario_param(name) for name in list_scenario_names()])
-def test_both_masters_end_at_the_same_velocities(runs: Runs, name: str) -> None:
+@pytest.mark.parametrize("name", SCENARIOS)
+def test_both_masters_end_at_the_same_velocities(name: str) -> None:
     """Within 2 % of the change that the collision made, at 0.05 s: the velocity of CO, and the whole twist in the norm
     of the kinetic energy, which is the one that may add metres and radians."""
-    one, other = (runs[name, algorithm] for algorithm in ALGORITHMS)
+    one, other = (run_watched(name, algorithm) for algorithm in ALGORITHMS)
     for ship, start in one.scenario.ships.items():
         M = load_ship_M(start.ship)
         made = sum((change for _, change in changes(one, ship)), np.zeros(6))
@@ -223,15 +221,15 @@ def load_ship_M(name: str) -> np.ndarray:
 
 @pytest.mark.needs("pybullet")
 @pytest.mark.parametrize("algorithm", ALGORITHMS)
-def test_linear_momentum_without_added_mass_is_the_same_after_as_before(runs: Runs, algorithm: str) -> None:
-    momentum = runs["guan2014", algorithm].run.summary["momentum"]
+def test_linear_momentum_without_added_mass_is_the_same_after_as_before(algorithm: str) -> None:
+    momentum = run_watched(OWN_RESPONSE, algorithm).run.summary["momentum"]
     assert momentum["closed"]
     np.testing.assert_allclose(momentum["after"]["linear"], momentum["before"]["linear"], atol=1e-12 * 1e9)
-    for name in ("guan2014_added_mass", "kvlcc2_crossing"):
-        assert not runs[name, algorithm].run.summary["momentum"]["closed"]
+    assert not run_watched("guan2014_added_mass", algorithm).run.summary["momentum"]["closed"]
+    assert not run_watched(LONG, "gauss-seidel").run.summary["momentum"]["closed"]
 
 
-@pytest.mark.parametrize("name", SCENARIOS_IN_FMUS)
+@pytest.mark.parametrize("name", SCENARIOS)
 def test_fmus_and_models_in_process_give_identical_states(name: str, tmp_path: Path) -> None:
     scenario = load_scenario(name)
     simulate(scenario, out=tmp_path / "fmu")

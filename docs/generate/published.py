@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 from shipcollision_fmu import load_scenario, simulate
 from shipcollision_fmu.manoeuvring.trials.steady_course import find_steady_course
 from shipcollision_fmu.manoeuvring.trials.trials import sail_turning_circle
@@ -22,6 +24,7 @@ CIRCLES = (
 """Turning circles with 35 degrees of rudder in Yasukawa and Yoshimura (2015)."""
 
 
+@cache
 def guan2014() -> str:
     """The table of 24 numbers: as printed, as corrected, as computed, with the tolerance."""
     rows = []
@@ -37,6 +40,7 @@ def guan2014() -> str:
     )
 
 
+@cache
 def turning_circles() -> str:
     """Advance and tactical diameter [L] of KVLCC2 and its 7 m model, published and computed."""
     sailed = {

@@ -140,8 +140,8 @@ def encounter(fmus: dict[tuple[str, int], Path], _tidy_path: None) -> Iterator[C
 @pytest.mark.parametrize(
     ("algorithm", "touching", "fmi"),
     [
-        (jacobi, 10, 2),
         (gauss_seidel, 2, 3),
+        pytest.param(jacobi, 10, 2, marks=pytest.mark.slow),
         pytest.param(gauss_seidel, 2, 2, marks=pytest.mark.slow),
         pytest.param(jacobi, 10, 3, marks=pytest.mark.slow),
     ],

@@ -96,7 +96,7 @@ CASES = {
 }
 
 
-SLOW = {"by force", "ignored"}
+SLOW = {"by force", "ignored", "three in a row"}
 
 
 @pytest.mark.parametrize("case", [pytest.param(case, marks=[pytest.mark.slow] * (case in SLOW)) for case in CASES])

@@ -175,7 +175,7 @@ def both(monkeypatch: pytest.MonkeyPatch, scenario: Path) -> list[Run]:
     [
         "guan2014",
         "guan2014_added_mass",
-        "fender",
+        pytest.param("fender", marks=pytest.mark.slow),
         pytest.param("mesh", marks=pytest.mark.slow),
         pytest.param("kvlcc2_crossing", marks=pytest.mark.slow),
     ],
