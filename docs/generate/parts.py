@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
-from . import api, batch, columns, commands, estimates, findings, published, rooms, schema, variables
+from . import api, batch, columns, commands, estimates, findings, published, rooms, schema, study, variables
 
 __all__ = ["PARTS", "filled"]
 
@@ -22,6 +22,11 @@ PARTS: dict[str, Callable[[], str]] = {
     "encounters": batch.encounters,
     "encounter ships": batch.ships,
     "encounter collisions": batch.collisions,
+    "study keys": study.keys,
+    "study variables": study.variables,
+    "study distributions": study.distributions,
+    "study encounters": study.encounters,
+    "study collisions": study.collisions,
     "findings": findings.findings,
     "api": api.api,
     "rooms": rooms.rooms,

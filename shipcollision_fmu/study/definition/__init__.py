@@ -9,7 +9,8 @@
       fleet_tables.py       [own] and [target]
       fleet.py              the ships among which rows choose, by number
       partial_loading.py    a ship at a lesser draught
-      situations.py         files of traffic in place of kinds of encounter
+      dimensions.py         what is drawn at random, in order
+    situations.py         files of traffic in place of kinds of encounter
     table_checks.py       checks that need the tables of data
       level_checks.py       checks that need the level of detail
 

@@ -8,7 +8,7 @@ from ...encounters.request import KINDS
 from ...errors import StudyError
 from .distributions import Distribution, TableColumn
 from .study_file import StudyFile
-from .variables import IMPACT, NUMBERS, SITUATION, SURROUNDINGS, WORDS, acts_with
+from .variables import IMPACT, NUMBERS, SAILED, SITUATION, SURROUNDINGS, WORDS, acts_with
 
 __all__ = ["check_level"]
 
@@ -26,11 +26,18 @@ def check_level(file: StudyFile, variables: Mapping[str, Distribution], source: 
             raise StudyError(
                 f'{place} has no effect at level = "{level}": remove it, or take level = "{NUMBERS[name].levels[0]}"'
             )
+        _check_astern(place, name, level, _find_limits(name, file, variables))
         _check_kinds(place, name, kinds, _find_limits(name, file, variables))
     place = f"{source}: [{'grid' if 'kind' in file.grid else 'encounter'}] kind"
     for kind in kinds:
         if kind != SITUATION and KINDS[kind].sailed and level != "sailed":
             raise StudyError(f'{place} = "{kind}" needs ships that steer: take level = "sailed", or another kind')
+
+
+def _check_astern(place: str, name: str, level: str, limits: tuple[float, float] | None) -> None:
+    """A ship that is sailed to the impact goes ahead."""
+    if level == SAILED and name in ("own_speed", "target_speed") and limits is not None and limits[0] < 0.0:
+        raise StudyError(f'{place} goes down to {limits[0]:g}, must be at least 0 at level = "sailed": change least')
 
 
 def _check_situations(file: StudyFile, source: str) -> None:

@@ -21,6 +21,7 @@ from ...files import is_file, is_folder
 from ...ship.loading.library import find_models
 from ...ship.loading.messages import describe_error, suggest_or_list
 from ...ship.loading.toml import parse_toml
+from .dimensions import list_dimensions
 from .distributions import Distribution
 from .empirical import EmpiricalTable, read_empirical_table
 from .fleet import Fleet, digest_fleet, make_fleet
@@ -32,6 +33,8 @@ from .variables import WORDS
 
 __all__ = ["Study", "list_study_names", "parse_study", "read_study"]
 
+SOBOL_DIMENSIONS = 32
+"""Dimensions for which rows/direction_numbers.py has numbers."""
 FORMAT = 1
 """Counts changes of how rows are made from a study: part of the fingerprint, so that old and new rows never mix."""
 
@@ -73,6 +76,11 @@ class Study:
     def level(self) -> str:
         """ "impact", "encounter" or "sailed"."""
         return self.header.level
+
+    @property
+    def dimensions(self) -> list[str]:
+        """What is drawn at random, in the order of the sampler's dimensions."""
+        return list_dimensions(self.tables, {"own": self.own, "target": self.target}, self.variables, self.grid)
 
     @property
     def seed(self) -> int:
@@ -129,12 +137,24 @@ def parse_study(text: str, source: str = "study", folder: str | Path = ".") -> S
     target = own
     if file.target is not None or situations:
         target = make_fleet("target", file.target, tables, folder, source)
-    return Study(
+    study = Study(
         text, source, _digest(text, own, target, tables, situations), file.study,
         _count_rows(file, len(situations), source), file.run, variables,
         {"situation": list(situations), **file.grid} if situations else file.grid, tables, own, target, situations,
         None if file.situations is None else file.situations.duration,
     )  # fmt: skip
+    _check_dimensions(study)
+    return study
+
+
+def _check_dimensions(study: Study) -> None:
+    """Raise StudyError for more dimensions than Sobol's sequence has."""
+    drawn = study.dimensions
+    if study.header.sampler == "sobol" and len(drawn) > SOBOL_DIMENSIONS:
+        raise StudyError(
+            f"{study.source}: [study] sampler = 'sobol' has {SOBOL_DIMENSIONS} dimensions, and {len(drawn)} variables, "
+            "ships and tables are drawn: take latin-hypercube"
+        )
 
 
 def _refuse_other_file(data: dict[str, Any], source: str) -> None:

@@ -16,7 +16,7 @@ from ..definition.study import Study
 from ..definition.variables import NUMBERS, SAILED, SITUATION, acts_with
 from .sampling import Sampler
 
-__all__ = ["Cases", "draw_cases", "list_dimensions"]
+__all__ = ["Cases", "draw_cases"]
 
 
 @dataclass(frozen=True)
@@ -41,22 +41,9 @@ class Cases:
         return len(self.rows)
 
 
-def list_dimensions(study: Study) -> list[str]:
-    """What is drawn at random, in the order of the sampler's dimensions: tables, ships, variables."""
-    fleets = [
-        f"{role}.ship" for role, fleet in (("own", study.own), ("target", study.target))
-        if fleet.column is None and fleet.size > 1
-    ]  # fmt: skip
-    drawn = [
-        name for name, given in study.variables.items()
-        if name not in study.grid and not isinstance(given, Constant | TableColumn)
-    ]  # fmt: skip
-    return [*(f"table.{name}" for name in study.tables), *fleets, *drawn]
-
-
 def draw_cases(study: Study, first: int, count: int) -> Cases:
     """The cases of the rows first to first + count - 1."""
-    sampler = Sampler(study.header.sampler, study.seed, study.rows, list_dimensions(study))
+    sampler = Sampler(study.header.sampler, study.seed, study.rows, study.dimensions)
     rows = np.arange(first, first + count, dtype=np.int64)
     lines = {
         name: table.find_lines(sampler.draw(f"table.{name}", first, count)) for name, table in study.tables.items()

@@ -32,6 +32,7 @@ PRIMITIVE = (
 the highest first, and the first direction numbers m_1, m_2, ..., as many as its degree."""
 
 DIMENSIONS = len(PRIMITIVE) + 1
+"""As many as definition/study.py allows."""
 
 
 @lru_cache(maxsize=DIMENSIONS)

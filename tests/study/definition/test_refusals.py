@@ -32,6 +32,7 @@ L_over_B = 6.0
 B_over_T = 2.6
 C_b = 0.8"""
 TABLES = {"data.csv": "v,word,ship,w\n3.0,port,kcs,1\n70.0,left,titanic,-1\n"}
+MANY = "".join(f'[tables.t{i}]\nfile = "good.csv"\n' for i in range(32))
 DATA = '\n[tables.data]\nfile = "data.csv"'
 
 REFUSALS: dict[str, tuple[tuple[str, str], str]] = {
@@ -237,6 +238,14 @@ REFUSALS: dict[str, tuple[tuple[str, str], str]] = {
     "Parquet that is none": (
         (SPEED, '[tables.data]\nfile = "cut.parquet"'), "file = 'cut.parquet' is not Parquet: ",
     ),
+    "too many dimensions": (
+        (GOOD, GOOD.replace("rows = 100", 'rows = 64\nsampler = "sobol"') + MANY),
+        "[study] sampler = 'sobol' has 32 dimensions, and 33 variables, ships and tables are drawn: take latin-hyper",
+    ),
+    "a sailed ship that goes astern": (
+        (END, END.replace("impact", "sailed").replace("2.0", "-2.0")),
+        '[encounter] own_speed goes down to -2, must be at least 0 at level = "sailed": change least',
+    ),
     # -- [situations]
     "situations without motion": (
         (SPEED, '[situations]\nfolder = "."'), '[situations] needs ships that move: take level = "encounter" or "sail',
@@ -278,6 +287,7 @@ def test_a_bad_study_is_refused_in_one_line(name: str, tmp_path: Path) -> None:
     assert old in GOOD
     for file, text in {
         **TABLES, "empty.csv": "a,b\n", "none.csv": "", "short.csv": "a,b\n1,2\n3\n", "nan.csv": "a,b\n1,nan\n",
+        "good.csv": "a\n1\n",
         "cut.parquet": "PAR1 and no more",
     }.items():  # fmt: skip
         (tmp_path / file).write_text(text)

@@ -13,7 +13,7 @@ import pytest
 from shipcollision_fmu import load_ship
 from shipcollision_fmu.study.definition.partial_loading import find_block_coefficient
 from shipcollision_fmu.study.definition.study import Study, parse_study
-from shipcollision_fmu.study.rows.cases import draw_cases, list_dimensions
+from shipcollision_fmu.study.rows.cases import draw_cases
 from shipcollision_fmu.study.rows.fleet_ships import find_ship
 
 HEAD = """
@@ -170,7 +170,7 @@ def test_a_lesser_draught_keeps_the_deck_where_it_is() -> None:
 def test_a_target_without_a_table_is_of_the_fleet_of_own() -> None:
     study = read("")
     assert study.target is study.own
-    assert list_dimensions(study) == []  # one ship and no variable: nothing is drawn
+    assert study.dimensions == []  # one ship and no variable: nothing is drawn
 
 
 def test_what_a_kind_adds() -> None:

@@ -7,6 +7,7 @@ import pytest
 from scipy import stats
 from scipy.stats import qmc
 
+from shipcollision_fmu.study.definition.study import SOBOL_DIMENSIONS
 from shipcollision_fmu.study.definition.study_file import SAMPLERS
 from shipcollision_fmu.study.rows.direction_numbers import DIMENSIONS
 from shipcollision_fmu.study.rows.permutation import permute
@@ -79,6 +80,7 @@ def test_sobol_hits_each_stratum_once() -> None:
 
 def test_sobol_has_the_points_of_scipy() -> None:
     """All dimensions; SciPy's points have 30 bits."""
+    assert DIMENSIONS == SOBOL_DIMENSIONS
     points = qmc.Sobol(DIMENSIONS, scramble=False).random(4096)
     own = np.column_stack([sobol_bits(d, 0, 4096) * 2.0**-40 for d in range(DIMENSIONS)])
     assert (own == points).all()
