@@ -8,7 +8,7 @@ A ship of a fleet has a number, counted through all choices. Ships from files tr
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
@@ -41,9 +41,10 @@ class NamedShip:
 
 @dataclass(frozen=True)
 class Pool:
-    """`count` ships sampled by kind. key: begins the names of their random numbers."""
+    """`count` ships sampled by kind. key: begins the names of their random numbers; label: begins their own names."""
 
     key: str
+    label: str
     table: PoolTable
 
     @property
@@ -92,9 +93,12 @@ class Fleet:
 
 
 def make_fleet(
-    role: str, table: FleetTable | None, tables: Mapping[str, EmpiricalTable], folder: Path, source: str
+    role: str, table: FleetTable | None, tables: Mapping[str, EmpiricalTable], folder: Path, source: str, sails: bool
 ) -> Fleet:  # fmt: skip
-    """The fleet of [own] or [target], empty without the table. Raises StudyError for a ship that cannot be loaded."""
+    """The fleet of [own] or [target], empty without the table.
+
+    sails: whether the ships are under way. Raises StudyError for a ship that cannot be loaded, or that cannot sail.
+    """
     if table is None:
         return Fleet((), np.zeros(0), np.zeros(0, np.int64))
     place = f"{source}: [{role}]"
@@ -108,12 +112,27 @@ def make_fleet(
     choices: list[NamedShip | Pool] = [
         ship for name, weight in names.items() for ship in _list_loadings(name, weight, table, folder, place, column)
     ]
-    choices += [Pool(f"{role}.sampled.{i}", pool) for i, pool in enumerate(table.sampled)]
+    if sails:
+        _check_sailing(choices, place)
+    choices += list_pools(role, table.sampled)
     counts = [choice.count for choice in choices]
     return Fleet(
         tuple(choices), cumulate([choice.weight for choice in choices]),
         np.concatenate([[0], np.cumsum(counts)[:-1]]).astype(np.int64), column,
     )  # fmt: skip
+
+
+def list_pools(role: str, tables: Sequence[PoolTable]) -> list[Pool]:
+    """The pools; several of one kind are numbered, so that each ship has a name of its own."""
+    kinds = [table.kind for table in tables]
+    return [
+        Pool(
+            f"{role}.sampled.{i}",
+            kind if kinds.count(kind) == 1 else f"{kind}, pool {kinds[: i + 1].count(kind)}:",
+            tables[i],
+        )
+        for i, kind in enumerate(kinds)
+    ]
 
 
 def _list_loadings(
@@ -135,6 +154,15 @@ def _list_loadings(
             raise StudyError(f"{place} ships: {name}{at}: {error}") from None
         label = name if share == 1.0 or column is not None else f"{name} at {share:g} T"
         yield NamedShip(label, weight * part / total, source)
+
+
+def _check_sailing(choices: Sequence[NamedShip | Pool], place: str) -> None:
+    for choice in choices:
+        if isinstance(choice, NamedShip) and load_ship(choice.source).manoeuvring is None:
+            raise StudyError(
+                f"{place} ships: {choice.label} can only coast, it has no [manoeuvring]: take level = "
+                '"encounter", or another ship'
+            )
 
 
 def _find_source(name: str, folder: Path) -> str | dict[str, Any]:

@@ -7,15 +7,18 @@ from collections.abc import Mapping
 from ...encounters.request import KINDS
 from ...errors import StudyError
 from .distributions import Distribution, TableColumn
+from .empirical import EmpiricalTable
 from .study_file import StudyFile
 from .variables import IMPACT, NUMBERS, SAILED, SITUATION, SURROUNDINGS, WORDS, acts_with
 
 __all__ = ["check_level"]
 
 
-def check_level(file: StudyFile, variables: Mapping[str, Distribution], source: str) -> None:
+def check_level(
+    file: StudyFile, variables: Mapping[str, Distribution], tables: Mapping[str, EmpiricalTable], source: str
+) -> None:  # fmt: skip
     """Raise StudyError for a variable that does not act at the level or with the kinds of the study."""
-    level, kinds = file.study.level, _list_kinds(file, variables)
+    level, kinds = file.study.level, _list_kinds(file, variables, tables)
     if file.situations is not None:
         _check_situations(file, source)
     for name in (*variables, *file.grid):
@@ -26,8 +29,8 @@ def check_level(file: StudyFile, variables: Mapping[str, Distribution], source: 
             raise StudyError(
                 f'{place} has no effect at level = "{level}": remove it, or take level = "{NUMBERS[name].levels[0]}"'
             )
-        _check_astern(place, name, level, _find_limits(name, file, variables))
-        _check_kinds(place, name, kinds, _find_limits(name, file, variables))
+        _check_astern(place, name, level, _find_limits(name, file, variables, tables))
+        _check_kinds(place, name, kinds, _find_limits(name, file, variables, tables))
     place = f"{source}: [{'grid' if 'kind' in file.grid else 'encounter'}] kind"
     for kind in kinds:
         if kind != SITUATION and KINDS[kind].sailed and level != "sailed":
@@ -54,22 +57,32 @@ def _check_situations(file: StudyFile, source: str) -> None:
             raise StudyError(f"{source}: [encounter] {missing} is missing: a {what} has a speed and a direction")
 
 
-def _list_kinds(file: StudyFile, variables: Mapping[str, Distribution]) -> list[str]:
+def _list_kinds(
+    file: StudyFile, variables: Mapping[str, Distribution], tables: Mapping[str, EmpiricalTable]
+) -> list[str]:
     if file.situations is not None:
         return [SITUATION]
     if "kind" in file.grid:
         return [str(word) for word in file.grid["kind"]]
     given = variables["kind"]
-    return [] if isinstance(given, TableColumn) else given.words()
+    if isinstance(given, TableColumn):
+        return sorted(set(tables[given.table].columns[given.column].tolist()))
+    return given.words()
 
 
-def _find_limits(name: str, file: StudyFile, variables: Mapping[str, Distribution]) -> tuple[float, float] | None:
-    """Least and greatest value of a number; None where they are not known."""
+def _find_limits(
+    name: str, file: StudyFile, variables: Mapping[str, Distribution], tables: Mapping[str, EmpiricalTable]
+) -> tuple[float, float] | None:
+    """Least and greatest value of a number; None of a word."""
     if name in WORDS:
         return None
     if name in file.grid:
         return min(file.grid[name]), max(file.grid[name])
-    return None if isinstance(variables[name], TableColumn) else variables[name].limits()
+    given = variables[name]
+    if isinstance(given, TableColumn):
+        values = tables[given.table].columns[given.column]
+        return float(values.min()), float(values.max())
+    return given.limits()
 
 
 def _check_kinds(place: str, name: str, kinds: list[str], limits: tuple[float, float] | None) -> None:

@@ -29,7 +29,7 @@ from .level_checks import check_level
 from .situations import read_situations
 from .study_file import Header, RunTable, StudyFile
 from .table_checks import check_columns
-from .variables import WORDS
+from .variables import SAILED, WORDS
 
 __all__ = ["Study", "list_study_names", "parse_study", "read_study"]
 
@@ -127,16 +127,17 @@ def parse_study(text: str, source: str = "study", folder: str | Path = ".") -> S
     }
     check_columns(file, tables, source)
     variables = dict(file.encounter.list_given())
-    check_level(file, variables, source)
+    check_level(file, variables, tables, source)
+    sails = file.study.level == SAILED
     if file.situations is not None:  # their files say how the ships meet
         variables = {name: given for name, given in variables.items() if name not in WORDS}
-    own = make_fleet("own", file.own, tables, folder, source)
+    own = make_fleet("own", file.own, tables, folder, source, sails)
     situations = {}
     if file.situations is not None:
         situations = read_situations(file.situations, folder, f"{source}: [situations]")
     target = own
     if file.target is not None or situations:
-        target = make_fleet("target", file.target, tables, folder, source)
+        target = make_fleet("target", file.target, tables, folder, source, sails)
     study = Study(
         text, source, _digest(text, own, target, tables, situations), file.study,
         _count_rows(file, len(situations), source), file.run, variables,

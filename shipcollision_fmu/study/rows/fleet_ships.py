@@ -24,8 +24,8 @@ from .uniform_numbers import draw_shares
 
 __all__ = ["FleetShip", "find_ship"]
 
-SHIPS_KEPT = 4096
-"""Ships kept in memory, about 20 kB each. With fewer than a study has, they are made again for later rows."""
+SHIPS_KEPT = 1024
+"""Ships kept in memory, about 80 kB each. With fewer than a study has, they are made again for later rows."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,7 +71,7 @@ class _Fleet:
 @lru_cache(maxsize=SHIPS_KEPT)
 def _find(of: _Fleet, number: int) -> FleetShip:
     choice, member = getattr(of.study, of.role).locate(number)
-    label = choice.label if isinstance(choice, NamedShip) else f"{choice.table.kind} {member + 1}"
+    label = choice.label if isinstance(choice, NamedShip) else f"{choice.label} {member + 1}"
     source: str | Mapping[str, Any] = ""
     try:
         source = choice.source if isinstance(choice, NamedShip) else _make(of, choice, member)
@@ -88,7 +88,7 @@ def _make(of: _Fleet, pool: Pool, member: int) -> dict[str, Any]:
     T = B / _draw(of, pool, "B_over_T", member) if table.T is None else _draw(of, pool, "T", member)
     loading = _draw(of, pool, "loading", member)
     tables = {
-        "ship": {"name": f"{table.kind} {member + 1}", "kind": table.kind, "source": "Sampled by a study."},
+        "ship": {"name": f"{pool.label} {member + 1}", "kind": table.kind, "source": "Sampled by a study."},
         "particulars": {"L_pp": L_pp, "B": B, "T": T, "C_b": _draw(of, pool, "C_b", member)},
     }
     return tables if loading == 1.0 else load_partially(load_ship(tables), loading)

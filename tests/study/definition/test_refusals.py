@@ -246,6 +246,14 @@ REFUSALS: dict[str, tuple[tuple[str, str], str]] = {
         (END, END.replace("impact", "sailed").replace("2.0", "-2.0")),
         '[encounter] own_speed goes down to -2, must be at least 0 at level = "sailed": change least',
     ),
+    "a sailed ship that only coasts": (
+        (END, END.replace("impact", "sailed").replace("kcs", "guan2014_own")),
+        "[own] ships: guan2014_own can only coast, it has no [manoeuvring]: take level = \"encounter\", or another",
+    ),
+    "a kind of another level in a column": (
+        (SPEED, 'kind = {table = "data", column = "kind"}' + DATA.replace("data.csv", "kinds.csv")),
+        '[encounter] kind = "late-evasive" needs ships that steer: take level = "sailed", or another kind',
+    ),
     # -- [situations]
     "situations without motion": (
         (SPEED, '[situations]\nfolder = "."'), '[situations] needs ships that move: take level = "encounter" or "sail',
@@ -287,7 +295,7 @@ def test_a_bad_study_is_refused_in_one_line(name: str, tmp_path: Path) -> None:
     assert old in GOOD
     for file, text in {
         **TABLES, "empty.csv": "a,b\n", "none.csv": "", "short.csv": "a,b\n1,2\n3\n", "nan.csv": "a,b\n1,nan\n",
-        "good.csv": "a\n1\n",
+        "kinds.csv": "kind\nt-bone\nlate-evasive\n", "good.csv": "a\n1\n",
         "cut.parquet": "PAR1 and no more",
     }.items():  # fmt: skip
         (tmp_path / file).write_text(text)

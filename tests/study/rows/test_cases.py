@@ -155,6 +155,14 @@ def test_sampled_ships_have_the_dimensions_drawn_for_them() -> None:
         assert ship.C_b == pytest.approx(find_block_coefficient(0.8, share))
 
 
+def test_pools_of_one_kind_have_ships_of_their_own_names() -> None:
+    pool = '[[target.sampled]]\nkind = "tanker"\ncount = 2\nL_pp = {}\nL_over_B = 6.0\nB_over_T = 2.6\nC_b = 0.8\n'
+    study = read(pool.format(200.0) + pool.format(100.0))
+    ships = [find_ship(study, "target", number) for number in range(4)]
+    assert [ship.label for ship in ships] == [f"tanker, pool {i}: {k}" for i in (1, 2) for k in (1, 2)]
+    assert [ship.loaded.L_pp for ship in ships] == [200.0, 200.0, 100.0, 100.0]
+
+
 def test_a_lesser_draught_keeps_the_deck_where_it_is() -> None:
     """Mass by T' and C_b'; the deck rises by what the ship rises, and keeps its outline."""
     study, whole = read(FLEET), load_ship("kcs")

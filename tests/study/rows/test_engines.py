@@ -44,7 +44,8 @@ SLOW = 'own_speed = {distribution = "uniform", least = 0.0, most = 8.0}'
 
 
 def read_twins(level: str, more: str = "", separation: float = 100.0) -> Study:
-    return parse_study(TEXT.format(level=level, more=more, separation=separation))
+    text = TEXT.format(level=level, more=more, separation=separation)
+    return parse_study(text if level != "sailed" else text.replace("guan2014_own", "kvlcc2"))
 
 
 def compare(native: RowTables, python: RowTables, relative: float) -> None:

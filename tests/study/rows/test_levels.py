@@ -1,0 +1,107 @@
+"""Levels `encounter` and `sailed`: the rows are those of direct calls of collide() and run_encounters()."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from shipcollision_fmu import collide, encounter, impact, run_encounters
+from shipcollision_fmu.study.definition.study import Study, parse_study
+from shipcollision_fmu.study.rows.compute import compute_rows
+from tests.study.rows.test_compute import as_bytes
+
+TEXT = """
+[study]
+name = "levels"
+level = "{level}"
+rows = 1000
+[own]
+ships = ["kcs", "kvlcc2"]
+[run]
+degrees_of_freedom = {freedom}
+after = 30.0
+separation = 8.0
+[encounter]
+friction = {{distribution = "uniform", least = 0.1, most = 0.6}}
+side = {{distribution = "discrete", values = ["port", "starboard"]}}
+{more}
+"""
+
+
+def read(level: str, more: str, freedom: int = 3) -> Study:
+    return parse_study(TEXT.format(level=level, more=more, freedom=freedom))
+
+
+def compare(line: dict[str, Any], collisions: list[dict[str, Any]], tables: Any) -> None:
+    """The numbers of a row beside those of the tables of one encounter."""
+    (row,) = tables.encounters
+    assert row["status"] == 0
+    for name in ("energy", "energy_normal", "energy_tangential", "collisions", "clearance", "unconverged"):
+        assert line[name] == row[name]
+    assert line["duration"] == row["time"]
+    assert len(collisions) == len(tables.collisions) > 0
+    for mine, theirs in zip(collisions, tables.collisions, strict=True):
+        for name in ("start", "end", "energy", "closing_speed", "contacts", "ship_a", "ship_b"):
+            assert mine[name] == theirs[name]
+        assert mine["impulse"] == np.hypot(*theirs["impulse"][:2])
+        assert [mine[f"b_{axis}"] for axis in "xyz"] == theirs["b_point"].tolist()
+        for when in ("before", "after"):
+            assert mine[f"a_sway_{when}"] == theirs[f"a_{when}"][1]
+            assert mine[f"b_yaw_rate_{when}"] == theirs[f"b_{when}"][5]
+    assert line["own_surge_after"] == tables.collisions[0]["a_after"][0]
+    assert line["target_y"] == tables.collisions[0]["b_point"][1]
+    assert line["contacts"] == tables.collisions["contacts"].sum()
+
+
+def find_collisions(tables: Any, row: int) -> list[dict[str, Any]]:
+    return [line for line in tables.collisions.to_pylist() if line["row"] == row]
+
+
+@pytest.mark.parametrize("freedom", [3, 4])
+def test_encounters_are_those_of_collide(freedom: int) -> None:
+    more = "angle_deg = 70.0\nown_sway = 0.2\nrestitution = 0.1\nheading_deg = 20.0"
+    tables = compute_rows(read("encounter", more, freedom), 50, 4)
+    for line in tables.encounters.to_pylist():
+        given = {
+            name: line[name] for name in (
+                "angle_deg", "at", "own_speed", "target_speed", "side", "own_sway", "heading_deg", "friction",
+                "restitution",
+            )
+        }  # fmt: skip
+        direct = collide(
+            line["own_ship"], line["target_ship"], **given, degrees_of_freedom=freedom, after=30.0, separation=8.0
+        )
+        compare(line, find_collisions(tables, line["row"]), direct)
+
+
+def test_sailed_cases_are_those_of_encounter() -> None:
+    tables = compute_rows(read("sailed", 'kind = "late-evasive"\nrudder_deg = 20.0\nangle_deg = 80.0'), 7, 2)
+    for line in tables.encounters.to_pylist():
+        given = {name: line[name] for name in ("angle_deg", "at", "own_speed", "target_speed", "side", "rudder_deg")}
+        scenario = encounter(
+            "late-evasive", own=line["own_ship"], target=line["target_ship"], **given, after=30.0
+        ).scenario
+        contact = scenario.collision.model_copy(update={"friction": line["friction"], "restitution": 0.0})
+        direct = run_encounters([scenario.model_copy(update={"collision": contact})], separation=8.0)
+        compare(line, find_collisions(tables, line["row"]), direct)
+
+
+@pytest.mark.parametrize("freedom", [4, 6])
+def test_impacts_in_more_degrees_of_freedom(freedom: int) -> None:
+    tables = compute_rows(read("impact", "", freedom), 0, 6)
+    for line in tables.encounters.to_pylist():
+        row = impact(
+            line["own_ship"], line["target_ship"], side=line["side"], friction=line["friction"], target_speed=5.0,
+            degrees_of_freedom=freedom,
+        )  # fmt: skip
+        assert line["energy"] == row["energy"]
+
+
+@pytest.mark.parametrize(("level", "size"), [("encounter", 5), ("sailed", 1)])
+def test_rows_do_not_depend_on_batches(level: str, size: int) -> None:
+    study = read(level, 'own_speed = {distribution = "normal", mean = 5.0, sd = 1.0, least = 3.0, most = 8.0}')
+    whole = as_bytes(compute_rows(study, 20, 2 * size))
+    parts = [as_bytes(compute_rows(study, first, size)) for first in (20 + size, 20)]
+    assert [parts[1][table] + parts[0][table] for table in (0, 1)] == whole
