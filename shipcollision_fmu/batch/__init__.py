@@ -1,6 +1,7 @@
 """Many cases in one call of the native library (native/batch): structured arrays come out.
 
     impact.py          impact(): the contact alone, for arrays of angles, places and speeds
+      case_table.py      arguments of both as a table of cases
       impact_columns.py      columns of its table, with units and meanings
       native_impacts.py    the calls of the library
     collide.py         collide(): whole collisions of coasting ships, for the same arrays

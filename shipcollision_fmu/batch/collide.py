@@ -28,10 +28,11 @@ from ..scenario.tables.header import MAXIMUM_STEPS
 from ..ship.coasting_law import COASTING
 from ..ship.degrees_of_freedom import free_inverse
 from ..ship.ship import Ship
+from .case_table import fill_cases
 from .encounter_case import NEVER
 from .encounter_tables import EncounterBook, Encounters
 from .encounters import check_separation
-from .impact import check_freedom, fill_cases, run_cases
+from .impact import check_freedom, run_cases
 from .native_encounters import EncounterCase, EncounterShip, NativeEncounters
 from .prepared_ships import AnyShip, PreparedShips, find_ship
 

@@ -16,18 +16,17 @@ from contextlib import closing
 from numbers import Integral
 from typing import Any
 
-import numpy as np
 import numpy.typing as npt
 
 from ..encounters.plan_contact import cut_section, find_contact_height
 from ..errors import ScenarioError
 from ..ship.hull.hull import build_hull
 from ..ship.ship import Ship
-from .impact_columns import CASES
+from .case_table import fill_cases
 from .native_impacts import ImpactShip, NativeImpacts
 from .prepared_ships import AnyShip, PreparedShips, find_ship
 
-__all__ = ["check_freedom", "fill_cases", "impact", "open_impacts", "run_cases"]
+__all__ = ["check_freedom", "impact", "open_impacts", "run_cases"]
 
 FREEDOMS = (3, 4, 6)
 """Degrees of freedom that a ship may have."""
@@ -85,29 +84,6 @@ def check_freedom(caller: str, degrees_of_freedom: int) -> None:
         raise ScenarioError(
             f"{caller}: degrees_of_freedom = {degrees_of_freedom!r} must be 3 (surge, sway, yaw), 4 (and roll) or 6"
         )
-
-
-def fill_cases(caller: str, numbers: dict[str, npt.ArrayLike], side: npt.ArrayLike) -> npt.NDArray[Any]:
-    """The table of cases, of the shape to which all arguments broadcast; what is not given is zero."""
-    sides = np.asarray(side)
-    is_starboard = sides == "starboard"
-    unknown = sides[~(is_starboard | (sides == "port"))].tolist()
-    if unknown:
-        raise ScenarioError(f"{caller}: side = {unknown[0]!r} must be port or starboard")
-    try:
-        arrays = {name: np.asarray(value, dtype=np.float64) for name, value in numbers.items()}
-    except (TypeError, ValueError, OverflowError) as error:
-        raise ScenarioError(f"{caller}: an argument is no array of numbers: {error}") from None
-    try:
-        shape = np.broadcast_shapes(sides.shape, *(array.shape for array in arrays.values()))
-    except ValueError:
-        given = ", ".join(f"{name} {array.shape}" for name, array in arrays.items() if array.shape)
-        raise ScenarioError(f"{caller}: the shapes do not broadcast to one: {given}, side {sides.shape}") from None
-    cases = np.zeros(shape, CASES)
-    for name, array in arrays.items():
-        cases[name] = array
-    cases["is_starboard"] = is_starboard
-    return cases
 
 
 def run_cases(

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import ctypes
 from concurrent.futures import ThreadPoolExecutor
+from decimal import Decimal
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 import pytest
 
-from shipcollision_fmu import impact, load_ship
+from shipcollision_fmu import collide, impact, load_ship
 from shipcollision_fmu.batch.impact_columns import CASES, IMPACTS
 from shipcollision_fmu.collision.model import ShipCollision
 from shipcollision_fmu.encounters.plan_contact import cut_section, find_contact_height, find_contacts, locate_place
@@ -243,8 +245,7 @@ def test_arguments_that_do_not_fit_are_refused() -> None:
             {"at": [0.0, 0.1], "own_speed": [1.0, 2.0, 3.0]},
             r"do not broadcast to one: at \(2,\), own_speed \(3,\), side",
         ),
-        ({"friction": "slippery"}, "an argument is no array of numbers: could not convert string"),
-        ({"friction": 10**400}, "an argument is no array of numbers: int too large"),
+        ({"friction": 10**400}, "friction is no array of numbers: int too large"),
         ({"side": None}, "side = None must be port or starboard"),
         ({"degrees_of_freedom": 5}, "degrees_of_freedom = 5 must be 3"),
         ({"degrees_of_freedom": 3.0}, r"degrees_of_freedom = 3\.0 must be 3"),
@@ -256,6 +257,64 @@ def test_arguments_that_do_not_fit_are_refused() -> None:
         impact("kvlc", "kcs")
     with pytest.raises(ShipError, match=r"unknown ship 'x+'"):
         impact(5000 * "x", "kcs")
+
+
+NO_NUMBERS = [
+    ("slippery", r"friction = 'slippery' is no real number: give numbers, or an array of them$"),
+    ("0.3", r"friction = '0\.3' is no real number"),
+    (["0.3", "0.4"], r"friction\[0\] = '0\.3' is no real number"),
+    (b"0.3", r"friction = b'0\.3' is no real number"),
+    (0.3 + 0.1j, r"friction = \(0\.3\+0\.1j\) is no real number"),
+    (np.array([[0.3, 0.4 + 0j]]), r"friction\[0, 0\] = \(0\.3\+0j\) is no real number"),
+    (np.array([0.3, "0.4"], dtype=object), r"friction\[1\] = '0\.4' is no real number"),
+    ([[0.3], [None]], r"friction\[1, 0\] = None is no real number"),
+    (np.array(["2026-01-01"], dtype="M8[D]"), r"friction\[0\] = datetime\.date\(2026, 1, 1\) is no real number"),
+    (np.zeros(2, [("mu", "f8")]), r"friction\[0\] = \(0\.0,\) is no real number"),
+    ({0.3}, r"friction = \{0\.3\} is no real number"),
+    ([[0.3], [0.3, 0.4]], r"friction is no array: setting an array element with a sequence"),
+    (np.ma.masked_array([0.3, 0.4, 0.5], [False, True, True]), r"friction\[1\] is masked, and cases have no masks: "),
+    (np.ma.masked_array([[0.3, 0.4]], [[False, True]]), r"friction\[0, 1\] is masked"),
+    (np.ma.masked, r"friction is masked"),
+]
+
+
+@pytest.mark.parametrize(("friction", "words"), NO_NUMBERS)
+@pytest.mark.parametrize("function", [impact, collide])
+def test_what_is_no_number_is_refused_by_name_and_place(function: Any, friction: Any, words: str) -> None:
+    """It was parsed, cut to its real part, taken without its mask or read as days."""
+    with pytest.raises(ScenarioError, match=f"^{function.__name__}: {words}"):
+        function("kvlcc2", "kcs", friction=friction)
+
+
+def test_sides_that_are_masked_or_no_array_are_refused() -> None:
+    for side, words in (
+        (np.ma.masked_array(["port", "port"], [True, False]), r"side\[0\] is masked"),
+        ([["port"], ["port", "port"]], "side is no array"), ([b"port"], "side = b'port' must be port or starboard"),
+    ):  # fmt: skip
+        with pytest.raises(ScenarioError, match=f"^impact: {words}"):
+            impact("kvlcc2", "kcs", side=side)
+
+
+def test_any_array_of_numbers_is_taken() -> None:
+    """Strided, read-only, of another byte order or precision, of objects, masked in no place."""
+    speeds = np.array([5.0, 6.0])
+    expected = impact("kvlcc2", "kcs", own_speed=speeds)
+    fixed = speeds.copy()
+    fixed.flags.writeable = False
+    for given in (
+        [5, 6], np.array([5.0, 0.0, 6.0])[::2], fixed, speeds.astype(">f8"), speeds.astype("f4"),
+        np.array([5, 6], "u1"),
+        np.array([Decimal(5), Fraction(6)], dtype=object), np.ma.masked_array(speeds, [False, False]),
+        np.ma.masked_array(speeds),
+    ):  # fmt: skip
+        assert impact("kvlcc2", "kcs", own_speed=given).tobytes() == expected.tobytes()
+    assert impact("kvlcc2", "kcs", own_speed=np.array(5.0)).tobytes() == expected[0].tobytes()
+
+
+@pytest.mark.parametrize("speeds", [[], np.zeros((0, 2))])
+def test_no_cases_are_an_empty_table(speeds: Any) -> None:
+    assert impact("kvlcc2", "kcs", own_speed=speeds).shape == np.shape(speeds)
+    assert collide("kvlcc2", "kcs", own_speed=speeds).encounters.shape == (0,)
 
 
 def test_the_tables_are_those_of_the_library() -> None:
