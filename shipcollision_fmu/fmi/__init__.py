@@ -11,6 +11,7 @@ Run time, inside the FMU and in process
     variable_access     values by value reference, steps and saved states; the same for an FMU and a run in process
     slave_base          what the slaves of both versions of FMI do
     slave, slave_fmi3   the bases of the slaves in fmu_src/
+    undecodable         text of a host that is not UTF-8
     build_record        what an FMU was built from, and whether the running package is the same
     wrapper_library     a fault of the wrappers' libraries at their end, and its remedy
 Build time

@@ -19,6 +19,7 @@ from pythonfmu.enums import Fmi2Status
 from pythonfmu.fmi2slave import Fmi2Slave
 
 from .slave_base import EVENTS, SlaveBase, take_reference
+from .undecodable import make_own, replace_undecodable
 
 __all__ = ["ModelSlave"]
 
@@ -30,8 +31,9 @@ class ModelSlave(SlaveBase, Fmi2Slave):  # type: ignore[misc]  # pythonfmu has n
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
         """Keep the slave's module alive: at each instantiation pythonfmu 0.7 runs its text and drops one reference to
-        its dictionary too many."""
+        its dictionary too many. Text that is not UTF-8 reaches its own set_string alone."""
         super().__init_subclass__(**kwargs)
+        make_own(cls, "set_string")
         if cls.__module__ in sys.modules:
             take_reference(vars(sys.modules[cls.__module__]))
 
@@ -69,6 +71,7 @@ class ModelSlave(SlaveBase, Fmi2Slave):  # type: ignore[misc]  # pythonfmu has n
 
     def set_string(self, vrs: list[int], values: list[str]) -> None:
         """Set Strings."""
+        replace_undecodable(values)
         self.set_values(self.access.set_string, vrs, values)
 
     def report(self, line: str) -> None:

@@ -24,6 +24,7 @@ from pythonfmu3.fmi3slave import Fmi3Slave, Fmi3StepResult
 from ..errors import InputError
 from .arrays import TIME, TYPES, ArrayVariable, gather_arrays
 from .slave_base import EVENTS, SlaveBase
+from .undecodable import make_own, replace_undecodable
 from .variables import Kind
 
 __all__ = ["ModelSlave3"]
@@ -45,6 +46,11 @@ class ModelSlave3(SlaveBase, Fmi3Slave):  # type: ignore[misc]  # pythonfmu3 has
     """An Interface as an FMI 3.0 slave: see SlaveBase."""
 
     wrapper = f"pythonfmu3 {pythonfmu3.__version__}"
+
+    def __init_subclass__(cls, **kwargs: Any) -> None:
+        """Text that is not UTF-8 reaches a slave's own set_string alone."""
+        super().__init_subclass__(**kwargs)
+        make_own(cls, "set_string")
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -107,6 +113,7 @@ class ModelSlave3(SlaveBase, Fmi3Slave):  # type: ignore[misc]  # pythonfmu3 has
 
     def set_string(self, vrs: list[int], values: list[str]) -> None:
         """Set Strings."""
+        replace_undecodable(values)
         self.set_values(lambda vrs, values: self.access.set_string(self._scalars(vrs, "String"), values), vrs, values)
 
     def set_uint64(self, vrs: list[int], values: list[int]) -> None:

@@ -170,9 +170,11 @@ class VariableAccess:
 
     def set_string(self, references: Sequence[int], values: Sequence[str]) -> None:
         """Set Strings. Raises InputError for what is none: a null pointer of the host arrives as None."""
-        for value in values:
-            if not isinstance(value, str):
-                raise InputError(f"{self.name}: {value!r} is not a string")
+        for reference, value in zip(references, values, strict=True):
+            if not isinstance(value, str) and self.serves(reference, ("String",)):
+                raise InputError(
+                    f"{self.name}: {self.table[reference].name} = {value!r} is not a string: give text in UTF-8"
+                )
         self._write(references, values, "String")
 
     # In time. ------------------------------------------------------------------------------

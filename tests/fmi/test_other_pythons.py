@@ -57,6 +57,8 @@ def one_of(reference):
 """A host in plain Python: the other interpreter needs the packages of requirements.txt and nothing else."""
 SAILS = """
 ship, water, surge, propeller, rudder, north, yaw = references
+call("SetString", *one_of(ship), (c_char_p * 1)(b"caf\\xe9"))  # not UTF-8: refused, and the process goes on
+call("Reset")
 call("SetString", *one_of(ship), (c_char_p * 1)(b"kvlcc2"))
 call("SetBoolean", *one_of(water), (c_int * 1)(1))
 call("SetReal", *one_of(surge), (c_double * 1)(7.0))

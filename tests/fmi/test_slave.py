@@ -8,7 +8,7 @@ from __future__ import annotations
 import gc
 import math
 from collections.abc import Callable
-from ctypes import c_double, c_uint
+from ctypes import c_char_p, c_double, c_uint
 from pathlib import Path
 from typing import Any
 
@@ -201,6 +201,19 @@ def test_initialisation_that_fails_is_fatal_with_the_reason(host: Make) -> None:
     assert a.step(0) == OK
     assert b.step(0) == OK
     assert a.everything() == b.everything()
+
+
+@OF_PYTHON
+@pytest.mark.parametrize("text", [b"caf\xe9", b"\xff", b"\xed\xa0\x80"])
+def test_text_that_is_not_utf8_is_refused_and_named(host: Make, text: bytes) -> None:
+    """pythonfmu hands over a null pointer in its place, and leaves an error pending; the process ended there."""
+    a, references = host(), (c_uint * 2)(*host("other").reference("name", "word"))
+    a.dll.fmi2SetString(a.component, references, 2, (c_char_p * 2)(b"good", text))
+    line = "Dummy: word = bytes that are no text in UTF-8 is not a string: give text in UTF-8"
+    assert a.messages == [(ERROR, line)]
+    assert a.fmu.getString(a.reference("name", "word")) == [b"good", b"start"]
+    a.dll.fmi2SetString(a.component, references, 2, (c_char_p * 2)(b"good", "café".encode()))
+    assert a.fmu.getString(a.reference("word")) == ["café".encode()]
 
 
 @OF_PYTHON

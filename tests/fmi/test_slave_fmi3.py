@@ -10,7 +10,7 @@ import signal
 import subprocess
 import sys
 from collections.abc import Callable
-from ctypes import byref, c_bool, c_double, c_size_t, c_uint, c_void_p
+from ctypes import byref, c_bool, c_char_p, c_double, c_size_t, c_uint, c_void_p
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -289,6 +289,16 @@ def test_serialised_state_goes_into_a_fresh_instance_and_keeps_the_time(host3: M
     assert b.saved() == a.saved()
 
 
+@OF_PYTHON
+def test_text_that_is_not_utf8_is_refused_and_named(host3: Make) -> None:
+    a = host3()
+    reference = (c_uint * 1)(a.variables["word"].valueReference)
+    a.dll.fmi3SetString(a.component, reference, c_size_t(1), (c_char_p * 1)(b"caf\xe9"), c_size_t(1))
+    assert a.messages == [(ERROR, "Dummy: word = bytes that are no text in UTF-8 is not a string: give text in UTF-8")]
+    a.dll.fmi3SetString(a.component, reference, c_size_t(1), (c_char_p * 1)("café".encode()), c_size_t(1))
+    assert a.get("word") == ["café"]
+
+
 def test_a_state_of_the_fmi2_slave_can_be_restored(host3: Make, host: Make) -> None:
     a, b = host3(), host()
     b.begin()
@@ -311,7 +321,7 @@ def test_raw_arrays_of_no_length(host3: Make) -> None:
 
 CALL = """
 import sys
-from ctypes import byref, c_bool, c_double, c_size_t, c_uint, c_void_p
+from ctypes import byref, c_bool, c_char_p, c_double, c_size_t, c_uint, c_void_p
 from fmpy import read_model_description
 from fmpy.fmi3 import FMU3Slave
 folder, name = sys.argv[1:]
