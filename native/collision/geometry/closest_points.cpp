@@ -24,6 +24,9 @@ constexpr double BREAKING_THRESHOLD = 0.02;
 // thread, so that two threads that open their first worlds never write there.
 __attribute__((constructor)) void fill_tables() { const btConvexHullShape first; }
 
+// The value rounded to the last bit of `by`.
+double snap(double value, double by) { return (value + by) - by; }
+
 btVector3 swap_axes(const double v[3]) { return btVector3(v[1], v[0], -v[2]); }
 
 void swap_axes(const btVector3& v, double swapped[3]) {
@@ -252,7 +255,9 @@ void PlacedHulls::place(int ship, const double x[3], const double R_nb[9]) {
   double q[4];
   find_quaternion(R_nb, q);
   btTransform& pose = moved.pose;
-  pose.setOrigin(swap_axes(x));
+  for (double& each : q) each = snap(each, SNAP_QUATERNION);
+  const double at[3] = {snap(x[0], SNAP_PLACE), snap(x[1], SNAP_PLACE), snap(x[2], SNAP_PLACE)};
+  pose.setOrigin(swap_axes(at));
   pose.setRotation(btQuaternion(q[1], q[0], -q[2], q[3]));
 }
 

@@ -9,6 +9,10 @@ namespace shipcollision {
 // for faces that lie flat on each other.
 constexpr double MARGIN = 0.001;
 
+// Added and taken off again, they round places [m] to 2^-33 and quaternions to 2^-40, as Bullet is shown them.
+constexpr double SNAP_PLACE = 786432.0;
+constexpr double SNAP_QUATERNION = 6144.0;
+
 // Closest points of two convex parts: on_a, on_b in n [m], normal from a to b, gap [m] (< 0: overlap).
 struct Closest {
   Three on_a, on_b, normal;

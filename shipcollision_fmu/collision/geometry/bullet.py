@@ -23,7 +23,7 @@ from ...errors import HostError
 from ...ship.frames import SWAP, Array, pose_w, poses_w, swap_axes, swapped_rows
 from ...ship.hull.solid import HullMesh
 from ..dynamics.body_state import BodyState
-from .narrow_phase import MARGIN, Closest
+from .narrow_phase import MARGIN, SNAP_PLACE, SNAP_QUATERNION, Closest
 
 __all__ = ["BulletAdapter", "BulletBody", "bullet_module", "has_pybullet", "require_dynamics"]
 
@@ -124,7 +124,9 @@ class BulletAdapter:
             before = self._placed[ship]
             if before is None or before[0] is not x or before[1] is not R_nb:
                 moved.append((ship, x, R_nb))
-        for (ship, x, R_nb), (position, orientation) in zip(moved, poses_w([pose[1:] for pose in moved]), strict=True):
+        for (ship, x, R_nb), pose in zip(moved, poses_w([pose[1:] for pose in moved]), strict=True):
+            position = [(v + SNAP_PLACE) - SNAP_PLACE for v in pose[0]]
+            orientation = [(v + SNAP_QUATERNION) - SNAP_QUATERNION for v in pose[1]]
             self._placed[ship] = x, R_nb
             self._overlaps = {pair: gap for pair, gap in self._overlaps.items() if ship not in pair}
             for body in self._parts[ship]:

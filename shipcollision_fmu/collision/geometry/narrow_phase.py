@@ -12,11 +12,16 @@ from typing import Protocol
 from ...ship.frames import Array
 from ..dynamics.body_state import BodyState
 
-__all__ = ["MARGIN", "Closest", "NarrowPhase"]
+__all__ = ["MARGIN", "SNAP_PLACE", "SNAP_QUATERNION", "Closest", "NarrowPhase"]
 
 MARGIN = 0.001
 """PyBullet's collision margin [m], which it adds to every hull and which is taken off again. It cannot be zero: without
 it Bullet returns wrong normals for faces that lie flat on each other."""
+
+SNAP_PLACE, SNAP_QUATERNION = 786432.0, 6144.0  # 1.5 * 2**19, 1.5 * 2**12
+"""Added and taken off again, they round places [m] to 2**-33 and quaternions to 2**-40: poses are shown to Bullet to
+0.1 nm. Where features are equal, the last bits of a pose would choose the normal, and two hosts or languages would see
+two collisions."""
 
 
 @dataclass(frozen=True)

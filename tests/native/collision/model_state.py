@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain, islice
 from math import isfinite, isnan, nan
-from typing import Any
+from typing import Any, NamedTuple
 
 from shipcollision_fmu.collision.findings import FINDINGS
 
@@ -19,8 +19,13 @@ DELAYS = (None, False, True)
 WARM_START = 56
 """Bytes of one in warm_start.hpp."""
 
-Part = tuple[str, tuple[float, ...]]
-"""Kind of its values as `struct` has it, and the values."""
+
+class Part(NamedTuple):
+    """Kind of its values as `struct` has it, the values, and whether they are energies [J]."""
+
+    kind: str
+    values: tuple[float, ...]
+    are_energies: bool = False
 
 
 @dataclass(frozen=True)
@@ -35,31 +40,35 @@ class ModelState:
     def write(self) -> bytes:
         """What ShipCollision::set_state reads."""
         parts = [*self.before, *self.warm_starts, *self.after]
-        return struct.pack(_lay_out(parts), *chain.from_iterable(values for _, values in parts))
+        return struct.pack(_lay_out(parts), *chain.from_iterable(part.values for part in parts))
 
-    def compare(self, data: bytes) -> float:
+    def compare(self, data: bytes, least_energy: float = 1.0) -> float:
         """Largest difference from a native state, as a share of the largest number of its part; 1 where whole numbers
-        or sizes differ. How contacts share what their pair gives is not unique, so that warm starts are left out."""
+        or sizes differ. How contacts share what their pair gives is not unique, so that warm starts are left out.
+
+        least_energy: [J] by which lesser energies are judged."""
         before, after = _lay_out(self.before), _lay_out(self.after)
         at = struct.calcsize(before)
         rest = at + 4 + WARM_START * struct.unpack_from("<i", data, at)[0]
         if len(data) != rest + struct.calcsize(after):
             return 1.0
         found = chain(struct.unpack_from(before, data), struct.unpack_from(after, data, rest))
-        return max(_compare(kind, values, found) for kind, values in (*self.before, *self.after))
+        return max(
+            _compare(part, found, least_energy if part.are_energies else 1.0) for part in (*self.before, *self.after)
+        )
 
 
 def _lay_out(parts: Sequence[Part]) -> str:
     """Kinds of all values as `struct` has them."""
-    return "<" + "".join(kind * len(values) for kind, values in parts)
+    return "<" + "".join(part.kind * len(part.values) for part in parts)
 
 
-def _compare(kind: str, values: tuple[float, ...], found: Iterator[float]) -> float:
-    worst, scale = 0.0, max((abs(value) for value in values if isfinite(value)), default=0.0)
-    for value, other in zip(values, islice(found, len(values)), strict=True):
+def _compare(part: Part, found: Iterator[float], least: float) -> float:
+    worst, scale = 0.0, max((abs(value) for value in part.values if isfinite(value)), default=0.0)
+    for value, other in zip(part.values, islice(found, len(part.values)), strict=True):
         if value != other and not isnan(value):
-            is_near = kind == "d" and isfinite(value) and isfinite(other)
-            worst = max(worst, abs(value - other) / max(scale, 1.0) if is_near else 1.0)
+            is_near = part.kind == "d" and isfinite(value) and isfinite(other)
+            worst = max(worst, abs(value - other) / max(scale, least) if is_near else 1.0)
     return worst
 
 
@@ -83,15 +92,19 @@ def _flatten(values: Iterable[Any]) -> Iterator[float]:
 
 
 def _numbers(*values: Any) -> Part:
-    return "d", tuple(_flatten(values))
+    return Part("d", tuple(_flatten(values)))
+
+
+def _energies(*values: Any) -> Part:
+    return Part("d", tuple(_flatten(values)), are_energies=True)
 
 
 def _integers(*values: int) -> Part:
-    return "i", values
+    return Part("i", values)
 
 
 def _flags(*values: bool) -> Part:
-    return "?", values
+    return Part("?", values)
 
 
 def _write_exchange(state: Mapping[str, Any]) -> Iterable[Part]:
@@ -108,8 +121,8 @@ def _write_fenders(state: Mapping[str, Any]) -> Iterable[Part]:
     yield _integers(len(state["stored"]))
     for a, b, stored in state["stored"]:
         yield _integers(a, b)
-        yield _numbers(stored)
-    yield _numbers(state["dissipated"])
+        yield _energies(stored)
+    yield _energies(state["dissipated"])
 
 
 def _write_normals(rows: Sequence[Any]) -> Iterable[Part]:
@@ -143,7 +156,7 @@ def _write_collisions(state: Mapping[str, Any]) -> Iterable[Part]:
 
 
 def _write_totals(state: Mapping[str, Any]) -> Iterable[Part]:
-    yield _numbers(state["energy"], state["energy_normal"], state["energy_tangential"])
+    yield _energies(state["energy"], state["energy_normal"], state["energy_tangential"])
     yield _integers(state["unconverged"], state["scaled"])
 
 

@@ -187,7 +187,8 @@ class OneStep:
         expected, found = read_answer(model, issued, lost), read_answer(self._native, issued, lost)
         scale = self._measure()
         shares = compare(found, expected, scale)
-        shares["state"] = list_state(model.get_state()).compare(bytes.fromhex(self._native.get_state()["bytes"]))
+        native_state = bytes.fromhex(self._native.get_state()["bytes"])
+        shares["state"] = list_state(model.get_state()).compare(native_state, max(ROUNDING * scale.energy, 1.0))
         self.tally.compared += 1
         self.tally.touched += bool(expected.J.any())
         self.tally.residual = max(self.tally.residual, found.residual / max(expected.residual, CONVERGED))
