@@ -38,6 +38,7 @@ _OWN_NAMES = {
     "harbour.toml",
     "my.toml",
     "mine.toml",
+    "study.toml",
     "my/ship.toml",
     "my/scenario.toml",
     "vessel.fmu",

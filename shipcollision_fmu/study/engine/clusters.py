@@ -10,7 +10,7 @@ import json
 import logging
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -28,6 +28,9 @@ __all__ = ["ANSWER", "Cluster", "check_versions", "quiet_dask", "start_local_clu
 WRITER = "`dask scheduler --scheduler-file FILE` writes it"
 ANSWER = 10.0
 """Time [s] within which a scheduler answers. A scheduler that is busy with others takes some seconds."""
+
+CLOSING = 5.0
+"""Time [s] that workers have to end. Ctrl-C waits so long at most for those that are in the middle of a batch."""
 
 
 @dataclass(frozen=True)
@@ -59,7 +62,8 @@ def start_local_cluster(workers: int | None) -> Iterator[Cluster]:
             "the local cluster", lambda timeout: Client(cluster, timeout=timeout, set_as_default=False), False
         )
     finally:
-        cluster.close(timeout=2.0)
+        with suppress(TimeoutError, asyncio.TimeoutError):  # a busy worker ends with this process at the latest
+            cluster.close(timeout=CLOSING)
 
 
 @contextmanager

@@ -47,7 +47,7 @@ class Loop:
         self._tally, self._rows, self._progress = tally, rows, progress or (lambda done, total: None)
         self._computed = tally.rows
         self._out, self._suspects, self._is_alone = 0, deque[Batch](), False
-        self.waited = 0.0
+        self.busy = self.waited = 0.0
 
     def run(self, check: Callable[[], None]) -> None:
         """Returns when all is written. check: raises when the study is interrupted."""
@@ -84,6 +84,7 @@ class Loop:
         answer, batch = outcome.answer, outcome.batch
         if answer is not None:
             self._plan.learn(batch.count, answer.seconds)
+            self.busy += answer.seconds
             part = self._assembly.add(answer)
             if part is not None:
                 self._folder.write(part)

@@ -23,5 +23,7 @@ class StudyResult:
     """What computed the rows: native or python."""
     seconds: float
     """Time of this call [s]."""
+    busy: float
+    """Time [s] that workers spent on batches, all together."""
     waited: float
     """Time [s] of it in which the client waited for workers."""

@@ -59,7 +59,9 @@ def run_session(
         write_csv(folder.path, study)
     folder.write_status("complete", tally.as_counts())
     computed, seconds = tally.rows - there, perf_counter() - begin
-    return StudyResult(out, tally.rows, tally.refused, tally.collisions, computed, folder.engine, seconds, loop.waited)
+    return StudyResult(
+        out, tally.rows, tally.refused, tally.collisions, computed, folder.engine, seconds, loop.busy, loop.waited
+    )
 
 
 @contextmanager
