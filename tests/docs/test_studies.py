@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from shipcollision_fmu import load_scenario
 from shipcollision_fmu.study.definition.study import list_study_names, parse_study, read_study
 from shipcollision_fmu.study.rows.compute import compute_rows
 from tests.docs.test_guide import blocks
@@ -39,7 +40,14 @@ def test_all_shipped_studies_are_in_the_guide() -> None:
     assert list_study_names() == ["million", "quick"]
 
 
-def test_the_python_of_the_guide_runs(capsys: pytest.CaptureFixture[str]) -> None:
-    (block,) = blocks("studies.md", "python")
-    exec(block, {})
+def test_the_python_of_the_guide_runs(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    rows, case = blocks("studies.md", "python")
+    exec(rows, {})
     assert "energy" in capsys.readouterr().out
+    exec(case, {})
+    path = capsys.readouterr().out.strip()
+    assert path == str(Path("cases", "quick_7.toml"))
+    assert load_scenario(path).name == "quick_7"

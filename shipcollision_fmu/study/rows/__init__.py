@@ -13,6 +13,7 @@
       sailed_rows.py       level sailed
       situation_rows.py    files of traffic
         encounter_results.py   whole encounters by column; python_run.py without the native library
+      case_scenario.py     write_case(): a case as a scenario file, to be run and shown
       results.py           what became of the cases, by column
     tables.py            the tables as Arrow; columns.py: names, units, meanings
 

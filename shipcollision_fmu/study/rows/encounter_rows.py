@@ -21,7 +21,7 @@ from .python_run import run_python
 from .results import Results
 from .ship_folder import ShipFolder
 
-__all__ = ["run_coasting"]
+__all__ = ["make_coasting_scenario", "run_coasting"]
 
 GIVEN = (
     "angle_deg", "at", "own_speed", "target_speed", "own_sway", "target_sway", "heading_deg", "friction", "restitution",
@@ -67,25 +67,25 @@ def _run_python(study: Study, own: FleetShip, target: FleetShip, places: Places,
                 results.refuse(int(place), row["reason"].decode())
                 continue
             try:
-                scenario = _make_scenario(study, files, row, results.cases, int(place))
+                scenario = make_coasting_scenario(study, files, row, results.cases, int(place))
                 put_run(results, int(place), run_python(scenario, study.run.separation))
             except (InputError, StepError) as error:
                 results.refuse(int(place), folder.name_ships(str(error)))
 
 
-def _make_scenario(study: Study, files: dict[str, str], row: Any, cases: Cases, place: int) -> Scenario:
+def make_coasting_scenario(study: Study, files: dict[str, str], row: Any, cases: Cases, place: int) -> Scenario:
     """The scenario of two ships that coast to the impact in the row."""
     run = study.run
     steps = round((run.time or USUAL_TIME) / run.step) or 1
     ships = {}
     for role, file in files.items():
-        heading, (surge, sway) = float(row[f"{role}_heading"]), row[f"{role}_before"][:2].tolist()
+        heading, (surge, sway, *_, yaw_rate) = float(row[f"{role}_heading"]), row[f"{role}_before"].tolist()
         c, s, time = np.cos(heading), np.sin(heading), steps * run.step
         north, east = row[f"{role}_position"][:2] - time * np.array([surge * c - sway * s, surge * s + sway * c])
         ships[role] = {
             "ship": file, "position": [float(north), float(east)], "heading_deg": float(np.degrees(heading)),
             "surge": surge, "sway": sway, "degrees_of_freedom": run.degrees_of_freedom, "hydrodynamics": False,
-            **({"coasting": "straight"} if sway else {}),
+            **({"coasting": "straight"} if sway else {}), **({"rates": [0.0, 0.0, yaw_rate]} if yaw_rate else {}),
         }  # fmt: skip
     duration = (steps + (round(run.after / run.step) or 1)) * run.step
     contact = Collision(friction=cases.numbers["friction"][place], restitution=cases.numbers["restitution"][place])

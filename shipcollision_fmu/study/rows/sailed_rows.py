@@ -23,7 +23,7 @@ from .python_run import run_python
 from .results import Results
 from .ship_folder import ShipFolder
 
-__all__ = ["run_sailed"]
+__all__ = ["make_sailed_scenario", "run_sailed"]
 
 OF_CONTACT = ("friction", "restitution")
 """Numbers of [collision], all others are options of encounter()."""
@@ -35,7 +35,7 @@ def run_sailed(study: Study, cases: Cases, engine: str) -> Results:
     with ShipFolder() as folder:
         for place in range(len(cases)):
             try:
-                scenario = _make_scenario(study, cases, place, folder)
+                scenario = make_sailed_scenario(study, cases, place, folder)
                 if engine == "native":
                     tables = run_encounters([scenario], separation=study.run.separation)
                     put_encounters(results, np.array([place]), tables)
@@ -46,7 +46,7 @@ def run_sailed(study: Study, cases: Cases, engine: str) -> Results:
     return results
 
 
-def _make_scenario(study: Study, cases: Cases, place: int, folder: ShipFolder) -> Scenario:
+def make_sailed_scenario(study: Study, cases: Cases, place: int, folder: ShipFolder) -> Scenario:
     """The scenario of a case. Raises InputError for ships that do not meet as the case has them."""
     run = study.run
     ships = {role: find_ship(study, role, int(cases.ships[role][place])) for role in ("own", "target")}

@@ -23,7 +23,7 @@ from .python_run import run_python
 from .results import Results
 from .ship_folder import ShipFolder
 
-__all__ = ["run_situations"]
+__all__ = ["draw_into", "make_situation", "run_situations"]
 
 REMEDIES = {
     "name a ship with --own or --ship": "give ships in [own] and [target]",
@@ -42,12 +42,12 @@ def run_situations(study: Study, cases: Cases, engine: str) -> Results:
         for place in range(len(cases)):
             key = str(cases.situation[place]), int(cases.ships["own"][place]), int(cases.ships["target"][place])
             if key not in made:
-                made[key] = _try_to_make(study, key, ships, Path(folder, str(len(made))))
+                made[key] = make_situation(study, key, ships, Path(folder, str(len(made))))
             scenario = made[key]
             if isinstance(scenario, str):
                 results.refuse(place, scenario)
                 continue
-            scenario = _change(scenario, cases, place)
+            scenario = draw_into(scenario, cases, place)
             try:
                 if engine == "native":
                     tables = run_encounters([scenario], separation=study.run.separation)
@@ -59,7 +59,7 @@ def run_situations(study: Study, cases: Cases, engine: str) -> Results:
     return results
 
 
-def _try_to_make(study: Study, key: Key, ships: ShipFolder, folder: Path) -> Scenario | str:
+def make_situation(study: Study, key: Key, ships: ShipFolder, folder: Path) -> Scenario | str:
     """The scenario of a situation, or why it is refused."""
     situation, *numbers = key
     folder.mkdir()
@@ -84,7 +84,7 @@ def _try_to_make(study: Study, key: Key, ships: ShipFolder, folder: Path) -> Sce
         return reason
 
 
-def _change(scenario: Scenario, cases: Cases, place: int) -> Scenario:
+def draw_into(scenario: Scenario, cases: Cases, place: int) -> Scenario:
     """The scenario with what the study draws: contact, current and wind."""
     numbers = {name: float(values[place]) for name, values in cases.numbers.items() if isfinite(values[place])}
     contact = {name: numbers[name] for name in ("friction", "restitution")}
