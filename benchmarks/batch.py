@@ -3,9 +3,10 @@
     python benchmarks/batch.py
 
 A kvlcc2_crossing of 150 s by run_encounters() against the same by simulate() in process, in turns; the goal is 1/40. A
-random impact by impact(), whose goal is 100 us, against the step of the collision model in Python. Then impacts and
-encounters per second by two processes against one; the goal is 1.8. By the clock this needs two idle cores; by
-processor time it shows on a busy machine, too, what the processes take from each other. Figures are medians of turns.
+random impact by impact(), whose goal is 100 us, against the step of the collision model in Python. Random collisions by
+collide(), each up to 10 s after its contact: the shortest, the median and the longest. Then impacts and encounters per
+second by two processes against one; the goal is 1.8. By the clock this needs two idle cores; by processor time it shows
+on a busy machine, too, what the processes take from each other. Figures are medians of turns.
 """
 
 from __future__ import annotations
@@ -18,11 +19,11 @@ from typing import Any
 
 import numpy as np
 
-from shipcollision_fmu import ShipCollision, impact, load_scenario, run_encounters, simulate
+from shipcollision_fmu import ShipCollision, collide, impact, load_scenario, run_encounters, simulate
 from shipcollision_fmu.cli.console import print_table
 from shipcollision_fmu.cli.table import make_table
 
-TURNS, IMPACTS, MODELS = 5, 4000, 60
+TURNS, IMPACTS, MODELS, COLLISIONS = 5, 4000, 60, 60
 SCENARIO = "kvlcc2_crossing"
 
 
@@ -73,6 +74,19 @@ def step_models() -> None:
     model.close()
 
 
+def time_collisions() -> list[float]:
+    """Processor time [s] of each of some collisions, less that of a call without any."""
+
+    def run(cases: dict[str, Any]) -> float:
+        begin = process_time()
+        collide("kvlcc2", "kvlcc2", separation=10.0, **cases)
+        return process_time() - begin
+
+    drawn, none = draw_cases(COLLISIONS), {"own_speed": []}
+    idle = median(run(none) for _ in range(TURNS))
+    return sorted(run({name: values[i] for name, values in drawn.items()}) - idle for i in range(COLLISIONS))
+
+
 def compare_processes(work: Callable[[int], float]) -> tuple[float, float]:
     """How many times as much two processes do as one in a second, and in a second of processor time."""
     by_clock, by_processor = [], []
@@ -105,6 +119,10 @@ def main() -> None:
     table.add_row(f"{SCENARIO}, ms", f"{1e3 * median(batch):.1f}", f"{1e3 * median(python):.0f}", f"{ratio:.1f}")
     ratio = median(m / i for m, i in zip(models, impacts, strict=True))
     table.add_row("an impact, us", f"{median(impacts):.1f}", f"{median(models):.0f}", f"{ratio:.1f}")
+    print_table(table)
+    times = time_collisions()
+    table = make_table("a collision, ms of processor time", ">least", ">median", ">most")
+    table.add_row("", *(f"{1e3 * time:.1f}" for time in (times[0], median(times), times[-1])))
     print_table(table)
     table = make_table("two processes against one", ">by the clock", ">by processor time")
     for name, work in (("impacts", run_impacts), ("encounters", run_scenarios)):
