@@ -117,8 +117,8 @@ def mark_slow_cases(items: list[pytest.Item]) -> None:
 
 
 def is_quick(k: int, lengths: Sequence[int], n: int) -> bool:
-    """Whether the places of case `k` in the lists of parameters add up to a multiple of n. The last list varies fastest,
-    parameters of fixtures slowest. So the quick cases have each value of a list, if the others have some n values."""
+    """Whether the places of case `k` in the lists of parameters add up to a multiple of n. The last list varies most,
+    parameters of fixtures least. So the quick cases have each value of a list, if the others have some n values."""
     total = 0
     for length in reversed(lengths):
         k, place = divmod(k, length)
