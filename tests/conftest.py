@@ -88,12 +88,14 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 @pytest.hookimpl(wrapper=True, tryfirst=True)
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> Iterator[None]:
-    """Before pytest selects by -m, fixtures give their tests the mark `needs`, and `one_in` the mark `slow` to most
-    cases; afterwards tests are left out."""
+    """Before pytest selects by -m, fixtures give their tests the mark `needs`, needs the mark `programs`, and `one_in`
+    the mark `slow` to most cases; afterwards tests are left out."""
     mark_slow_cases(items)
     for item in items:
         for name in sorted(needs.BY_FIXTURE.keys() & set(getattr(item, "fixturenames", ()))):
             item.add_marker(pytest.mark.needs(needs.BY_FIXTURE[name]))
+        if needs.needs_program(item):
+            item.add_marker(pytest.mark.programs)
     yield
     is_met = cache(lambda name: needs.NEEDS[name].is_met())
     unmet = {item: needs.find_unmet(item, is_met) for item in items}

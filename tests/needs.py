@@ -21,7 +21,16 @@ from typing import Any
 
 import pytest
 
-__all__ = ["BY_FIXTURE", "NEEDS", "Need", "describe_left_out", "find_python", "find_unmet", "shared_libpython"]
+__all__ = [
+    "BY_FIXTURE",
+    "NEEDS",
+    "Need",
+    "describe_left_out",
+    "find_python",
+    "find_unmet",
+    "needs_program",
+    "shared_libpython",
+]
 
 
 @dataclass(frozen=True)
@@ -95,6 +104,14 @@ NEEDS = {
 }  # fmt: skip
 BY_FIXTURE = {"browser": "chromium", "guan2014": "pybullet", "encounters": "pybullet"}
 """Fixtures that need something: all tests that use one do."""
+
+OF_PYTHON = {"pybullet", "libpython"}
+"""Needs that a Python meets or not, whatever programs there are."""
+
+
+def needs_program(item: Any) -> bool:
+    """Whether a test uses a program that pip cannot install."""
+    return any(name not in OF_PYTHON for mark in item.iter_markers("needs") for name in mark.args)
 
 
 def find_unmet(item: Any, is_met: Callable[[str], bool]) -> list[str]:
