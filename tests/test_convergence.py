@@ -27,6 +27,11 @@ ENGINES = [
     (engine, name) for name in list_scenario_names() for engine in ("python", "native")
     if engine == "python" or load_scenario(name).collision.response in (None, NATIVE_RESPONSE)
 ]  # fmt: skip
+WAYS = [
+    (*each, algorithm) for each in ENGINES for algorithm in ("gauss-seidel", "jacobi")
+    if (*each, algorithm) != ("python", "kvlcc2_crossing", "jacobi")
+]  # fmt: skip
+"""Without the longest run, 20 s in Python: native code, which is tested to be its twin, takes 3 s."""
 
 
 @pytest.fixture(autouse=True, scope="module")
@@ -66,8 +71,7 @@ def test_half_the_substep_changes_velocities_by_less_than_one_per_cent(engine: s
     assert 0.0 < differ(name, one, other) < 0.01
 
 
-@pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
-@pytest.mark.parametrize(("engine", "name"), ENGINES)
+@pytest.mark.parametrize(("engine", "name", "algorithm"), WAYS)
 def test_the_communication_step_changes_velocities_by_less_than_two_and_five_per_cent(
     engine: str, name: str, algorithm: str
 ) -> None:

@@ -39,7 +39,7 @@ BASIN = "".join(
         ("Python", 3, 80.0),
         ("Python", 6, 60.0),
         *(pytest.param("native", n, 60.0, marks=pytest.mark.slow) for n in (3, 4, 6)),
-        *(pytest.param("Python", n, 3600.0, marks=pytest.mark.slow) for n in (3, 4, 6)),
+        *(pytest.param("Python", n, 1200.0, marks=pytest.mark.slow) for n in (3, 4, 6)),
     ],
     indirect=["language"],
 )
