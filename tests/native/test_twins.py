@@ -11,6 +11,8 @@ import pytest
 
 from shipcollision_fmu.encounters import encounter, request, targeting
 from shipcollision_fmu.manoeuvring import prepared_ship
+from shipcollision_fmu.study.definition import variables
+from shipcollision_fmu.study.rows import python_impacts
 from shipcollision_fmu.toolchain.sources import find_native
 
 NATIVE = find_native()
@@ -83,8 +85,12 @@ def test_each_constant_is_that_of_the_twin(file: str, name: str, value: float) -
 
 @pytest.mark.parametrize(
     ("name", "module"),
-    [("SLOWEST_CLOSING", encounter), ("GRAZING", encounter), ("FASTEST", request), ("OVERLAP", targeting)],
-)
+    [
+        ("SLOWEST_CLOSING", encounter), ("GRAZING", encounter), ("FASTEST", request), ("OVERLAP", targeting),
+        ("INSTANT", python_impacts), ("DEEPER", python_impacts), ("DEEPEST", python_impacts),
+        ("ATTEMPTS", python_impacts), ("FASTEST_TURN", variables),
+    ],
+)  # fmt: skip
 def test_an_impact_is_refused_and_placed_as_an_encounter(name: str, module: ModuleType) -> None:
     constants = dict(_CONSTANT.findall((NATIVE / "batch/impact.cpp").read_text("utf-8")))
     assert float(constants[name]) == vars(module)[name]

@@ -1,7 +1,7 @@
 """PythonImpacts: the impacts of a pair of ships by the Python model; the twin of native/batch/impact.cpp.
 
 The same steps with the same numbers: the ships are put where their sections touch, and the collision model answers one
-step of an instant. The limits of a case are checked when the study is read.
+step of an instant.
 """
 
 from __future__ import annotations
@@ -16,9 +16,11 @@ from ...batch.impact_columns import IMPACTS, LONGEST_REASON, STATUS
 from ...collision.model import ShipCollision
 from ...encounters.encounter import GRAZING, SLOWEST_CLOSING
 from ...encounters.plan_contact import cut_section, find_contact_height, find_contacts, locate_place
+from ...encounters.targeting import OVERLAP
 from ...errors import StepError
 from ...ship.frames import Array, rotation
 from ...ship.hull.hull import build_hull
+from ..definition.variables import NUMBERS
 from .fleet_ships import FleetShip
 from .ship_folder import ShipFolder
 
@@ -26,8 +28,8 @@ __all__ = ["PythonImpacts"]
 
 INSTANT = 1e-9
 """[s] Nothing moves by more than rounding in it. Longer, and the hulls turn meanwhile."""
-OVERLAP, DEEPER, DEEPEST = 0.012, 0.002, 1.0
-"""[m] of the sections at first; what the second attempt adds to the gap; beyond which the contact is elsewhere."""
+DEEPER, DEEPEST = 0.002, 1.0
+"""[m] What the second attempt adds to the gap that was left; an overlap beyond which the contact is elsewhere."""
 ATTEMPTS = 12
 
 ROLES = ("own", "target")
@@ -65,6 +67,9 @@ class PythonImpacts:
         self._model.close()
 
     def _answer(self, given: Any, row: Any) -> tuple[str, str]:
+        for name, of in NUMBERS.items():
+            if name in given.dtype.names and not of.least <= given[name] <= of.most:
+                return "out of range", f"{name} = {given[name]:g} must be {of.least:g} to {of.most:g}: {of.hint}"
         angle = radians(-given["angle_deg"] if given["is_starboard"] else given["angle_deg"])
         place = locate_place(
             self._target_section, self._middle + float(given["at"]) * self._L_oa,

@@ -74,6 +74,15 @@ def test_impacts() -> None:
 
 
 @pytest.mark.needs("pybullet")
+def test_a_drift_beyond_the_limit_is_refused_alike() -> None:
+    """Sway and drift are each within their limits, their sum is not."""
+    study = read_twins("impact", 'kind = "drifting-target"\ntarget_sway = 30.0\ndrift_speed = 40.0')
+    for engine in ("native", "python"):
+        lines = compute_rows(study, 0, 3, engine).encounters.to_pylist()
+        assert {line["reason"] for line in lines} == {"target_sway = 70 must be -50 to 50: give metres per second"}
+
+
+@pytest.mark.needs("pybullet")
 @pytest.mark.parametrize("separation", [2.0, 100.0])
 def test_coasting_encounters(separation: float) -> None:
     study = read_twins("encounter", "target_sway = 0.3\n" + SLOW, separation)
