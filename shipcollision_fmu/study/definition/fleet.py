@@ -31,11 +31,16 @@ __all__ = ["Fleet", "NamedShip", "Pool", "digest_fleet", "make_fleet"]
 
 @dataclass(frozen=True)
 class NamedShip:
-    """A ship by name at a draught. source: what load_ship takes, a shipped name or the tables of a file."""
+    """A ship by name at a draught.
+
+    source   what load_ship takes: a shipped name, or the tables of a file
+    mesh     name and content of its mesh file, which a worker on another machine does not have
+    """
 
     label: str
     weight: float
     source: str | Mapping[str, Any]
+    mesh: tuple[str, bytes] | None = None
     count: int = 1
 
 
@@ -153,7 +158,7 @@ def _list_loadings(
             at = "" if share == 1.0 else f" at loading = {share:g}"
             raise StudyError(f"{place} ships: {name}{at}: {error}") from None
         label = name if share == 1.0 or column is not None else f"{name} at {share:g} T"
-        yield NamedShip(label, weight * part / total, source)
+        yield NamedShip(label, weight * part / total, source, _read_mesh(source))
 
 
 def _check_sailing(choices: Sequence[NamedShip | Pool], place: str) -> None:
@@ -163,6 +168,11 @@ def _check_sailing(choices: Sequence[NamedShip | Pool], place: str) -> None:
                 f"{place} ships: {choice.label} can only coast, it has no [manoeuvring]: take level = "
                 '"encounter", or another ship'
             )
+
+
+def _read_mesh(source: str | Mapping[str, Any]) -> tuple[str, bytes] | None:
+    file = None if isinstance(source, str) else source.get("hull", {}).get("file")
+    return None if file is None else (Path(file).name, Path(file).read_bytes())
 
 
 def _find_source(name: str, folder: Path) -> str | dict[str, Any]:
@@ -179,9 +189,9 @@ def digest_fleet(fleet: Fleet) -> str:
         if isinstance(choice, Pool):
             parts.append(["pool", choice.key])  # its numbers are in the study's text
             continue
-        tables = read_ship_tables(choice.source) if isinstance(choice.source, str) else dict(choice.source)
-        hull = dict(tables.get("hull", {}))
-        if isinstance(hull.get("file"), str):  # its content counts, not its place on this machine
-            hull["file"] = sha256(Path(hull["file"]).read_bytes()).hexdigest()
+        tables = read_ship_tables(choice.source) if isinstance(choice.source, str) else choice.source
+        hull, mesh = dict(tables.get("hull", {})), choice.mesh or _read_mesh(tables)
+        if mesh is not None:  # its content counts, not its place on this machine
+            hull["file"] = sha256(mesh[1]).hexdigest()
         parts.append([choice.label, choice.weight, {**tables, "hull": hull}])
     return sha256(json.dumps(parts, sort_keys=True, default=repr).encode()).hexdigest()

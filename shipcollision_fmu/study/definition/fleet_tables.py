@@ -14,6 +14,7 @@ from .distributions import Constant, Discrete, TableColumn
 
 __all__ = ["FleetTable", "PoolTable"]
 
+HINTS = dict.fromkeys(("L_pp", "B", "T"), "give metres")
 MOST_OF_A_POOL = 1_000_000
 """Ships of a pool. More would not fit beside their rows."""
 
@@ -56,7 +57,7 @@ class PoolTable(Table):
             if len(given) != 1:
                 raise ValueError(f"has {' and '.join(given) or f'neither {one} nor {other}'}: give one of the two")
         for name, (least, most) in LIMITS.items():
-            check_limits(name, getattr(self, name), least, most, "see its key in the documentation")
+            check_limits(name, getattr(self, name), least, most, HINTS.get(name, "it is a ratio"))
         return self
 
 

@@ -9,11 +9,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
+from hashlib import sha256
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
 
 from ...errors import ShipError
+from ...files import write_file
 from ...ship.loading.library import load_ship
 from ...ship.ship import Ship
 from ..definition.distributions import Constant, Distribution, TableColumn
@@ -74,10 +78,27 @@ def _find(of: _Fleet, number: int) -> FleetShip:
     label = choice.label if isinstance(choice, NamedShip) else f"{choice.label} {member + 1}"
     source: str | Mapping[str, Any] = ""
     try:
-        source = choice.source if isinstance(choice, NamedShip) else _make(of, choice, member)
+        source = _find_source(choice) if isinstance(choice, NamedShip) else _make(of, choice, member)
         return FleetShip(label, source, load_ship(source))
     except ShipError as error:
         return FleetShip(label, source, None, f"{of.role}: {label}: {error}")
+
+
+def _find_source(ship: NamedShip) -> str | Mapping[str, Any]:
+    """What load_ship takes, with the mesh file as this process has it."""
+    if ship.mesh is None or isinstance(ship.source, str):
+        return ship.source
+    name, content = ship.mesh
+    path = Path(_mesh_folder().name, sha256(content).hexdigest(), name)
+    if not path.is_file():
+        write_file(path, content)  # at once: another thread may look for it
+    return {**ship.source, "hull": {**ship.source["hull"], "file": str(path)}}
+
+
+@lru_cache(maxsize=1)
+def _mesh_folder() -> TemporaryDirectory[str]:
+    """The folder of this process' mesh files, removed at its end."""
+    return TemporaryDirectory(prefix="shipcollision-")
 
 
 def _make(of: _Fleet, pool: Pool, member: int) -> dict[str, Any]:

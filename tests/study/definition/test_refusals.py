@@ -81,7 +81,7 @@ REFUSALS: dict[str, tuple[tuple[str, str], str]] = {
     "no draught": (
         (SHIPS, POOL.replace("B_over_T = 2.6", "")), "has neither T nor B_over_T: give one of the two",
     ),
-    "a length in feet": ((SHIPS, POOL.replace("200.0", "650.0")), "L_pp = 650 must be 0.5 to 500"),
+    "a length in feet": ((SHIPS, POOL.replace("200.0", "650.0")), "L_pp = 650 must be 0.5 to 500: give metres"),
     "a pool of no ship": ((SHIPS, POOL + "\ncount = 0"), "count = 0 must be greater than or equal to 1"),
     "a block coefficient without end": (
         (SHIPS, POOL.replace("C_b = 0.8", 'C_b = {distribution = "normal", mean = 0.8, sd = 0.05}')),

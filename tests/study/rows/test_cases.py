@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 from math import cos, radians, sin
 from pathlib import Path
 
@@ -14,6 +15,7 @@ from shipcollision_fmu import load_ship
 from shipcollision_fmu.study.definition.partial_loading import find_block_coefficient
 from shipcollision_fmu.study.definition.study import Study, parse_study
 from shipcollision_fmu.study.rows.cases import draw_cases
+from shipcollision_fmu.study.rows.compute import compute_rows
 from shipcollision_fmu.study.rows.fleet_ships import find_ship
 
 HEAD = """
@@ -113,6 +115,37 @@ def test_the_fingerprint_changes_with_a_ship_file(tmp_path: Path) -> None:
         prints.append(study.fingerprint)
         assert float(T) == find_ship(study, "own", 0).loaded.T
     assert prints[0] == prints[1] != prints[2]
+
+
+MESH_SHIP = """[ship]
+kind = "cargo"
+[particulars]
+L_pp = 80.0
+L_oa = 80.0
+B = 16.0
+T = 6.0
+C_b = 0.75
+[hull]
+shape = "mesh"
+file = "box.obj"
+depth = 9.0
+convex_hull = true
+"""
+
+
+def test_a_mesh_travels_with_its_study(tmp_path: Path) -> None:
+    """A worker has neither the ship file nor the mesh file."""
+    corners = [(x, y, z) for x in (-40.0, 40.0) for y in (-8.0, 8.0) for z in (-6.0, 3.0)]
+    faces = ["1 2 4 3", "5 7 8 6", "1 5 6 2", "3 4 8 7", "1 3 7 5", "2 6 8 4"]
+    lines = [*(f"v {x} {y} {z}" for x, y, z in corners), *(f"f {face}" for face in faces)]
+    (tmp_path / "box.obj").write_text("\n".join(lines))
+    (tmp_path / "my.toml").write_text(MESH_SHIP)
+    study = parse_study(HEAD.format(rows=9, sampler="random").replace("kcs", "my.toml"), "s.toml", tmp_path)
+    sent = pickle.dumps(study)
+    for file in ("box.obj", "my.toml"):
+        (tmp_path / file).unlink()
+    tables = compute_rows(pickle.loads(sent), 0, 3)
+    assert tables.encounters.column("status").to_pylist() == ["done"] * 3
 
 
 FLEET = """[target]
