@@ -81,7 +81,7 @@ def _runs_end_with_the_module() -> Iterator[None]:
 
 
 LONG = "kvlcc2_crossing"
-"""The longest run. Default tests make it once, in process under a sequential master."""
+"""The longest run: slow."""
 SCENARIOS = [scenario_param(name, marks=(pytest.mark.slow,) * (name == LONG)) for name in list_scenario_names()]
 
 
@@ -89,7 +89,7 @@ def each() -> Any:
     return pytest.mark.parametrize(
         ("name", "algorithm"),
         [
-            scenario_param(n, a, marks=(pytest.mark.slow,) * ((n, a) == (LONG, "jacobi")))
+            scenario_param(n, a, marks=(pytest.mark.slow,) * (n == LONG))
             for n in list_scenario_names()
             for a in ALGORITHMS
         ],
@@ -226,6 +226,10 @@ def test_linear_momentum_without_added_mass_is_the_same_after_as_before(algorith
     assert momentum["closed"]
     np.testing.assert_allclose(momentum["after"]["linear"], momentum["before"]["linear"], atol=1e-12 * 1e9)
     assert not run_watched("guan2014_added_mass", algorithm).run.summary["momentum"]["closed"]
+
+
+@pytest.mark.slow
+def test_of_ships_that_sail_momentum_is_not_closed() -> None:
     assert not run_watched(LONG, "gauss-seidel").run.summary["momentum"]["closed"]
 
 

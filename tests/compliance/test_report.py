@@ -7,7 +7,7 @@ import re
 import subprocess
 import sys
 import zipfile
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -73,12 +73,18 @@ def test_a_description_that_cannot_be_read_is_a_problem(tmp_path: Path) -> None:
 # What FMPy leaves out of the description. ---------------------------------------------------------------------------
 
 
+@cache
+def read_good(fmi: int) -> tuple[tuple[zipfile.ZipInfo, bytes], ...]:
+    """The entries of ShipManoeuvring."""
+    with zipfile.ZipFile(ready_fmus(fmi=fmi)["ShipManoeuvring"]) as good:
+        return tuple((entry, good.read(entry)) for entry in good.infolist())
+
+
 def changed(folder: Path, fmi: int, *replaced: str) -> Path:
     """ShipManoeuvring with some of its description's text replaced by regular expressions: old, new, old, new ..."""
     path = folder / "changed.fmu"
-    with zipfile.ZipFile(ready_fmus(fmi=fmi)["ShipManoeuvring"]) as good, zipfile.ZipFile(path, "w") as bad:
-        for entry in good.infolist():
-            data = good.read(entry)
+    with zipfile.ZipFile(path, "w") as bad:
+        for entry, data in read_good(fmi):
             if entry.filename == "modelDescription.xml":
                 text = data.decode()
                 for old, new in zip(replaced[::2], replaced[1::2], strict=True):
@@ -92,8 +98,8 @@ def changed(folder: Path, fmi: int, *replaced: str) -> Path:
 def repacked(folder: Path, fmi: int, files: dict[str, bytes | None]) -> Path:
     """ShipManoeuvring with files replaced, added, or left out where there is None."""
     path = folder / "repacked.fmu"
-    with zipfile.ZipFile(ready_fmus(fmi=fmi)["ShipManoeuvring"]) as good, zipfile.ZipFile(path, "w") as bad:
-        packed = {name: good.read(name) for name in good.namelist()}
+    with zipfile.ZipFile(path, "w") as bad:
+        packed = {entry.filename: data for entry, data in read_good(fmi)}
         for name, data in {**packed, **files}.items():
             if data is not None:
                 bad.writestr(name, data)

@@ -103,7 +103,7 @@ def test_other_forces(tmp_path: Path) -> None:
     """Of ships that coast by each law, after small and large pushes, and after the time jumped."""
     bodies = prepare_both(tmp_path, OBSTACLES.format(fender=""))
     random = np.random.default_rng(2)
-    rows, expected, count = [], [], 120
+    rows, expected, count = [], [], 60
     for k in range(count):
         body, H = bodies[k % len(SHIPS)], float(random.choice([0.05, 0.5]))
         attitude = (random.normal(0.0, 1.0, 3) * [0.05, 0.02, pi] * (body.free > 3)).tolist()

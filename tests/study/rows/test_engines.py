@@ -82,6 +82,7 @@ def test_a_drift_beyond_the_limit_is_refused_alike() -> None:
         assert {line["reason"] for line in lines} == {"target_sway = 70 must be -50 to 50: give metres per second"}
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.needs("pybullet")
 @pytest.mark.parametrize("separation", [2.0, 100.0])
 def test_coasting_encounters(separation: float) -> None:
