@@ -139,8 +139,9 @@ def run_block(seeds: range) -> None:
 
 
 @pytest.mark.slow
-def test_random_encounters() -> None:
-    run_block(range(100, 115))
+@pytest.mark.parametrize("block", range(5))
+def test_five_hundred_random_encounters(block: int) -> None:
+    run_block(range(100 * block, 100 * block + 100))
 
 
 @pytest.mark.soak
