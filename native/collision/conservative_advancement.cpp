@@ -1,13 +1,23 @@
 #include "conservative_advancement.hpp"
 
+#include "solvers/work_limit.hpp"
+
 namespace shipcollision {
 namespace {
 
 constexpr int MAXIMUM_SUBSTEPS = 10000;
+constexpr double MOST_PAIR_SUBSTEPS = 10000.0;
+constexpr double USUAL_SUBSTEP = 0.01;
 constexpr int LEAST_TOUCHES = 4;
 constexpr int NEVER = 1000000000;
 constexpr int MOST_TOUCHES = 40;
 constexpr int MOST_EXAMINED = 120;
+
+// `count`, or the fewer substeps of a step of H [s] that so many pairs near each other leave.
+int limit_substeps(int count, double H, int near) {
+  const double most = max(MOST_PAIR_SUBSTEPS * max(1.0, H / STEP) / near, ceil(H / USUAL_SUBSTEP - 1e-9));
+  return count <= most ? count : static_cast<int>(most);
+}
 
 int find_most_touches(int near) {
   const int touches = near > 0 ? MOST_EXAMINED / near : MOST_TOUCHES;
@@ -42,7 +52,9 @@ ConservativeAdvancement::ConservativeAdvancement(const Bodies& bodies, Detector&
 
 bool ConservativeAdvancement::begin(double H, double substep, BodyState* states, LastNormals& last_normals,
                                     const Buffer<NearPair>& near, Text& why) {
-  if (!divide_into_substeps(H, substep, count_, h_, why)) return false;
+  if (!divide_into_substeps(H, substep, requested_, h_, why)) return false;
+  count_ = limit_substeps(requested_, H, near.size());
+  if (count_ < requested_) h_ = H / count_;
   H_ = H;
   states_ = states;
   last_normals_ = &last_normals;
@@ -233,6 +245,13 @@ void ConservativeAdvancement::reschedule() {
       entry.is_apart = entry.is_apart || gap > 0.0;
     }
   }
+}
+
+void ConservativeAdvancement::describe_limited(double t, Text& text) const {
+  text << entries_.size() << " pairs of hulls are near each other in the step from t = ";
+  text.short_number(t) << " s by ";
+  text.short_number(H_) << " s, which has " << count_ << " substeps in place of " << requested_
+                        << ": take a longer substep, or shorter steps";
 }
 
 void ConservativeAdvancement::describe_exhausted(double t, Text& text) const {

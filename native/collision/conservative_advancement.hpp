@@ -31,6 +31,9 @@ class ConservativeAdvancement {
 
   bool touched = false;
   int touches_left = 0;
+  // The warning of the step from t [s] if it has fewer substeps than were asked for.
+  bool is_limited() const { return count_ < requested_; }
+  void describe_limited(double t, Text& text) const;
   // The warning of the step from t [s] if it had more first touches than are looked for.
   void describe_exhausted(double t, Text& text) const;
 
@@ -70,7 +73,7 @@ class ConservativeAdvancement {
   BodyState* states_ = nullptr;
   LastNormals* last_normals_ = nullptr;
   double H_ = 0.0, h_ = 0.0;
-  int count_ = 0;
+  int count_ = 0, requested_ = 0;
   bool has_fenders_ = false;
   int most_touches_ = 0;
   int pending_substeps_ = 0;  // by which the predicted poses lag

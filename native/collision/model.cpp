@@ -327,6 +327,11 @@ bool ShipCollision::take_substeps(Run& run, double t, double H, Text& why) {
     }
   }
   advancement.finish();
+  if (advancement.is_limited()) {
+    Text limited;
+    advancement.describe_limited(t, limited);
+    warn(limited);
+  }
   if (advancement.touches_left <= 0) {
     Text exhausted;
     advancement.describe_exhausted(t, exhausted);

@@ -30,11 +30,19 @@ from .dynamics.body_state import BodyState, advance_bodies
 from .geometry.broad_phase import Pair
 from .geometry.detection import FAST, Detector
 from .proximity import NearPair
+from .solvers.work_limit import STEP
 
-__all__ = ["MAXIMUM_SUBSTEPS", "ConservativeAdvancement"]
+__all__ = ["MAXIMUM_SUBSTEPS", "ConservativeAdvancement", "limit_substeps"]
 
 MAXIMUM_SUBSTEPS = 10_000
 """Substeps of a communication step in which hulls are near each other: 100 s at 0.01 s. More is a mistake in a unit."""
+
+MOST_PAIR_SUBSTEPS = 10_000
+"""Substeps of a communication step of 0.1 s, times the pairs near each other in it; a longer step has as many more.
+Larger: native steps of more than 0.2 s, where 12 jammed ships are examined in each substep."""
+
+USUAL_SUBSTEP = 0.01
+"""[s] Substeps of this length or a larger one are taken however many pairs are near each other."""
 
 LEAST_TOUCHES = 4
 """First touches of a communication step however many pairs are near each other: a boat hits one or two ships in it."""
@@ -60,7 +68,11 @@ class ConservativeAdvancement:
         caches: ContactCaches, near: Mapping[Pair, NearPair], with_fender: Container[Pair],
     ) -> None:  # fmt: skip
         """near: pairs that could touch within the step. Raises StepError for too many substeps."""
-        self.count, self.h = divide_into_substeps(H, substep)
+        self._requested, self.h = divide_into_substeps(H, substep)
+        self.count = limit_substeps(self._requested, H, len(near))
+        self.is_limited = self.count < self._requested
+        if self.is_limited:
+            self.h = H / self.count
         self._H, self._bodies, self._states, self._detector, self._caches = H, bodies, states, detector, caches
         self._moving = [states[i] for i in {i for pair in near for i in pair} if not states[i].fixed]
         self._fenders = any(pair in with_fender for pair in near)
@@ -153,6 +165,13 @@ class ConservativeAdvancement:
                 if gap > 0.0:
                     self._apart.add(pair)
 
+    def describe_limited(self, t: float) -> str:
+        """The warning of the step from t [s] if it has fewer substeps than were asked for."""
+        return (
+            f"{len(self._due)} pairs of hulls are near each other in the step from t = {t:g} s by {self._H:g} s, which "
+            f"has {self.count} substeps in place of {self._requested}: take a longer substep, or shorter steps"
+        )
+
     def describe_exhausted(self, t: float) -> str:
         """The warning of the step from t [s] if it had more first touches than are looked for."""
         return (
@@ -231,3 +250,9 @@ def divide_into_substeps(H: float, substep: float) -> tuple[int, float]:
         return n, substep
     n = ceil(H / substep)
     return n, H / n
+
+
+def limit_substeps(count: int, H: float, near: int) -> int:
+    """`count`, or the fewer substeps of a step of H [s] that so many pairs near each other leave."""
+    most = max(MOST_PAIR_SUBSTEPS * max(1.0, H / STEP) / near, ceil(H / USUAL_SUBSTEP - 1e-9))
+    return count if count <= most else int(most)

@@ -205,8 +205,9 @@ class ShipCollision:
                 if solution.impulses:
                     points, schedule.touched = self._book(solution, numbers, states, points), True
         schedule.finish()
-        if not schedule.touches_left:
-            self.warning = schedule.describe_exhausted(t)
+        limited = schedule.describe_limited(t) if schedule.is_limited else ""
+        exhausted = "" if schedule.touches_left else schedule.describe_exhausted(t)
+        self.warning = "; ".join(filter(None, (limited, exhausted)))
         return points
 
     def _warn_of_delay(self, t: float, H: float, detector: Detector) -> None:

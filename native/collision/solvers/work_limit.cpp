@@ -7,7 +7,6 @@ namespace {
 constexpr double FOUR_SHIPS = 30000.0;
 constexpr double FURTHER_SHIP = 15000.0;
 constexpr double SHARE = 0.4;
-constexpr double STEP = 0.1;
 
 }  // namespace
 

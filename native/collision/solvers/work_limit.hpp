@@ -5,6 +5,8 @@
 
 namespace shipcollision {
 
+constexpr double STEP = 0.1;
+
 // Work that one solve may still do [us, nominal].
 struct WorkLimit {
   double left = INFINITE;
