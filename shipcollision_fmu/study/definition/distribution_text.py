@@ -48,7 +48,7 @@ def _read_table(given: dict[str, Any]) -> Distribution:
 
 def _without_brackets(line: str) -> str:
     """ "[sd] = -1 must ..." as "sd = -1 must ...": the key is not a table here."""
-    return re.sub(r"^\[(\w+)\] ?(?=[\[ ]|= |is |must )", r"\1 ", line).replace("[values]:", "values:")
+    return re.sub(r"^\[([^\]]*)\](:?) ?", r"\1\2 ", line)
 
 
 Variable = Annotated[Distribution, PlainValidator(read_distribution)]

@@ -42,7 +42,7 @@ def _list_variables(file: StudyFile) -> Iterator[tuple[str, str, Distribution | 
         yield role, "ships", fleet.ships if isinstance(fleet.ships, TableColumn) else None
         for i, pool in enumerate(fleet.sampled):
             for name in LIMITS:
-                yield f"{role}.sampled", f"[{i}].{name}", getattr(pool, name)
+                yield role, f"sampled[{i}].{name}", getattr(pool, name)
 
 
 def _check_values(at: str, key: str, given: TableColumn, table: EmpiricalTable) -> None:

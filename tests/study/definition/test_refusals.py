@@ -111,6 +111,14 @@ REFUSALS: dict[str, tuple[tuple[str, str], str]] = {
         (SPEED, 'own_speed = {distribution = "normal", mean = 3.0, std = 1.0, least = 0.0, most = 9.0}'),
         "std is not a known key: did you mean sd?",
     ),
+    "a key of a distribution that is no word": (
+        (SPEED, 'own_speed = {distribution = "uniform", least = 1.0, most = 2.0, -1 = 3.0}'),
+        "[encounter.own_speed] -1 is not a known key: known: distribution, least, most",
+    ),
+    "a table that is not there, of a pool": (
+        (SHIPS, POOL.replace("C_b = 0.8", 'C_b = {table = "data", column = "v"}')),
+        "[own] sampled[0].C_b: table = 'data' is not in [tables]: add a table [tables.NAME] with file",
+    ),
     "a negative standard deviation": (
         (SPEED, 'own_speed = {distribution = "normal", mean = 3.0, sd = -1.0, least = 0.0, most = 9.0}'),
         "[encounter.own_speed] sd = -1.0 must be greater than 0: it is the standard deviation",
