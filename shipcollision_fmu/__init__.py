@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from .encounters.encounter import encounter
     from .encounters.imazu import imazu
     from .encounters.traffic.situation import traffic_scenario
-    from .errors import HostError, InputError, ScenarioError, ShipCollisionError, ShipError, StepError
+    from .errors import HostError, InputError, ScenarioError, ShipCollisionError, ShipError, StepError, StudyError
     from .fmi.builder.package import build_fmus
     from .manoeuvring.model import ShipManoeuvring
     from .scenario.scenario import Scenario, load_scenario
@@ -41,9 +41,9 @@ __version__ = "0.1.0"
 
 __all__ = [
     "Encounters", "HostError", "InputError", "Run", "Scenario", "ScenarioError", "Ship", "ShipCollision",
-    "ShipCollisionError", "ShipError", "ShipManoeuvring", "StepError", "__version__", "build_fmus", "collide",
-    "encounter", "imazu", "impact", "load_scenario", "load_ship", "read_study", "run_encounters", "run_study",
-    "simulate", "traffic_scenario",
+    "ShipCollisionError", "ShipError", "ShipManoeuvring", "StepError", "StudyError", "__version__", "build_fmus",
+    "collide", "encounter", "imazu", "impact", "load_scenario", "load_ship", "read_study", "run_encounters",
+    "run_study", "simulate", "traffic_scenario",
 ]  # fmt: skip
 
 _MODULES = {
@@ -57,7 +57,7 @@ _MODULES = {
     "encounters.encounter": ("encounter",),
     "encounters.imazu": ("imazu",),
     "encounters.traffic.situation": ("traffic_scenario",),
-    "errors": ("HostError", "InputError", "ScenarioError", "ShipCollisionError", "ShipError", "StepError"),
+    "errors": ("HostError", "InputError", "ScenarioError", "ShipCollisionError", "ShipError", "StepError", "StudyError"),
     "fmi.builder.package": ("build_fmus",),
     "manoeuvring.model": ("ShipManoeuvring",),
     "scenario.scenario": ("Scenario", "load_scenario"),
