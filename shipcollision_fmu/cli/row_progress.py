@@ -11,7 +11,7 @@ import click
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn
 
-__all__ = ["describe_pace", "row_progress"]
+__all__ = ["Pace", "describe_pace", "row_progress"]
 
 PLAIN_PAUSE = 10.0
 """Time [s] between lines when stderr is not a terminal: a night's log stays readable."""
@@ -23,14 +23,7 @@ def row_progress(name: str) -> Iterator[Callable[[int, int], None]]:
 
     Rows that are there at its first call are not counted into the rate.
     """
-    start: tuple[int, float] | None = None
-
-    def measure(done: int, total: int) -> str:
-        nonlocal start
-        if start is None:
-            start = done, monotonic()
-        return describe_pace(done, start[0], total, monotonic() - start[1])
-
+    measure = Pace().measure
     if not sys.stderr.isatty():
         last = monotonic()
 
@@ -54,6 +47,22 @@ def row_progress(name: str) -> Iterator[Callable[[int, int], None]]:
             bar.update(task, completed=done, total=total, pace=measure(done, total))
 
         yield move_bar
+
+
+class Pace:
+    """The pace from the first answer on: the time of that one has the start of the workers in it."""
+
+    def __init__(self, clock: Callable[[], float] = monotonic) -> None:
+        self._clock = clock
+        self._starts: list[tuple[int, float]] = []
+
+    def measure(self, done: int, total: int) -> str:
+        """The pace at so many rows, as describe_pace() says it."""
+        now = self._clock()
+        if not self._starts or (len(self._starts) == 1 and done > self._starts[0][0]):
+            self._starts.append((done, now))
+        first, begin = self._starts[-1]
+        return describe_pace(done, first, total, now - begin)
 
 
 def describe_pace(done: int, first: int, total: int, seconds: float) -> str:

@@ -54,11 +54,11 @@ def test_what_many_cases_cost_follows_from_what_is_measured() -> None:
     """10^8 cases on 100 cores, of the time of a case, that of a batch, and those of the client."""
     text = (GUIDE / PAGE).read_text(encoding="utf-8")
     per_batch, per_1000 = (
-        float(re.search(rf"{words} \| (\d+) ms \|", text)[1]) * 1e-3  # type: ignore[index]
+        float(re.search(rf"{words} \| ([\d.]+) ms \|", text)[1]) * 1e-3  # type: ignore[index]
         for words in ("for a batch", "one batch each")
     )
     cases, cores, hour = 1e8, 100, 3600.0
-    for level, seconds in (("impact", 0.13e-3), ("encounter", 20e-3), ("sailed", 0.5)):
+    for level, seconds in (("impact", 0.046e-3), ("encounter", 20e-3), ("sailed", 0.5)):
         row = re.search(rf"^\| `{level}` \| (.*) \|$", text, re.MULTILINE)[1].split(" | ")  # type: ignore[index]
         computing, parts = cases * seconds, cases / PART_ROWS[level]
         batches = parts * max(1, round(PART_ROWS[level] * seconds / TARGET))
@@ -72,6 +72,5 @@ def test_what_many_cases_cost_follows_from_what_is_measured() -> None:
         assert float(number) == pytest.approx(longest, rel=0.03)
         if level == "impact":
             assert row[4].endswith(f"and {computing / client:.0f} cores are enough")
-    assert f"some {1 / per_batch:.0f} batches a second".replace("143", "140") in text
-    assert "enough for 280 cores" in text
-    assert pytest.approx(280, rel=0.03) == TARGET / per_batch
+    assert f"some {round(1 / per_batch, -1):.0f} batches a second" in text
+    assert f"enough for {round(TARGET / per_batch, -1):.0f} cores" in text

@@ -30,7 +30,7 @@ from .parts import Part, count_parts, list_parts
 __all__ = ["TABLES", "StudyFolder"]
 
 TABLES = ("encounters", "collisions")
-ROOM = "make room on the disk or give another folder with --out, then go on with --resume"
+ROOM = "make room on the disk, or its folder writable, then go on with --resume"
 ASIDE = ".shipcollision-*"
 """Folders of files that are being written; a client that was killed leaves one behind."""
 

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
+import pty
 import signal
 import subprocess
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -121,6 +123,35 @@ def test_rate_and_time_left_are_of_the_rows_of_this_call() -> None:
     assert row_progress.describe_pace(1_000, 1_000, 9_000, 0.5) == ""
     assert row_progress.describe_pace(3_000, 1_000, 9_000, 4.0) == ", 500 rows/s, 0:00:12 left"
     assert row_progress.describe_pace(1, 0, 10_000, 1.0) == ", 1 rows/s, 2:46:39 left"
+
+
+def test_the_pace_begins_with_the_first_answer() -> None:
+    """Workers that take a minute to start do not count, nor rows of an earlier call."""
+    clock = iter([0.0, 60.0, 62.0, 64.0])
+    pace = row_progress.Pace(lambda: next(clock))
+    said = [pace.measure(done, 9_000) for done in (1_000, 1_004, 2_004, 3_004)]
+    assert said == ["", "", ", 500 rows/s, 0:00:14 left", ", 500 rows/s, 0:00:12 left"]
+
+
+def test_a_terminal_has_a_bar_that_is_gone_at_the_end(folder: Path) -> None:
+    """In a terminal of its own: rows and pace are drawn, notes stand above the bar, and results alone are left."""
+    leader, follower = pty.openpty()
+    code = "from shipcollision_fmu.cli import main; main()"
+    with open(leader, "rb", buffering=0) as drawn:
+        process = subprocess.Popen(
+            [sys.executable, "-c", code, "study", "small.toml", *OPTIONS], cwd=folder, stderr=follower,
+            stdout=subprocess.PIPE, env=os.environ | {"PYTHONPATH": str(PROJECT), "TERM": "xterm", "COLUMNS": "120"},
+        )  # fmt: skip
+        os.close(follower)
+        text = b""
+        with suppress(OSError):  # the end of a terminal
+            while piece := drawn.read(4096):
+                text += piece
+        stdout, _ = process.communicate(timeout=60)
+    assert process.returncode == 0
+    assert b"of 40 rows" in text
+    assert text.rstrip().endswith((b"\x1b[2K", b"\x1b[?25h", b"\x1b[1A\x1b[2K"))
+    assert stdout.startswith(b"40 rows: 0 refused")
 
 
 STOPPED = """

@@ -15,6 +15,8 @@ import distributed  # its defaults must be there before one is changed
 import pytest
 
 from shipcollision_fmu.errors import HostError
+from shipcollision_fmu.study.engine.batches import Batch
+from shipcollision_fmu.study.engine.dask_executor import DaskExecutor
 from shipcollision_fmu.study.engine.run import run_study
 from tests.study.engine.cluster import PROJECT, wait_for
 from tests.study.engine.folders import STUDY, digest
@@ -31,10 +33,21 @@ def one_death_is_enough() -> Iterator[None]:
         yield
 
 
-def test_two_workers_give_the_bytes_of_one_process(whole: Path, tmp_path: Path) -> None:
+def test_two_workers_give_the_bytes_of_one_process(
+    whole: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     lines: list[str] = []
+    out: list[int] = []
+    submit = DaskExecutor.submit
+
+    def count(self: DaskExecutor, batch: Batch) -> None:
+        submit(self, batch)
+        out.append(len(self._out))
+
+    monkeypatch.setattr(DaskExecutor, "submit", count)
     run_study(STUDY, tmp_path / "study", workers=2, engine="python", compute=compute_stand_in, notify=lines.append)
     assert digest(tmp_path / "study") == digest(whole)
+    assert max(out) == 4  # two for each worker, so that memory is bounded
     assert [line.partition("127.0.0.1:")[0] for line in lines] == ["dashboard: http://"]
 
 
@@ -65,6 +78,8 @@ CLIENT = """
 from dataclasses import replace
 from pathlib import Path
 import sys
+from shipcollision_fmu.study.engine.batches import Batch
+from shipcollision_fmu.study.engine.dask_executor import DaskExecutor
 from shipcollision_fmu.study.engine.run import run_study
 from tests.study.engine.folders import STUDY
 from tests.study.engine.stand_in import compute_stand_in

@@ -208,7 +208,7 @@ def test_a_full_disk_leaves_whole_files_and_goes_on_with_room(whole: Path, tmp_p
     resource.setrlimit(resource.RLIMIT_FSIZE, (sizes[-1] - 1, before[1]))
     try:
         with pytest.raises(
-            HostError, match=rf"^cannot write to {out}/\w+: File too large; make room on the disk or give"
+            HostError, match=rf"^cannot write to {out}/\w+: File too large; make room on the disk, or its"
         ):
             run(out)
     finally:
