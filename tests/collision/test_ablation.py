@@ -192,7 +192,7 @@ ABLATIONS = {
     ),
     "no deficit for bodies out of range": Ablation(
         impulse_ledger, "_is_out_of_range", lambda *_: False,
-        one("world", encounters.test_three_hundred_random_encounters, 0),
+        one("world", encounters.test_two_hundred_random_encounters, 0),
     ),
     "conservative advancement": Ablation(
         conservative_advancement.ConservativeAdvancement, "_free_substeps", lambda *_: 0,

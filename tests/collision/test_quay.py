@@ -119,9 +119,14 @@ def test_a_minute_at_the_quay(berthed: MakeBerthed, algorithm: str, response: st
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("response", ["pgs", "closed_form"])
-@pytest.mark.parametrize(("times", "H"), [(1.0, 0.5), (10.0, 0.1), (10.0, 0.5)])
-@pytest.mark.parametrize("restitution", [0.3, 0.5, 1.0])
+@pytest.mark.parametrize(
+    ("restitution", "times", "H", "response"),
+    [
+        (0.3, 1.0, 0.5, "pgs"), (0.3, 10.0, 0.1, "closed_form"), (0.3, 10.0, 0.5, "pgs"),
+        (0.5, 1.0, 0.5, "closed_form"), (0.5, 10.0, 0.1, "pgs"), (0.5, 10.0, 0.5, "closed_form"),
+        (1.0, 1.0, 0.5, "pgs"), (1.0, 10.0, 0.1, "closed_form"), (1.0, 10.0, 0.5, "pgs"),
+    ],
+)  # fmt: skip
 def test_a_ship_that_springs_back_does_not_creep(
     berthed: MakeBerthed, response: str, times: float, H: float, restitution: float
 ) -> None:
@@ -141,9 +146,13 @@ def test_ten_minutes_at_the_quay(berthed: MakeBerthed, algorithm: str, H: float)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
-@pytest.mark.parametrize("H", [pytest.param(0.1, marks=pytest.mark.slow), 0.5])
-@pytest.mark.parametrize("moves_by", [*(pytest.param(share, marks=pytest.mark.slow) for share in (0.0, 0.5)), 1.0])
+@pytest.mark.parametrize(
+    ("moves_by", "H", "algorithm"),
+    [
+        (0.0, 0.1, "gauss-seidel"), (0.5, 0.1, "jacobi"), (1.0, 0.1, "gauss-seidel"),
+        (0.0, 0.5, "jacobi"), (0.5, 0.5, "gauss-seidel"), (1.0, 0.5, "jacobi"),
+    ],
+)  # fmt: skip
 def test_however_a_ship_model_integrates_she_stays(
     berthed: MakeBerthed, algorithm: str, H: float, moves_by: float
 ) -> None:
