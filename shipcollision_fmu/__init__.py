@@ -57,7 +57,9 @@ _MODULES = {
     "encounters.encounter": ("encounter",),
     "encounters.imazu": ("imazu",),
     "encounters.traffic.situation": ("traffic_scenario",),
-    "errors": ("HostError", "InputError", "ScenarioError", "ShipCollisionError", "ShipError", "StepError", "StudyError"),
+    "errors": (
+        "HostError", "InputError", "ScenarioError", "ShipCollisionError", "ShipError", "StepError", "StudyError",
+    ),
     "fmi.builder.package": ("build_fmus",),
     "manoeuvring.model": ("ShipManoeuvring",),
     "scenario.scenario": ("Scenario", "load_scenario"),
@@ -65,7 +67,7 @@ _MODULES = {
     "ship.ship": ("Ship",),
     "study.definition.study": ("read_study",),
     "study.engine.run": ("run_study",),
-}
+}  # fmt: skip
 """Modules and what users import of them."""
 
 
