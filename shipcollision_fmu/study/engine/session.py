@@ -34,6 +34,10 @@ class Means:
     workers: int | None
 
 
+HERE = Means(None, None, workers=0)
+"""Where nothing is missing: a cluster would start in vain."""
+
+
 def run_session(
     study: Study, out: Path, means: Means, compute: ComputeRows, engine: Callable[[str | None], str], resume: bool,
     csv: bool, progress: Progress | None, notify: Notify,
@@ -42,10 +46,10 @@ def run_session(
     begin = perf_counter()
     folder = StudyFolder(out, study)
     folder.check(resume, engine)
-    with _open_executor(study, compute, folder.engine, means, notify) as executor:
+    tally = Tally()
+    missing = list(_find_missing(folder, tally, notify))
+    with _open_executor(study, compute, folder.engine, means if missing else HERE, notify) as executor:
         folder.open()
-        tally = Tally()
-        missing = list(_find_missing(folder, tally, notify))
         loop = Loop(executor, BatchPlan(missing), Assembly(study.fingerprint), folder, tally, study.rows, progress)
         there = tally.rows
         try:

@@ -165,6 +165,16 @@ def test_a_finished_study_is_not_computed_again(whole: Path, tmp_path: Path) -> 
     assert digest(out) == digest(whole)
 
 
+def test_a_finished_study_asks_no_scheduler(whole: Path, tmp_path: Path) -> None:
+    """Nothing listens at the address; a cluster of one's own would take seconds to start."""
+    out = tmp_path / "study"
+    shutil.copytree(whole, out)
+    result = run_study(
+        STUDY, out, scheduler="tcp://127.0.0.1:9", resume=True, engine="python", compute=compute_stand_in
+    )  # type: ignore[arg-type]  # a stand-in
+    assert (result.rows, result.computed) == (STUDY.rows, 0)
+
+
 def test_resume_without_a_study_begins_it(whole: Path, tmp_path: Path) -> None:
     """A job script gives --resume always."""
     run(tmp_path / "new", resume=True)
