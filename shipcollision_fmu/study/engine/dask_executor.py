@@ -19,11 +19,12 @@ from typing import Any
 from distributed import Future, KilledWorker
 
 from ... import __version__
-from ...errors import HostError, InputError, describe_installation
+from ...errors import HostError, InputError
 from .batches import Batch
 from .clusters import ANSWER, Cluster, check_versions
 from .executor import Failure, Outcome
 from .interface import ComputeRows, Study
+from .versions import describe_missing_package
 from .work import Answer, compute_batch
 
 __all__ = ["DaskExecutor"]
@@ -155,10 +156,7 @@ class DaskExecutor:
         if isinstance(error, (KilledWorker, MemoryError)):
             return Outcome(batch, failure=Failure.DEADLY)
         if isinstance(error, ModuleNotFoundError):
-            raise HostError(
-                f"a worker has no package {error.name!r}: on every machine of the cluster "
-                f"{describe_installation('study')}"
-            )
+            raise HostError(describe_missing_package(str(error.name)))
         raise error
 
     def _count_workers(self) -> None:

@@ -95,14 +95,19 @@ def test_a_scheduler_that_is_restarted(whole: Path, tmp_path: Path) -> None:
     ]
 
 
-def test_a_cluster_without_the_package_is_refused_in_one_line(tmp_path: Path) -> None:
-    """Its Python has the packages of this one, but ours."""
-    packages = tmp_path / "packages"
-    packages.mkdir()
+@pytest.fixture
+def packages(tmp_path: Path) -> Path:
+    """A folder with the packages of this Python, but ours."""
+    made = tmp_path / "packages"
+    made.mkdir()
     for place in map(Path, site.getsitepackages()):
         for entry in place.iterdir():
             if "shipcollision" not in entry.name and entry.suffix != ".pth":
-                (packages / entry.name).symlink_to(entry)
+                (made / entry.name).symlink_to(entry)
+    return made
+
+
+def test_a_cluster_without_the_package_is_refused_in_one_line(packages: Path, tmp_path: Path) -> None:
     python = (sys.executable, "-S")  # no site: the development install is not on its path
     with process_cluster(tmp_path / "cluster", workers=1, python=python, path=packages) as cluster:
         text = f"^the scheduler has no shipcollision-fmu, the client has {__version__}: run `python -m pip install"

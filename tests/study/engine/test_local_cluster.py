@@ -51,6 +51,13 @@ def test_two_workers_give_the_bytes_of_one_process(
     assert [line.partition("127.0.0.1:")[0] for line in lines] == ["dashboard: http://"]
 
 
+def test_real_rows_are_those_of_one_process(tmp_path: Path) -> None:
+    for workers in (0, 2):
+        run_study("quick", tmp_path / str(workers), workers=workers)
+    assert len(digest(tmp_path / "0")) == 2
+    assert digest(tmp_path / "2") == digest(tmp_path / "0")
+
+
 def test_a_batch_that_kills_its_worker_is_halved(whole: Path, tmp_path: Path) -> None:
     run_study(
         replace(STUDY, deadly=450, bearable=100),

@@ -15,6 +15,7 @@ from shipcollision_fmu import __version__
 from shipcollision_fmu.errors import HostError, StudyError
 from shipcollision_fmu.files import write_files
 from shipcollision_fmu.study.engine.batches import Batch
+from shipcollision_fmu.study.engine.dask_executor import DaskExecutor
 from shipcollision_fmu.study.engine.folder import StudyFolder
 from shipcollision_fmu.study.engine.part_file import PartBytes
 from shipcollision_fmu.study.engine.parts import get_part
@@ -335,3 +336,13 @@ def test_a_worker_of_another_version_computes_nothing(tmp_path: Path) -> None:
     batch = Batch(get_part(0, 10, "sailed"), 0, 10)
     with pytest.raises(HostError, match=rf"^a worker has shipcollision-fmu {__version__}, the client has 9\.9\.9"):
         compute_batch(STUDY, compute_stand_in, "python", batch, version="9.9.9")
+
+
+def test_a_worker_that_lacks_a_package_is_named_with_the_remedy() -> None:
+    class Failed:
+        def exception(self, timeout: float) -> BaseException:
+            return ModuleNotFoundError("No module named 'shipcollision_fmu'", name="shipcollision_fmu")
+
+    executor, batch = object.__new__(DaskExecutor), Batch(get_part(0, 10, "sailed"), 0, 10)
+    with pytest.raises(HostError, match=r"^a worker has no package 'shipcollision_fmu': run `python -m pip install '"):
+        executor._explain(batch, Failed())  # type: ignore[arg-type]
