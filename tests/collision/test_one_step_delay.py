@@ -52,6 +52,37 @@ def test_a_known_delay_outlasts_an_impulse_that_is_lost_in_rounding() -> None:
     assert read(1e9 * surge).one_step_delay is True
 
 
+@LANGUAGES
+@pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
+def test_a_host_that_rounds_what_was_applied_shows_no_other_order(
+    make_ship: Make, world: MakeWorld, algorithm: str
+) -> None:
+    """A host may hand impulse_applied on in single precision: what is left of an impulse then is rounding, no delay."""
+    ship = make_ship("ship", hull=BOX)
+    start = [
+        {"position": [0.0, 0.0, 0.0], "nu": [5.0, 0.0, 0.0, 0.0, 0.0, 0.0]},
+        {"position": [-40.0, -55.0, 0.0], "attitude": (0.0, 0.0, 0.25), "nu": [6.0, 0.0, 0.0, 0.0, 0.0, 0.02]},
+    ]
+    exact, rounded = (
+        world([ship, ship], start, algorithm=algorithm, degrees_of_freedom=3, friction=0.3, substep=0.05)
+        for _ in range(2)
+    )
+    send = rounded.send
+
+    def send_rounded() -> None:
+        kept = rounded.applied
+        rounded.applied = [np.float32(each).astype(float) for each in kept]
+        send()
+        rounded.applied = kept
+
+    rounded.send = send_rounded
+    for w in (exact, rounded):
+        w.run(24.0, 0.2)
+    assert sum(work != 0.0 for work in exact.work) > 3
+    for one, other, before in zip(exact.nu, rounded.nu, (s["nu"] for s in start), strict=True):
+        np.testing.assert_allclose(other, one, atol=1e-5 * np.abs(one - before).max())
+
+
 def late_impulse(world: MakeWorld, ship: str, V: tuple[float, float], e: float, H: float) -> tuple[World, np.ndarray]:
     """The first impulse on the second of two turning ships that are known to be late, in n, and the world then. Both
     ships have the velocity V [m/s] in n beside their own."""

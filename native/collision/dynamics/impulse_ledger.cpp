@@ -4,6 +4,7 @@ namespace shipcollision {
 namespace {
 
 constexpr double ROUNDING = 1e-12;
+constexpr double SHOWS = 1e-6;
 
 bool is_beyond_range(const Six& nu, double reach, double H) {
   return H * (norm(last_three(nu)) + norm(first_three(nu)) / reach) > RANGE;
@@ -43,7 +44,11 @@ Reading ImpulseLedger::read(Feedback feedback, const Pose& pose, const Six& nu, 
   if (is_pending) reading.nu = nu + multiply(M_inverse, reading.pending);
   reading.is_out_of_range = is_beyond_range(reading.nu, reach, H);
   if (!is_zero(newly_applied)) reading.applied_n = applied_n_ + wrench_in_n(pose_, newly_applied);
-  if (!is_zero(last_issued_)) reading.delay = is_pending ? Delay::one_step : Delay::none;
+  if (norm(first_three(last_issued_)) > SHOWS * size_[0] || norm(last_three(last_issued_)) > SHOWS * size_[1]) {
+    const Six moved = multiply(M_inverse, last_issued_);
+    const bool is_late = dot(moved, reading.pending) > 0.5 * dot(moved, last_issued_);  // less is rounding of the host
+    reading.delay = is_late ? Delay::one_step : Delay::none;
+  }
   Six deficit = issued_n_ - reading.applied_n;
   if (is_pending) deficit = deficit - wrench_in_n(pose, reading.pending);
   reading.has_deficit = !reading.is_out_of_range && !(largest(first_three(deficit)) <= ROUNDING * size_[0] &&

@@ -47,6 +47,10 @@ __all__ = ["FEEDBACKS", "ImpulseLedger", "Reading"]
 ROUNDING = 1e-12
 """Deficit, as a share of all that was ever issued, that is rounding. With zero, no ledger would ever be settled."""
 
+SHOWS = 1e-6
+"""Least share of all that was ever issued by which an impulse shows whether it is applied one step late. Hosts that
+hand impulses on in single precision round by 6e-8 of them."""
+
 RANGE = 0.1
 """Turning in a step [rad] plus distance in it as a share of the reach of the hull. Beyond it the deficit is discarded.
 A larger range adds energy to small bodies; a smaller one loses momentum of fast ships under a parallel master."""
@@ -113,8 +117,10 @@ class ImpulseLedger:
         applied_n, one_step_delay = self._applied_n, self.one_step_delay
         if newly_applied.any():
             applied_n = applied_n + _wrench_in_n(self._x, self._R, newly_applied)
-        if self.last_issued.any():
-            one_step_delay = is_pending
+        linear, angular = hypot(*self.last_issued[:3].tolist()), hypot(*self.last_issued[3:].tolist())
+        if linear > SHOWS * self._size[0] or angular > SHOWS * self._size[1]:
+            whole = float(self.last_issued @ M_inverse @ self.last_issued)
+            one_step_delay = float(self.last_issued @ M_inverse @ pending) > 0.5 * whole  # less is rounding of the host
         deficit = self._issued_n - applied_n
         if is_pending:
             deficit = deficit - _wrench_in_n(x, R, pending)
