@@ -53,6 +53,12 @@ class ProcessCluster:
         )
         wait_for(lambda: self.file.exists() and self.file.read_bytes().strip().endswith(b"}"))
 
+    def start_foreign_worker(self, packages: Path) -> None:
+        """Starts a worker whose Python has the packages of a folder alone."""
+        self._python = (sys.executable, "-S")  # no site: the development install is not on its path
+        self._environment = self._environment | {"PYTHONPATH": str(packages)}
+        self.start_workers(1)
+
     def start_workers(self, count: int) -> None:
         """Starts workers of the scheduler."""
         self.workers += [

@@ -107,6 +107,27 @@ def packages(tmp_path: Path) -> Path:
     return made
 
 
+def test_a_worker_without_the_package_that_comes_later_harms_nothing(
+    packages: Path, whole: Path, tmp_path: Path
+) -> None:
+    """It cannot read its first batch, and ends; others compute that."""
+    at = AtTheGate(tmp_path, gated=500)
+
+    def join() -> None:
+        try:
+            at.wait(1)
+            cluster.start_foreign_worker(packages)
+            cluster.workers[-1].wait(timeout=60)
+        finally:
+            at.open()
+
+    with process_cluster(tmp_path / "cluster", workers=1) as cluster, ThreadPoolExecutor() as aside:
+        joined = aside.submit(join)
+        run_study(at.study, tmp_path / "study", scheduler=cluster.address, engine="python", compute=compute_stand_in)
+        joined.result()
+    assert digest(tmp_path / "study") == digest(whole)
+
+
 def test_a_cluster_without_the_package_is_refused_in_one_line(packages: Path, tmp_path: Path) -> None:
     python = (sys.executable, "-S")  # no site: the development install is not on its path
     with process_cluster(tmp_path / "cluster", workers=1, python=python, path=packages) as cluster:
