@@ -233,6 +233,7 @@ def test_of_ships_that_sail_momentum_is_not_closed() -> None:
     assert not run_watched(LONG, "gauss-seidel").run.summary["momentum"]["closed"]
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("name", SCENARIOS)
 def test_fmus_and_models_in_process_give_identical_states(name: str, tmp_path: Path) -> None:
     scenario = load_scenario(name)

@@ -61,7 +61,7 @@ def fuzz(unpacked: Path, unpacked3: Path, real_unpacked: dict[tuple[str, int], P
     return run
 
 
-@pytest.mark.parametrize(("which", "count"), [*zip(WHICH[::2], (50, 25, 4), strict=True)])
+@pytest.mark.parametrize(("which", "count"), [*zip(WHICH[:4:2], (50, 25), strict=True)])
 def test_random_calls_never_crash_the_host(fuzz: Fuzz, which: tuple[str, int], count: int) -> None:
     fuzz(which, 0, count)
 

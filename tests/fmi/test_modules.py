@@ -241,7 +241,7 @@ def foreign(folder: Path, name: str, fmi: int, answer: float) -> Path:
     ("fmi", "order"),
     [
         (2, "foreign first"),
-        (3, "foreign first"),
+        pytest.param(3, "foreign first", marks=SLOW),
         pytest.param(2, "ours first", marks=SLOW),
         pytest.param(3, "ours first", marks=SLOW),
     ],

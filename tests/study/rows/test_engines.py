@@ -92,6 +92,7 @@ def test_coasting_encounters(separation: float) -> None:
     compare(native, python, 1e-5)
 
 
+@pytest.mark.slow
 @pytest.mark.needs("pybullet")
 def test_sailed_encounters() -> None:
     study = read_twins("sailed", 'kind = "t-bone"\nown_speed = 3.0')
