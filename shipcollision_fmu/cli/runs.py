@@ -100,30 +100,51 @@ def _compile() -> None:
 def show(
     folder: Path, in_browser: bool, osg: bool, glb: bool, plots: bool, gif: bool, mp4: bool, still: float | None
 ) -> None:
-    """Show a finished run.
+    """Show a finished run, or a study.
 
     DIR is its folder. Without an option the page, replay.html, is written again, and the pictures in the folder are
     listed. With options the pictures that they name are written into the folder.
-    """
-    import webbrowser
 
+    Of a study the page is report.html, with its figures as PNG, SVG and CSV beside it. It needs Matplotlib.
+    """
     from ..show import outputs
 
-    scene = outputs.load_scene(folder)
     chosen = {"osg": osg, "glb": glb, "plots": plots, "gif": gif, "mp4": mp4, "still": still is not None}
     kinds = [kind for kind, is_chosen in chosen.items() if is_chosen]
+    if (folder / "study.json").is_file():
+        _show_study(folder, kinds, in_browser)
+        return
+    scene = outputs.load_scene(folder)
     for kind in kinds or ["page"]:
         with progress(kind) as report:
             lines = outputs.write(kind, scene, folder, still, report)
         for line in lines:
             say(line)
     if in_browser:
-        page = folder / outputs.PAGE if not kinds else outputs.write_page(scene, folder)
-        if not webbrowser.open(page.resolve().as_uri()):
-            fail(f"found no browser to open {page}: open it yourself", 1)
+        _open_page(folder / outputs.PAGE if not kinds else outputs.write_page(scene, folder))
     elif not kinds:
         for line in outputs.describe(scene, folder):
             say(line)
+
+
+def _show_study(folder: Path, kinds: list[str], in_browser: bool) -> None:
+    """Write the report of a study."""
+    from ..study.report.report import FIGURES, write_report
+
+    if kinds:
+        raise click.UsageError(f"--{kinds[0]} shows a run, and {folder} holds a study: leave it out")
+    page = write_report(folder)
+    say(f"{page}: open it in a browser")
+    say(f"{folder / FIGURES}: its figures as PNG, SVG and CSV")
+    if in_browser:
+        _open_page(page)
+
+
+def _open_page(page: Path) -> None:
+    import webbrowser
+
+    if not webbrowser.open(page.resolve().as_uri()):
+        fail(f"found no browser to open {page}: open it yourself", 1)
 
 
 def _remove_pictures(folder: Path) -> None:

@@ -39,19 +39,28 @@ class _EndedError(KeyboardInterrupt):
     help="What computes the cases; auto is native where there is the library.",
 )  # fmt: skip
 @click.option("--csv", is_flag=True, help="Write both tables as CSV as well.")
+@click.option("--row", type=WHOLE_NUMBER, metavar="N", help="Write row N alone, as a scenario file.")
 def study(
     study: str, out: Path | None, scheduler: str | None, scheduler_file: Path | None, workers: int | None, resume: bool,
-    engine: str, csv: bool,
+    engine: str, csv: bool, row: int | None,
 ) -> None:  # fmt: skip
     """Run the cases of a study, store its tables.
 
     STUDY is the name of a shipped study, quick or million, or the path of a TOML file. Worker processes on this machine
     compute the cases, or those of a Dask cluster. After Ctrl-C, --resume goes on with the study, to the same bytes.
+
+    With --row no case is computed: one is written as a scenario file into the folder of --out, for `shipcollision run`.
     """
     from ..study.definition.study import read_study
     from ..study.engine.run import run_study
 
     read = read_study(study)
+    if row is not None:
+        from ..study.rows.case_scenario import write_case
+
+        path = write_case(read, row, out if out is not None else Path("cases"))
+        say(f"{path}: run it with `shipcollision run {path}`")
+        return
     folder = out if out is not None else Path("studies") / read.name
     try:
         with _raise_at_sigterm(), row_progress(read.name) as report:

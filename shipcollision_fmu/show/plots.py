@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from matplotlib.lines import Line2D
 
-__all__ = ["FOLDER", "draw_figures", "save_figure", "write_plots"]
+__all__ = ["FOLDER", "apply_style", "draw_figures", "save_figure", "write_plots"]
 
 FOLDER = "plots"
 WIDTH = 7.2
@@ -69,7 +69,7 @@ def draw_figures(scene: Scene) -> dict[str, Figure]:
     from matplotlib.figure import Figure
 
     made = {}
-    with _apply_style():
+    with apply_style():
         for name, draw in (("track", _draw_track), ("motion", _draw_motion), ("energy", _draw_energy)):
             made[name] = Figure(layout="constrained")
             draw(made[name], scene)
@@ -77,7 +77,8 @@ def draw_figures(scene: Scene) -> dict[str, Figure]:
 
 
 @contextmanager
-def _apply_style() -> Iterator[None]:
+def apply_style() -> Iterator[None]:
+    """A context in which Matplotlib draws in the style of all figures."""
     import matplotlib
 
     with matplotlib.rc_context(_STYLE), warnings.catch_warnings():
@@ -88,7 +89,7 @@ def _apply_style() -> Iterator[None]:
 def save_figure(figure: Figure, kind: str) -> bytes:
     """The figure's file of that kind, "png" or "svg"; the same bytes for the same figure."""
     data = io.BytesIO()
-    with _apply_style():
+    with apply_style():
         figure.savefig(data, format=kind, metadata={"Date": None} if kind == "svg" else {"Software": None})
     return data.getvalue()
 

@@ -3,8 +3,9 @@
     definition/   the study file becomes a Study: distributions, fleets, tables of data, checks
     rows/         compute_rows(): some rows of a study as two tables, by row number alone
     engine/       run_study(): batches, workers, the folder of Parquet files
+    report/       write_report(): figures and a page from that folder
     extra.py      pyarrow and Dask, which studies alone need
 
-Data flow: study file -> Study -> rows -> tables -> folder. Imports from: batch, cosim, encounters, scenario,
-collision, fmi (names), ship, toolchain. Used by: cli and users of the package.
+Data flow: study file -> Study -> rows -> tables -> folder -> report. Imports from: batch, cosim, encounters,
+scenario, show (style of figures), collision, fmi (names), ship, toolchain. Used by: cli and users of the package.
 """

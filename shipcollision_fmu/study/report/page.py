@@ -1,0 +1,153 @@
+"""report.html: a study in one file that any browser shows, without a network and from a file: address.
+
+The figures are inside it as SVG. All text from the study is escaped; a content security policy forbids every address.
+"""
+
+from __future__ import annotations
+
+import base64
+import html
+from collections.abc import Iterable, Sequence
+
+from .study_table import StudyTable
+from .worst import Worst, format_commands
+
+__all__ = ["build_page"]
+
+_POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'"
+_STYLE = """
+:root { color-scheme: light; }
+* { box-sizing: border-box; }
+body { font: 16px/1.5 system-ui, sans-serif; color: #1c2733; background: #fff; margin: 0 auto; max-width: 1180px;
+  padding: 16px; }
+h1 { font-size: 1.6rem; margin: 0.4em 0; }
+h2 { font-size: 1.15rem; margin: 0 0 0.3em; }
+p { max-width: 46rem; margin: 0.5em 0; }
+.figures { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 440px), 1fr)); gap: 32px 40px;
+  margin: 24px 0; }
+figure { margin: 0; min-width: 0; }
+figure img { width: 100%; max-width: 560px; height: auto; display: block; }
+figcaption { font-size: 0.88rem; color: #44525f; max-width: 560px; }
+.wide { overflow-x: auto; }
+table { border-collapse: collapse; font-size: 0.92rem; }
+th, td { text-align: left; padding: 4px 12px 4px 0; border-bottom: 1px solid #d5dce3; vertical-align: top; }
+.cases th, .cases td { white-space: nowrap; }
+.cases .values td { border-bottom: 0; padding-top: 8px; }
+td.number, th.number { text-align: right; font-variant-numeric: tabular-nums; }
+code { font-size: 0.85em; background: #eef2f6; padding: 2px 5px; border-radius: 3px; user-select: all; }
+a { color: #1f5a96; }
+"""
+_TEMPLATE = """<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta http-equiv="Content-Security-Policy" content="{policy}">
+<title>Study {name}</title>
+<link rel="icon" href="data:,">
+<style>{style}</style>
+</head>
+<body>
+<h1>Study {name}</h1>
+{summary}
+<div class="figures">
+{figures}
+</div>
+{worst}
+</body>
+</html>
+"""
+_HEADINGS = (
+    ("row", "row", "", 1.0), ("energy", "energy [MJ]", ".1f", 1e-6), ("own_ship", "own ship", "", 1.0),
+    ("target_ship", "target", "", 1.0), ("kind", "kind", "", 1.0), ("angle_deg", "angle [deg]", ".1f", 1.0),
+    ("at", "place (at)", ".3f", 1.0), ("own_speed", "own speed [m/s]", ".2f", 1.0),
+    ("target_speed", "target speed [m/s]", ".2f", 1.0), ("closing_speed", "closing speed [m/s]", ".2f", 1.0),
+)  # fmt: skip
+"""Columns of the table of the worst cases: name, heading, format, factor to the heading's unit."""
+
+
+def build_page(
+    table: StudyTable, figures: Iterable[tuple[str, str, str, bytes]], worst: Sequence[Worst], is_repeatable: bool
+) -> str:
+    """The page. figures: name of the files, heading, caption and SVG of each; is_repeatable: worst.can_repeat()."""
+    return _TEMPLATE.format(
+        policy=_POLICY,
+        name=html.escape(table.name),
+        style=_STYLE,
+        summary=_describe(table),
+        figures="\n".join(_format_figure(*figure) for figure in figures),
+        worst=_format_worst(table.name, worst, is_repeatable),
+    )
+
+
+def _describe(table: StudyTable) -> str:
+    done = len(table.row)
+    lines = [
+        f"{_group(done)} of {_group(table.present)} cases are done, at level {table.level}, engine {table.engine}."
+    ]
+    if table.present < table.rows:
+        lines.append(f"The study is not finished: it has {_group(table.rows)} cases.")
+    if table.refused:
+        lines.append(
+            f"{_group(table.refused)} cases ({100.0 * table.refused / table.present:.3g} %) are refused, because the "
+            "ships cannot meet as they were drawn. They are left out here: every share is one of the cases that are "
+            "done, which all weigh the same."
+        )
+    else:
+        lines.append("None is refused. All cases weigh the same.")
+    lines.append(f"Sampler: {table.sampler}.")
+    if table.sampler != "random":
+        lines.append(
+            "It spreads the cases more evenly than chance, so the bands are, as a rule, wider than they need to be."
+        )
+    return f"<p>{html.escape(' '.join(lines))}</p>"
+
+
+def _format_figure(name: str, title: str, caption: str, svg: bytes) -> str:
+    links = ", ".join(f'<a href="figures/{name}.{kind}">{kind.upper()}</a>' for kind in ("png", "svg", "csv"))
+    return (
+        f'<figure>\n<h2>{html.escape(title)}</h2>\n<img alt="{html.escape(title)}" '
+        f'src="data:image/svg+xml;base64,{base64.b64encode(svg).decode()}">\n'
+        f"<figcaption>{html.escape(caption)} {links}</figcaption>\n</figure>"
+    )
+
+
+def _format_worst(name: str, worst: Sequence[Worst], is_repeatable: bool) -> str:
+    columns = [
+        heading for heading in _HEADINGS
+        if heading[0] == "row" or any(case.values.get(heading[0]) is not None for case in worst)
+    ]  # fmt: skip
+    head = "".join(f"<th{_mark(spec)}>{html.escape(title)}</th>" for _, title, spec, _ in columns)
+    lines = []
+    for case in worst:
+        values = {**case.values, "row": case.row}
+        cells = "".join(
+            f"<td{_mark(spec)}>{html.escape(_format_value(values.get(key), spec, factor))}</td>"
+            for key, _, spec, factor in columns
+        )
+        command = f"<code>{html.escape(format_commands(name, case.row))}</code>"
+        lines.append(f'<tr class="values">{cells}</tr>\n<tr><td colspan="{len(columns)}">{command}</td></tr>')
+    where = "In the folder of this page, the line below a case"
+    if not is_repeatable:
+        where = "study.toml is not complete here: put the path of the original in its place. The line below a case"
+    return (
+        f"<h2>The {len(worst)} cases of most energy</h2>\n<p>{where} writes the case as a scenario "
+        "file and runs it again; replay.html in the folder of that run shows it. At level impact the run goes on after "
+        "the first contact, which is that of the row.</p>\n"
+        f'<div class="wide"><table class="cases">\n<tr>{head}</tr>\n' + "\n".join(lines) + "\n</table></div>"
+    )
+
+
+def _mark(spec: str) -> str:
+    return ' class="number"' if spec else ""
+
+
+def _format_value(value: object, spec: str, factor: float) -> str:
+    if value is None:
+        return ""
+    return format(value * factor, spec) if spec and isinstance(value, float) else str(value)
+
+
+def _group(count: int) -> str:
+    """A number with thin gaps between thousands."""
+    return f"{count:,}".replace(",", "\N{NARROW NO-BREAK SPACE}")

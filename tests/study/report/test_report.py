@@ -1,0 +1,232 @@
+"""`shipcollision show` of a study: page, figures, data, the worst cases, and its refusals."""
+
+from __future__ import annotations
+
+import csv
+import importlib.util
+import json
+import re
+import shutil
+from html import unescape
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.compute as pc
+import pyarrow.parquet as pq
+import pytest
+from click.testing import CliRunner, Result
+
+from shipcollision_fmu import load_scenario, run_study
+from shipcollision_fmu.cli import main
+from shipcollision_fmu.show import extras
+from shipcollision_fmu.study.definition.study import parse_study
+
+TEXT = """
+[study]
+name = "harbour"
+level = "impact"
+rows = 400
+seed = 3
+
+[own]
+ships = ["kcs", "kvlcc2"]
+
+[encounter]
+kind = "crossing"
+angle_deg = { distribution = "uniform", least = 5.0, most = 175.0 }
+at = { distribution = "uniform", least = -0.5, most = 0.5 }
+own_speed = { distribution = "uniform", least = 1.0, most = 9.0 }
+target_speed = { distribution = "uniform", least = 0.0, most = 9.0 }
+"""
+CHARTS = (
+    "convergence", "energy_by_angle", "energy_by_place", "exceedance_energy", "exceedance_impulse", "sensitivity",
+)  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of the study, shown."""
+    out = tmp_path_factory.mktemp("report") / "harbour"
+    run_study(parse_study(TEXT), out, workers=0)
+    assert called("show", out).exit_code == 0
+    return out
+
+
+@pytest.fixture
+def folder(finished: Path, tmp_path: Path) -> Path:
+    """A copy of that folder, to be changed."""
+    return Path(
+        shutil.copytree(finished, tmp_path / "harbour", ignore=shutil.ignore_patterns("report.html", "figures"))
+    )
+
+
+def called(*arguments: str | Path) -> Result:
+    return CliRunner().invoke(main, list(map(str, arguments)))
+
+
+def read_page(folder: Path) -> str:
+    return (folder / "report.html").read_text(encoding="utf-8")
+
+
+def read_figure(folder: Path, name: str) -> dict[str, list[str]]:
+    with (folder / "figures" / f"{name}.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    return {key: [row[key] for row in rows] for key in rows[0]}
+
+
+def read_done(folder: Path) -> Any:
+    table = pq.read_table(folder / "encounters")
+    return table.filter(pc.equal(table["status"], "done"))
+
+
+def change_part(folder: Path, column: str, values: Any) -> None:
+    """Puts a column into the only part of a study."""
+    (path,) = (folder / "encounters").iterdir()
+    table = pq.read_table(path)
+    metadata = table.schema.metadata
+    if column in table.schema.names:
+        table = table.drop([column])
+    pq.write_table(table.append_column(column, values).replace_schema_metadata(metadata), path)
+
+
+def test_every_figure_is_there_in_three_forms(finished: Path) -> None:
+    names = {path.name for path in (finished / "figures").iterdir()}
+    assert names == {f"{chart}.{kind}" for chart in CHARTS for kind in ("png", "svg", "csv")}
+    page = read_page(finished)
+    assert page.count("data:image/svg+xml;base64,") == len(CHARTS)
+    assert not re.search(r"(src|href)=\"(https?:)?//", page)
+    assert [link for link in re.findall(r'href="(figures/[^"]+)"', page) if not (finished / link).is_file()] == []
+
+
+def test_curve_and_cases_are_those_of_the_tables(finished: Path) -> None:
+    done = read_done(finished)
+    energy = done["energy"].to_numpy()
+    curve = read_figure(finished, "exceedance_energy")
+    assert float(curve["energy"][-1]) == energy.max()
+    assert float(curve["share"][-1]) == pytest.approx(1.0 / len(energy))
+    middle = len(curve["energy"]) // 2
+    assert float(curve["share"][middle]) == np.mean(energy >= float(curve["energy"][middle]))
+    assert float(read_figure(finished, "convergence")["mean"][-1]) == pytest.approx(energy.mean())
+    assert sum(map(int, read_figure(finished, "energy_by_angle")["cases"])) == len(energy)
+    assert {"own speed", "own mass", "angle"} <= set(read_figure(finished, "sensitivity")["input"])
+
+
+def test_the_page_says_what_is_left_out(finished: Path) -> None:
+    done, page = read_done(finished).num_rows, read_page(finished)
+    assert 0 < done < 400
+    assert f"{done} of 400 cases are done, at level impact" in page
+    assert f"{400 - done} cases ({100 * (400 - done) / 400:.3g} %) are refused" in page
+    assert "not finished" not in page
+
+
+def test_the_worst_ten_run_again_by_their_lines(
+    finished: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    done = read_done(finished)
+    expected = done["row"].to_numpy()[np.argsort(-done["energy"].to_numpy(), kind="stable")[:10]].tolist()
+    lines = [unescape(line) for line in re.findall(r"<code>([^<]+)</code>", read_page(finished))]
+    assert [int(re.findall(r"--row (\d+)", line)[0]) for line in lines] == expected
+    monkeypatch.chdir(shutil.copytree(finished, tmp_path / "again"))
+    write, run = lines[0].split(" && ")
+    result = called(*write.split()[1:])
+    path = f"cases/harbour_{expected[0]}.toml"
+    assert (result.exit_code, result.stdout) == (0, f"{path}: run it with `shipcollision run {path}`\n")
+    assert run.split()[:3] == ["shipcollision", "run", path]
+    assert load_scenario(path).name == f"harbour_{expected[0]}"
+
+
+def test_the_same_study_gives_the_same_page(finished: Path, folder: Path) -> None:
+    assert called("show", folder).exit_code == 0
+    assert read_page(folder) == read_page(finished)
+
+
+def test_a_study_that_is_not_finished_is_shown_as_far_as_it_is(folder: Path) -> None:
+    told = json.loads((folder / "study.json").read_text(encoding="utf-8"))
+    (folder / "study.json").write_text(json.dumps({**told, "rows": 1000}), encoding="utf-8")
+    assert called("show", folder).exit_code == 0
+    assert "The study is not finished: it has 1\N{NARROW NO-BREAK SPACE}000 cases." in read_page(folder)
+
+
+def test_a_column_of_damage_has_a_curve(folder: Path) -> None:
+    field = pa.field("penetration", pa.float64(), metadata={"unit": "m"})
+    change_part(folder, field, pa.array(np.linspace(0.0, 3.0, 400)))
+    assert called("show", folder).exit_code == 0
+    assert read_figure(folder, "exceedance_penetration")["penetration"][-1] == str(
+        np.linspace(0.0, 3.0, 400)[read_done(folder)["row"].to_numpy()[-1]]
+    )
+
+
+def test_a_study_file_with_files_beside_it_is_said(folder: Path) -> None:
+    text = TEXT.replace('"kvlcc2"]', '"ships/mine.toml"]')
+    (folder / "study.toml").write_text(text, encoding="utf-8")
+    assert called("show", folder).exit_code == 0
+    assert "put the path of the original in its place" in read_page(folder)
+
+
+def test_a_name_from_a_table_stays_text(folder: Path) -> None:
+    change_part(folder, "own_ship", pa.array(["<script>alert(1)</script>"] * 400))
+    assert called("show", folder).exit_code == 0
+    assert "<script>" not in read_page(folder)
+    assert "&lt;script&gt;" in read_page(folder)
+
+
+def test_constant_inputs_have_no_figure(folder: Path) -> None:
+    change_part(folder, "at", pa.array([0.25] * 400))
+    assert called("show", folder).exit_code == 0
+    assert not (folder / "figures" / "energy_by_place.csv").exists()
+
+
+def refused(folder: Path, *options: str) -> str:
+    result = called("show", folder, *options)
+    assert result.exit_code in (1, 2)
+    assert result.stderr.count("\n") == 1
+    assert not (folder / "report.html").exists()
+    assert not (folder / "figures").exists()
+    return result.stderr.removeprefix("error: ").strip()
+
+
+def test_pictures_of_runs_are_refused(folder: Path) -> None:
+    line = f"--gif shows a run, and {folder} holds a study: leave it out (see `main show --help`)"
+    assert refused(folder, "--gif") == line
+
+
+def test_a_missing_package_is_one_line(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    find = importlib.util.find_spec
+    monkeypatch.setattr(extras, "find_spec", lambda name: None if name == "matplotlib" else find(name))
+    line = refused(folder)
+    assert line.startswith("the report of a study needs packages that are not installed: run `")
+    assert "pip install 'shipcollision-fmu[plots]'" in line
+
+
+def test_damaged_folders_are_refused(folder: Path) -> None:
+    (part,) = (folder / "encounters").iterdir()
+    remedy = "go on with `shipcollision study STUDY.toml --out DIR --resume`, then show it again"
+    content = part.read_bytes()
+    part.write_bytes(content[: len(content) // 2])
+    assert refused(folder) == f"{part} is cut short or of another study: {remedy}"
+    part.unlink()
+    assert refused(folder) == f"{folder} has no part of its rows yet: {remedy}"
+    (folder / "study.json").write_text("{}", encoding="utf-8")
+    assert refused(folder) == (
+        f"{folder / 'study.json'} is not that of a study: give a folder that `shipcollision study` has written"
+    )
+
+
+def test_a_study_without_a_case_that_is_done_is_refused(folder: Path) -> None:
+    change_part(folder, "status", pa.array(["refused"] * 400))
+    assert refused(folder) == (
+        f"{folder}: all 400 cases are refused, and there is nothing to show: the column `reason` of the encounters "
+        "says why; change the study file"
+    )
+
+
+def test_a_row_that_the_study_does_not_have_is_refused(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(folder)
+    result = called("study", "study.toml", "--row", "400")
+    assert (result.exit_code, result.stderr) == (
+        2,
+        "error: study.toml: row = 400 is not in the study: it has rows 0 to 399\n",
+    )
+    assert not (folder / "cases").exists()
