@@ -23,7 +23,7 @@ from tests.native.collision.kernels import load_kernels
 from tests.native.collision.model_state import list_state
 from tests.native.native_collision import STATE, NativeCollision
 
-__all__ = ["OneStep", "Tally"]
+__all__ = ["CLOSE", "OneStep", "Tally"]
 
 CLOSE = 1e-9
 """Largest difference of one step, of its impulse's or the state's scale."""
