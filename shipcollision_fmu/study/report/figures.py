@@ -65,18 +65,18 @@ def draw_binned(binned: Binned, scale: float, label: str, input_label: str) -> A
 @_in_style
 def draw_convergence(found: Convergence, scale: float, label: str) -> Any:
     """Mean and 99 % quantile over the number of cases, one above the other."""
-    figure, axes = _make_axes(2)
-    panels = (
-        (axes[0], "mean", found.mean, found.mean_lower, found.mean_upper),
-        (axes[1], "99 % quantile", found.quantile, found.quantile_lower, found.quantile_upper),
-    )
-    for place, name, value, low, high in panels:
+    panels = [("mean", found.mean, found.mean_lower, found.mean_upper)]
+    if np.isfinite(found.quantile).any():  # enough cases for it
+        panels.append(("99 % quantile", found.quantile, found.quantile_lower, found.quantile_upper))
+    figure, axes = _make_axes(len(panels))
+    places = np.atleast_1d(axes)
+    for place, (name, value, low, high) in zip(places, panels, strict=True):
         place.fill_between(found.n, scale * low, scale * high, color=BAND, linewidth=0.0, label="95 % confidence")
         place.plot(found.n, scale * value, color=BLUE, label=name)
         place.set(ylabel=f"{name}\n{label}", xscale="log")
         place.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.0, ncols=2)
-    axes[1].set_xlabel("number of cases")
-    figure.set_size_inches(SIZE[0], 1.35 * SIZE[1])
+    places[-1].set_xlabel("number of cases")
+    figure.set_size_inches(SIZE[0], (0.65 + 0.35 * len(panels)) * SIZE[1])
     figure.align_ylabels()
     return figure
 

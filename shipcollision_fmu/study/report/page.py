@@ -89,8 +89,8 @@ def _describe(table: StudyTable) -> str:
         lines.append(f"The study is not finished: it has {_group(table.rows)} cases.")
     if table.refused:
         lines.append(
-            f"{_group(table.refused)} cases ({100.0 * table.refused / table.present:.3g} %) are refused, because the "
-            "ships cannot meet as they were drawn. They are left out here: every share is one of the cases that are "
+            f"{_group(table.refused)} cases ({100.0 * table.refused / table.present:.3g} %) are refused: the column "
+            "`reason` of the encounters says why. They are left out here: every share is one of the cases that are "
             "done, which all weigh the same."
         )
     else:
@@ -132,8 +132,9 @@ def _format_worst(name: str, worst: Sequence[Worst], is_repeatable: bool) -> str
         where = "study.toml is not complete here: put the path of the original in its place. The line below a case"
     return (
         f"<h2>The {len(worst)} cases of most energy</h2>\n<p>{where} writes the case as a scenario "
-        "file and runs it again; replay.html in the folder of that run shows it. At level impact the run goes on after "
-        "the first contact, which is that of the row.</p>\n"
+        "file and runs it again; replay.html in the folder of that run shows it. At level impact the ships coast for a "
+        "second first, so the closing speed is that of the row to a thousandth; the run goes on after the first "
+        "contact.</p>\n"
         f'<div class="wide"><table class="cases">\n<tr>{head}</tr>\n' + "\n".join(lines) + "\n</table></div>"
     )
 

@@ -17,6 +17,7 @@ import pyarrow.compute as pc
 import pyarrow.parquet as pq
 import pytest
 from click.testing import CliRunner, Result
+from selenium.webdriver import Chrome
 
 from shipcollision_fmu import load_scenario, run_study
 from shipcollision_fmu.cli import main
@@ -98,6 +99,34 @@ def test_every_figure_is_there_in_three_forms(finished: Path) -> None:
     assert page.count("data:image/svg+xml;base64,") == len(CHARTS)
     assert not re.search(r"(src|href)=\"(https?:)?//", page)
     assert [link for link in re.findall(r'href="(figures/[^"]+)"', page) if not (finished / link).is_file()] == []
+
+
+@pytest.mark.parametrize("width", [1280, 390])
+def test_a_browser_shows_it_without_a_network(finished: Path, browser: Chrome, width: int) -> None:
+    """All figures are drawn, nothing sticks out at the side, and no other address is asked for."""
+    size = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": width < 500}
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+    try:
+        browser.get("about:blank")
+        browser.get_log("performance")
+        browser.get_log("browser")
+        browser.get((finished / "report.html").as_uri())
+        drawn = browser.execute_script("return Array.from(document.images, i => i.complete ? i.naturalWidth : 0)")
+        assert len(drawn) == len(CHARTS)
+        assert min(drawn) > 300
+        assert browser.execute_script("return document.documentElement.scrollWidth") <= width
+        messages = [json.loads(entry["message"])["message"] for entry in browser.get_log("performance")]
+        asked = [m["params"]["request"]["url"] for m in messages if m["method"] == "Network.requestWillBeSent"]
+        assert [url for url in asked if not url.startswith("data:")] == [(finished / "report.html").as_uri()]
+        assert browser.get_log("browser") == []
+    finally:
+        browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+
+
+def test_few_cases_have_no_quantile_of_99_percent(tmp_path: Path) -> None:
+    run_study(parse_study(TEXT.replace("rows = 400", "rows = 60")), tmp_path / "few", workers=0)
+    assert called("show", tmp_path / "few").exit_code == 0
+    assert set(read_figure(tmp_path / "few", "convergence")["quantile"]) == {"nan"}
 
 
 def test_curve_and_cases_are_those_of_the_tables(finished: Path) -> None:
