@@ -24,7 +24,7 @@ class Binned(NamedTuple):
     quantiles: Array
 
 
-def find_binned_quantiles(x: Array, y: Array, bins: int = 18) -> Binned:
+def find_binned_quantiles(x: Array, y: Array, bins: int) -> Binned:
     """Quantiles of y in bins of x of equal width, which reach over the range of x."""
     edges = np.linspace(x.min(), x.max(), bins + 1)
     places = np.clip(np.searchsorted(edges, x, side="right") - 1, 0, bins - 1)

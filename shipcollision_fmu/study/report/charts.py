@@ -21,6 +21,8 @@ __all__ = ["Chart", "make_charts"]
 
 LEAST_CONVERGENCE = 20
 """Cases below which there is no chart of convergence and none of sensitivities."""
+LEAST_BINS, MOST_BINS = 3, 18
+"""Bins of a figure of energy over an input: two bins show no course, and more than 18 are not told apart on a phone."""
 MOST_INPUTS = 12
 """Bars of the tornado; weaker inputs are in its file of data."""
 DAMAGE = ("damage", "penetration", "breach")
@@ -87,11 +89,10 @@ def _make_binned(
 ) -> Iterator[Chart]:
     x = table.read_numbers(column)
     known = np.isfinite(x)
-    if known.sum() < LEAST_CASES or np.ptp(x[known]) == 0.0:
+    bins = min(MOST_BINS, int(known.sum()) // (2 * LEAST_CASES))  # half of them would do in a bin
+    if bins < LEAST_BINS or np.ptp(x[known]) == 0.0:
         return
-    binned = find_binned_quantiles(x[known], table.energy[known])
-    if not np.isfinite(binned.quantiles).any():
-        return
+    binned = find_binned_quantiles(x[known], table.energy[known], bins)
     data = {
         f"{column}_from": binned.edges[:-1], f"{column}_to": binned.edges[1:], "cases": binned.counts,
         **dict(zip(("energy_q10", "energy_q50", "energy_q90"), binned.quantiles.T, strict=True)),

@@ -123,10 +123,11 @@ def test_a_browser_shows_it_without_a_network(finished: Path, browser: Chrome, w
         browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
 
-def test_few_cases_have_no_quantile_of_99_percent(tmp_path: Path) -> None:
-    run_study(parse_study(TEXT.replace("rows = 400", "rows = 60")), tmp_path / "few", workers=0)
+def test_few_cases_have_few_bins_and_no_quantile_of_99_percent(tmp_path: Path) -> None:
+    run_study(parse_study(TEXT.replace("rows = 400", "rows = 130")), tmp_path / "few", workers=0)
     assert called("show", tmp_path / "few").exit_code == 0
     assert set(read_figure(tmp_path / "few", "convergence")["quantile"]) == {"nan"}
+    assert len(read_figure(tmp_path / "few", "energy_by_angle")["cases"]) == 3
 
 
 def test_curve_and_cases_are_those_of_the_tables(finished: Path) -> None:
