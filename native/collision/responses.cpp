@@ -5,7 +5,7 @@ namespace shipcollision {
 namespace {
 
 constexpr double AT_REST = 1e-12;
-constexpr double PRESSING = 2.0;
+constexpr double PRESSING = 2.25;
 
 // Approach [m/s] below which nothing springs back: LEAST_REBOUNDING_APPROACH, or what other forces make of rest in
 // PRESSING communication steps.

@@ -40,10 +40,10 @@ MAX_ANSWERS = 10
 """Impacts per pair that touches, in one substep. Fewer leave a row of ships closing, which then depends on the order of
 the answers; more only cost time, since the next substep goes on."""
 
-PRESSING = 2.0
+PRESSING = 2.25
 """Communication steps of other forces whose approach is no impact, though it exceeds LEAST_REBOUNDING_APPROACH. Under a
-parallel master a ship pressed to a quay closes by that of one and a half. With 0.6 such a ship springs back in every
-step, and creeps into the quay."""
+parallel master a ship pressed to a quay closes by multiples of half a step's, up to that of two: between multiples, so
+that rounding does not choose. With 0.6 such a ship springs back in every step, and creeps into the quay."""
 
 AT_REST_SHARE = 1e-6
 """Approach, as a share of the largest of the substep, that is left to the next substep."""

@@ -137,6 +137,17 @@ def test_a_ship_that_springs_back_does_not_creep(
     assert rest.max() - rest.min() < 1e-3
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("restitution", [0.5, 1.0])
+def test_at_whatever_speed_she_comes_she_does_not_creep(berthed: MakeBerthed, restitution: float) -> None:
+    """Her approach at rest is a multiple of half a step's acceleration: what is compared with it must lie between."""
+    for k in range(16):
+        b = berthed("jacobi", restitution=restitution)
+        b.nu[1] += 0.00137 * k
+        rest = b.run(60.0, 0.5)[-40:]
+        assert rest.max() - rest.min() < 1e-3, k
+
+
 @pytest.mark.soak
 @pytest.mark.parametrize("algorithm", ["gauss-seidel", "jacobi"])
 @pytest.mark.parametrize("H", [0.05, 0.5])
