@@ -21,6 +21,7 @@ from ...errors import ShipError, StudyError
 from ...files import is_file
 from ...ship.frames import Array
 from ...ship.loading.library import list_ship_names, load_ship, read_ship_tables
+from ...ship.loading.messages import suggest_or_list
 from .distributions import Constant, Discrete, TableColumn, cumulate
 from .empirical import EmpiricalTable
 from .fleet_tables import FleetTable, PoolTable
@@ -176,9 +177,12 @@ def _read_mesh(source: str | Mapping[str, Any]) -> tuple[str, bytes] | None:
 
 
 def _find_source(name: str, folder: Path) -> str | dict[str, Any]:
-    """A shipped name, or the tables of a file, which is first looked for in the study file's folder."""
+    """A shipped name, or the tables of a file, whose path begins in the study file's folder and no other."""
     if name in list_ship_names():
         return name
+    if not is_file(folder / name) and (name.endswith(".toml") or "/" in name):
+        beside = suggest_or_list(name, sorted(path.name for path in folder.glob("*.toml")))
+        raise ShipError(f"no such file in {folder}, the study file's folder:{beside}")
     return read_ship_tables(folder / name if is_file(folder / name) else name)
 
 

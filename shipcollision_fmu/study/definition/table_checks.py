@@ -56,7 +56,11 @@ def _check_values(at: str, key: str, given: TableColumn, table: EmpiricalTable) 
             raise StudyError(f"{at}: {where} holds {unknown[0]!r}:{suggest_or_list(unknown[0], WORDS[key])}")
         return
     if values.dtype.kind != "f":
-        raise StudyError(f"{at}: {where} holds {str(values[0])!r}, must hold numbers: take another column")
+        wrong = [i for i, value in enumerate(values.tolist()) if not _is_number(value)]
+        remedy = "take another column" if len(wrong) == len(values) else "correct the line, or remove it"
+        raise StudyError(
+            f"{at}: {where} holds {str(values[wrong[0]])!r} in line {wrong[0] + 2}, must hold numbers: {remedy}"
+        )
     least, most = LIMITS[key] if key in LIMITS else (NUMBERS[key].least, NUMBERS[key].most)
     outside = np.flatnonzero((values < least) | (values > most))
     if len(outside):
@@ -64,3 +68,11 @@ def _check_values(at: str, key: str, given: TableColumn, table: EmpiricalTable) 
             f"{at}: {where} holds {values[outside[0]]:g} in line {outside[0] + 2}, must be {least:g} to {most:g}: "
             "remove the line, or convert the column's unit"
         )
+
+
+def _is_number(value: str) -> bool:
+    try:
+        float(value)
+    except ValueError:
+        return False
+    return True

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
 
 from ...cosim.interrupt import delay_interrupts
+from ...errors import HostError
 from .assembly import Assembly
 from .batches import BatchPlan
 from .csv_tables import write_csv
 from .executor import Executor
 from .folder import StudyFolder
+from .folder_lock import hold_folder
 from .in_process import InProcess
 from .interface import ComputeRows, Study
 from .loop import Loop, Progress, Tally
@@ -43,6 +45,14 @@ def run_session(
     csv: bool, progress: Progress | None, notify: Notify,
 ) -> StudyResult:  # fmt: skip
     """What run_study() returns and raises. engine: that of the rows, by the one of the folder if it has one."""
+    with hold_folder(out):
+        return _run(study, out, means, compute, engine, resume, csv, progress, notify)
+
+
+def _run(
+    study: Study, out: Path, means: Means, compute: ComputeRows, engine: Callable[[str | None], str], resume: bool,
+    csv: bool, progress: Progress | None, notify: Notify,
+) -> StudyResult:  # fmt: skip
     begin = perf_counter()
     folder = StudyFolder(out, study)
     folder.check(resume, engine)
@@ -55,13 +65,16 @@ def run_session(
         try:
             with delay_interrupts() as check:
                 loop.run(check)
-        except KeyboardInterrupt as interrupt:
-            folder.write_status("interrupted", tally.as_counts())
+        except BaseException as reason:
+            with suppress(HostError):  # a full disk may have no room for this either
+                folder.write_status("interrupted", tally.as_counts())
+            if not isinstance(reason, KeyboardInterrupt):
+                raise
             text = f"interrupted; {tally.rows} of {study.rows} rows are in {out}: go on with --resume"
-            raise type(interrupt)(text) from None
+            raise type(reason)(text) from None
+    folder.write_status("complete", tally.as_counts())
     if csv:
         write_csv(folder.path, study)
-    folder.write_status("complete", tally.as_counts())
     computed, seconds = tally.rows - there, perf_counter() - begin
     return StudyResult(
         out, tally.rows, tally.refused, tally.collisions, computed, folder.engine, seconds, loop.busy, loop.waited

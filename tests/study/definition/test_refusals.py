@@ -57,7 +57,7 @@ REFUSALS: dict[str, tuple[tuple[str, str], str]] = {
     "an empty list of ships": ((SHIPS, "ships = []"), "[own] ships: the value [] must name ships: "),
     "an unknown ship": ((SHIPS, 'ships = ["kvlc2"]'), "[own] ships: kvlc2: unknown ship 'kvlc2': did you mean kvlcc2?"),
     "a missing ship file": (
-        (SHIPS, 'ships = ["my/ship.toml"]'), "[own] ships: my/ship.toml: ship file my/ship.toml does not exist: give",
+        (SHIPS, 'ships = ["my/ship.toml"]'), "[own] ships: my/ship.toml: no such file in ",
     ),
     "a ship twice": ((SHIPS, 'ships = ["kcs", "kcs"]'), "[own] ships: 'kcs' is there twice: give a table of weights"),
     "a negative weight": (
@@ -213,7 +213,11 @@ REFUSALS: dict[str, tuple[tuple[str, str], str]] = {
     ),
     "a column of words": (
         (SPEED, 'own_speed = {table = "data", column = "word"}' + DATA),
-        "[encounter] own_speed: column 'word' of table 'data' holds 'port', must hold numbers: take another column",
+        "own_speed: column 'word' of table 'data' holds 'port' in line 2, must hold numbers: take another column",
+    ),
+    "a column with a word among its numbers": (
+        (SPEED, 'own_speed = {table = "data", column = "w"}' + DATA.replace("data.csv", "gap.csv")),
+        "own_speed: column 'w' of table 'data' holds '' in line 3, must hold numbers: correct the line, or remove it",
     ),
     "a value out of range in a column": (
         (SPEED, 'own_speed = {table = "data", column = "v"}' + DATA),
@@ -303,7 +307,7 @@ def test_a_bad_study_is_refused_in_one_line(name: str, tmp_path: Path) -> None:
     assert old in GOOD
     for file, text in {
         **TABLES, "empty.csv": "a,b\n", "none.csv": "", "short.csv": "a,b\n1,2\n3\n", "nan.csv": "a,b\n1,nan\n",
-        "kinds.csv": "kind\nt-bone\nlate-evasive\n", "good.csv": "a\n1\n",
+        "kinds.csv": "kind\nt-bone\nlate-evasive\n", "good.csv": "a\n1\n", "gap.csv": "w\n5\n \n",
         "cut.parquet": "PAR1 and no more",
     }.items():  # fmt: skip
         (tmp_path / file).write_text(text)
@@ -312,6 +316,18 @@ def test_a_bad_study_is_refused_in_one_line(name: str, tmp_path: Path) -> None:
     line = str(refusal.value)
     assert line.startswith("mine.toml")
     assert "\n" not in line
+
+
+def test_a_ship_file_is_looked_for_beside_the_study_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A file of the same name where the study happens to be run is another ship."""
+    (tmp_path / "here").mkdir()
+    (tmp_path / "study").mkdir()
+    for name in ("here/coaster.toml", "study/coasters.toml"):
+        (tmp_path / name).write_text('extends = "kcs"\n')
+    monkeypatch.chdir(tmp_path / "here")
+    text = GOOD.replace(SHIPS, 'ships = ["coaster.toml"]')
+    with pytest.raises(StudyError, match=r"coaster\.toml: no such file in .*study.* did you mean coasters\.toml\?"):
+        parse_study(text, "mine.toml", tmp_path / "study")
 
 
 def test_the_good_study_is_read(tmp_path: Path) -> None:

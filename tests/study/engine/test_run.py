@@ -17,6 +17,7 @@ from shipcollision_fmu.files import write_files
 from shipcollision_fmu.study.engine.batches import Batch
 from shipcollision_fmu.study.engine.dask_executor import DaskExecutor
 from shipcollision_fmu.study.engine.folder import StudyFolder
+from shipcollision_fmu.study.engine.folder_lock import hold_folder
 from shipcollision_fmu.study.engine.part_file import PartBytes
 from shipcollision_fmu.study.engine.parts import get_part
 from shipcollision_fmu.study.engine.run import StudyResult, run_study
@@ -174,6 +175,30 @@ def test_a_finished_study_asks_no_scheduler(whole: Path, tmp_path: Path) -> None
         STUDY, out, scheduler="tcp://127.0.0.1:9", resume=True, engine="python", compute=compute_stand_in
     )  # type: ignore[arg-type]  # a stand-in
     assert (result.rows, result.computed) == (STUDY.rows, 0)
+
+
+@pytest.mark.parametrize("resume", [False, True])
+def test_a_folder_that_another_run_writes_is_left_alone(tmp_path: Path, resume: bool) -> None:
+    """Two studies that begin at the same moment would be mixed."""
+    out = tmp_path / "studies" / "one"
+    with hold_folder(out):
+        with pytest.raises(HostError, match=rf"^{out} is being written by another run of a study: wait until it has"):
+            run(out, resume=resume)
+        assert list(out.iterdir()) == []
+    assert list(tmp_path.iterdir()) == []
+    assert run(out, resume=resume).rows == STUDY.rows
+
+
+def test_a_study_that_ends_by_a_fault_is_not_said_to_run(tmp_path: Path) -> None:
+    def compute(study: StandIn, first: int, count: int, engine: str) -> Tables:
+        if first >= 200:
+            raise HostError("the disk is full")
+        return compute_stand_in(study, first, count, engine)
+
+    with pytest.raises(HostError, match=r"^the disk is full$"):
+        run_study(STUDY, tmp_path / "one", workers=0, engine="python", compute=compute)  # type: ignore[arg-type]
+    content = json.loads((tmp_path / "one" / "study.json").read_text(encoding="utf-8"))
+    assert (content["status"], content["counts"]["rows"]) == ("interrupted", 200)
 
 
 def test_resume_without_a_study_begins_it(whole: Path, tmp_path: Path) -> None:

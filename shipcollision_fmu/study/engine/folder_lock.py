@@ -1,0 +1,51 @@
+"""hold_folder(): one call of run_study() at a time writes into a folder."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from ...errors import HostError
+from ...files import check_writable
+
+__all__ = ["hold_folder"]
+
+
+@contextmanager
+def hold_folder(path: Path) -> Iterator[None]:
+    """Meanwhile the folder is there, and no other process holds it. It is removed again if nothing was written.
+
+    The lock is the system's, on the folder itself: it ends with the process, and leaves no file. Where the file system
+    or Windows has none, nothing is held. Raises HostError when another process holds the folder.
+    """
+    check_writable(path)
+    made = [place for place in (path, *path.parents) if not place.exists()]
+    path.mkdir(parents=True, exist_ok=True)
+    handle = None if sys.platform == "win32" else os.open(path, os.O_RDONLY)
+    try:
+        if handle is not None:
+            _lock(handle, path)
+        yield
+    finally:
+        if handle is not None:
+            os.close(handle)
+        with suppress(OSError):  # something was written
+            for place in made:
+                place.rmdir()
+
+
+def _lock(handle: int, path: Path) -> None:
+    import fcntl  # no module of Windows
+
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        raise HostError(
+            f"{path} is being written by another run of a study: wait until it has ended, or give another folder with "
+            "--out"
+        ) from None
+    except OSError:  # a file system without locks
+        return
