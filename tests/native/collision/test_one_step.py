@@ -28,7 +28,7 @@ EVERY = 20
 """Of the far steps of random encounters, one of so many is compared."""
 DIFFERING = 0.001
 """Largest share of the steps in which rounding chooses."""
-LONG_CONTACTS = 0.003
+LONG_CONTACTS = 0.005
 """The same for 100 of the 10 000 encounters: in some there is a long contact whose every step has the choice."""
 
 
