@@ -29,7 +29,7 @@ for folder in folders:
 @pytest.mark.slow
 @pytest.mark.parametrize("fmi", [2, pytest.param(3, marks=pytest.mark.slow)])
 def test_an_fmu_runs_from_a_folder_of_any_name(scenario_file: Write, tmp_path: Path, fmi: int) -> None:
-    file = scenario_file(("duration = 3.0", "duration = 1.0"))
+    file = scenario_file(("duration = 3.0", "duration = 1.2"))
     fmus = ready_fmus(fmi=fmi)["ShipCollision"].parent
     folders = [str(tmp_path / name) for name in NAMES]
     done = subprocess.run(

@@ -8,6 +8,7 @@ from __future__ import annotations
 import asyncio
 import json
 import logging
+import sys
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager, suppress
@@ -48,6 +49,23 @@ class Cluster:
 @contextmanager
 def start_local_cluster(workers: int | None) -> Iterator[Cluster]:
     """A cluster of so many worker processes, by default as many as there are cores, that listens on loopback alone."""
+    with _this_copy_first():
+        yield from _run_local_cluster(workers)
+
+
+@contextmanager
+def _this_copy_first() -> Iterator[None]:
+    """Meanwhile this package is found before other copies of it. FMUs that ran in this process have put theirs, which
+    are not the whole, first on sys.path, and worker processes begin with that path."""
+    before = list(sys.path)
+    sys.path.insert(0, str(Path(__file__).resolve().parents[3]))
+    try:
+        yield
+    finally:
+        sys.path[:] = before
+
+
+def _run_local_cluster(workers: int | None) -> Iterator[Cluster]:
     cluster = LocalCluster(
         n_workers=CPU_COUNT if workers is None else workers,
         threads_per_worker=1,

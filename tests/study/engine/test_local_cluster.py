@@ -58,6 +58,19 @@ def test_real_rows_are_those_of_one_process(tmp_path: Path) -> None:
     assert digest(tmp_path / "2") == digest(tmp_path / "0")
 
 
+def test_workers_take_no_part_of_the_package_that_an_fmu_has_brought(
+    whole: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """FMUs hold a part of it, put it first on the path of the process that runs them, and leave it there."""
+    (tmp_path / "resources" / "shipcollision_fmu").mkdir(parents=True)
+    (tmp_path / "resources" / "shipcollision_fmu" / "__init__.py").write_text("")
+    path = [str(tmp_path / "resources"), *sys.path]
+    monkeypatch.setattr(sys, "path", list(path))
+    run_study(STUDY, tmp_path / "study", workers=1, engine="python", compute=compute_stand_in)
+    assert digest(tmp_path / "study") == digest(whole)
+    assert sys.path == path
+
+
 def test_a_batch_that_kills_its_worker_is_halved(whole: Path, tmp_path: Path) -> None:
     run_study(
         replace(STUDY, deadly=450, bearable=100),
