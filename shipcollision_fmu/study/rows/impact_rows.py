@@ -64,10 +64,12 @@ def _put_rows(results: Results, places: npt.NDArray[np.intp], rows: npt.NDArray[
         "relative_speed": relative, "impulse": impulse,
     }  # fmt: skip
     angle = np.degrees(rows["angle"])
+    c, s, (x, y, z) = np.cos(rows["target_heading"]), np.sin(rows["target_heading"]), rows["normal"].T
     encounter = {
         **both, "collisions": 1.0, "duration": 0.0, "energy_normal": rows["energy_normal"],
         "energy_tangential": rows["energy_tangential"], "collision_angle_deg": angle, "residual": rows["residual"],
         "unconverged": rows["residual"] > 1e-9,
+        "normal_x": c * x + s * y, "normal_y": c * y - s * x, "normal_z": z,
     }  # fmt: skip
     one = np.ones(len(rows))
     collision = {
