@@ -46,7 +46,7 @@ def study(
 ) -> None:  # fmt: skip
     """Run the cases of a study, store its tables.
 
-    STUDY is the name of a shipped study, quick or million, or the path of a TOML file. Worker processes on this machine
+    STUDY is the name of a shipped study, such as quick, or the path of a TOML file. Worker processes on this machine
     compute the cases, or those of a Dask cluster. After Ctrl-C, --resume goes on with the study, to the same bytes.
 
     With --row no case is computed: one is written as a scenario file into the folder of --out, for `shipcollision run`.

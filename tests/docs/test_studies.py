@@ -26,7 +26,7 @@ def test_the_studies_of_the_guide_are_read(tmp_path: Path) -> None:
     assert parse_study(situations, folder=tmp_path).rows == 1
 
 
-@pytest.mark.parametrize(("name", "rows"), [("quick", 2_000), ("million", 1_000_000)])
+@pytest.mark.parametrize(("name", "rows"), [("quick", 2_000), ("million", 1_000_000), ("closed_forms", 2_000)])
 def test_the_shipped_studies_run(name: str, rows: int) -> None:
     """Nearly all of their cases have an impact, of all ships."""
     study = read_study(name)
@@ -37,17 +37,19 @@ def test_the_shipped_studies_run(name: str, rows: int) -> None:
 
 
 def test_all_shipped_studies_are_in_the_guide() -> None:
-    assert list_study_names() == ["million", "quick"]
+    assert list_study_names() == ["closed_forms", "million", "quick"]
 
 
 def test_the_python_of_the_guide_runs(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    rows, case = blocks("studies.md", "python")
+    rows, case, closed = blocks("studies.md", "python")
     exec(rows, {})
     assert "energy" in capsys.readouterr().out
     exec(case, {})
     path = capsys.readouterr().out.strip()
     assert path == str(Path("cases", "quick_7.toml"))
     assert load_scenario(path).name == "quick_7"
+    exec(closed, {})
+    assert 0.9 < float(capsys.readouterr().out) < 1.4

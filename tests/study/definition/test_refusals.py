@@ -345,7 +345,7 @@ def test_the_good_study_is_read(tmp_path: Path) -> None:
             "study file my/study.toml does not exist: give the path of a TOML file or one of",
         ),
         ("", "study = '' is no study: give a name or the path of a TOML file"),
-        ("./", "./ is a folder: give the path of a study file, or one of million, quick"),
+        ("./", "./ is a folder: give the path of a study file, or one of closed_forms, million, quick"),
     ],
 )
 def test_a_study_that_is_not_there_is_refused(given: str, message: str) -> None:
