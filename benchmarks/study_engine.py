@@ -4,8 +4,9 @@
 
 1. Empty work: batches of one row that cost nothing. Batches per second are what one scheduler and one client can do.
 2. Whole parts of the shipped study `million` that cost nothing, since each is a copy of the first: processor time of
-   client and scheduler for their rows.
-3. Impacts of that study by one worker and by two, in turns. The ratio of rows per second needs two idle cores. From
+   client and scheduler for their rows; with workers of this machine, which write the files, and with others, which send
+   them.
+3. The impacts of that study by one worker and by two, in turns. The ratio of rows per second needs two idle cores. From
    processor times it follows on a busy machine, too: where W is that of a row in a worker and D that of client and
    scheduler, two cores of two workers make 2 / (W + D) rows per second, against 1 / W of one worker.
 4. Memory of the client and of its workers, after a quarter of five million empty rows and after all: it must not grow.
@@ -18,7 +19,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from contextlib import closing
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from statistics import median
@@ -40,7 +41,7 @@ from shipcollision_fmu.study.engine.part_file import encode_part
 from shipcollision_fmu.study.rows.compute import compute_rows
 
 TURNS = 3
-EMPTY_ROWS, COPIED_ROWS, IMPACT_ROWS, MEMORY_ROWS = 1_000, 1_000_000, 160_000, 5_000_000
+EMPTY_ROWS, COPIED_ROWS, MEMORY_ROWS = 1_000, 1_000_000, 5_000_000
 IDLE = 5.0
 """Time [s] in which an idle cluster is watched."""
 SCHEMA = pa.schema([("row", pa.int64()), ("status", pa.string())])
@@ -107,8 +108,8 @@ class Turn:
     """Resident memory [bytes] of the client and of its largest worker, at each answer."""
 
 
-def run(study: Any, workers: int, compute: Callable[..., Any]) -> Turn:
-    """A study on a new local cluster."""
+def run(study: Any, workers: int, compute: Callable[..., Any], scheduler: str | None = None) -> Turn:
+    """A study on a new local cluster, or on that of a scheduler with so many workers."""
     at: list[tuple[int, float, float]] = []
     memory: list[tuple[int, int]] = []
     client = psutil.Process()
@@ -122,7 +123,9 @@ def run(study: Any, workers: int, compute: Callable[..., Any]) -> Turn:
 
     watched = [0]
     with TemporaryDirectory() as folder:
-        result = run_study(study, Path(folder, "study"), workers=workers, compute=compute, progress=watch)
+        local = workers if scheduler is None else None
+        out = Path(folder, "study")
+        result = run_study(study, out, workers=local, scheduler=scheduler, compute=compute, progress=watch)
     busy = result.busy / (workers * (at[-1][1] - at[0][1]))
     begun = next(entry for entry in at if entry[0] > 0)
     rows, seconds, driver = (last - first for first, last in zip(begun, at[-1], strict=True))
@@ -160,10 +163,13 @@ def measure_loop(study: Any) -> float:
 
 def main() -> None:
     """Measures and prints."""
-    study = replace(read_study("million"), rows=IMPACT_ROWS)
+    study = read_study("million")
     per_second, per_batch = measure_empty()
-    copied = [run(replace(study, rows=COPIED_ROWS), 2, compute_copies) for _ in range(TURNS)]
+    copied = [run(study, 2, compute_copies) for _ in range(TURNS)]
     idle, per_row = measure_idle(), median(turn.driver for turn in copied) / COPIED_ROWS
+    with start_local_cluster(2) as cluster, closing(cluster.connect(10.0)) as client:
+        address = client.scheduler.address
+        sent = median(run(study, 2, compute_copies, address).driver for _ in range(TURNS)) / COPIED_ROWS
     memory = run(Empty(MEMORY_ROWS, level="impact"), 2, compute_nothing).memory
     loops, one, two = [], [], []
     for _ in range(TURNS):
@@ -175,6 +181,7 @@ def main() -> None:
     table.add_row("batches of one row per second", f"{per_second:.0f}")
     table.add_row("processor time of client and scheduler for a batch, ms", f"{1e3 * per_batch:.1f}")
     table.add_row("the same for 1000 rows in whole parts, ms", f"{1e6 * per_row:.2f}")
+    table.add_row("the same where workers send the files, ms", f"{1e6 * sent:.2f}")
     table.add_row("the same when idle, of a core", f"{100 * idle:.1f} %")
     table.add_row("processor time of a worker for 1000 rows, ms", f"{1e6 * work:.1f}")
     table.add_row("impacts per second, one worker", f"{median(turn.rate for turn in one):.0f}")

@@ -16,6 +16,7 @@ from .errors import HostError
 __all__ = [
     "IN_PLACE",
     "check_writable",
+    "describe_failure",
     "is_file",
     "is_folder",
     "refuse_other_origin",
@@ -67,7 +68,7 @@ def check_writable(out: Path, remedy: str = ANOTHER_FOLDER) -> None:
     try:
         Path(tempfile.mkdtemp(prefix=".shipcollision-", dir=place)).rmdir()
     except OSError as error:
-        raise _describe_failure(out, error, remedy) from None
+        raise describe_failure(out, error, remedy) from None
 
 
 def refuse_other_origin(out: Path, names: Iterable[str], sign: str, place: str = "folder") -> None:
@@ -128,8 +129,9 @@ def _write(out: Path, files: Mapping[str, str | bytes], named: Path, remedy: str
         for place in made:
             if place.is_dir() and not any(place.iterdir()):
                 place.rmdir()
-        raise _describe_failure(named, error, remedy) from None
+        raise describe_failure(named, error, remedy) from None
 
 
-def _describe_failure(out: Path, error: OSError, remedy: str = ANOTHER_FOLDER) -> HostError:
+def describe_failure(out: Path, error: OSError, remedy: str = ANOTHER_FOLDER) -> HostError:
+    """The error to raise when the folder `out` cannot be written; its message ends with `remedy`."""
     return HostError(f"cannot write to {out}: {error.strerror or error}; {remedy}")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from .part_file import PartBytes, Tables, encode_part, join_tables, unpack
+from .part_files import PartFiles
 from .parts import Part
 from .work import Answer
 
@@ -16,7 +17,7 @@ class Assembly:
         self._fingerprint = fingerprint
         self._open: dict[Part, list[Answer]] = {}
 
-    def add(self, answer: Answer) -> PartBytes | None:
+    def add(self, answer: Answer) -> PartBytes | PartFiles | None:
         """The files of the part that the answer completes, None while other answers are missing."""
         if answer.part is not None:
             return answer.part

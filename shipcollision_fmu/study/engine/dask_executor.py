@@ -12,6 +12,7 @@ import pickle
 from collections.abc import Callable
 from concurrent.futures import CancelledError
 from concurrent.futures import TimeoutError as WaitTimeoutError
+from pathlib import Path
 from queue import Empty, SimpleQueue
 from time import monotonic, sleep
 from typing import Any
@@ -44,11 +45,21 @@ class _SchedulerLostError(Exception):
 
 
 class DaskExecutor:
-    """An executor that hands batches to a cluster. notify takes lines for the user."""
+    """An executor that hands batches to a cluster. notify takes lines for the user.
+
+    aside: folder in which workers write whole parts; None where they need not have the disk of the study.
+    """
 
     def __init__(
-        self, study: Study, compute: ComputeRows, engine: str, cluster: Cluster, notify: Callable[[str], None]
+        self,
+        study: Study,
+        compute: ComputeRows,
+        engine: str,
+        cluster: Cluster,
+        notify: Callable[[str], None],
+        aside: Path | None,
     ) -> None:
+        self._aside = aside
         self._data, self._compute, self._engine = pickle.dumps(study), compute, engine
         self._cluster, self._notify = cluster, notify
         self._out: dict[Future, Batch] = {}
@@ -74,7 +85,7 @@ class DaskExecutor:
             self._unsent.append(batch)
             return
         future = self._client.submit(
-            compute_batch, self._study, self._compute, self._engine, batch, __version__, pure=False
+            compute_batch, self._study, self._compute, self._engine, batch, __version__, self._aside, pure=False
         )
         self._out[future] = batch
         future.add_done_callback(self._done.put)

@@ -22,17 +22,17 @@ from typing import Any
 
 from ... import __version__
 from ...errors import HostError, StudyError
-from ...files import check_writable, write_files
+from ...files import check_writable, describe_failure, write_files
 from .interface import Study
 from .part_file import Mark, PartBytes, read_mark
+from .part_files import ROOM, PartFiles
 from .parts import Part, count_parts, list_parts
 
 __all__ = ["TABLES", "StudyFolder"]
 
 TABLES = ("encounters", "collisions")
-ROOM = "make room on the disk, or its folder writable, then go on with --resume"
 ASIDE = ".shipcollision-*"
-"""Folders of files that are being written; a client that was killed leaves one behind."""
+"""Folders of files that are being written; a client that was killed leaves some behind."""
 
 
 class StudyFolder:
@@ -63,9 +63,18 @@ class StudyFolder:
 
     def open(self) -> None:
         """Makes the folder, or takes up what is there. Raises HostError."""
+        self.close()
+        write_files(self.path, {"study.toml": self._study.text, "study.json": self._describe("running", {})}, ROOM)
+
+    def close(self) -> None:
+        """Removes what was being written, by workers that were ended as well."""
         for aside in [*self.path.glob(ASIDE), *self.path.glob(f"*/{ASIDE}")]:
             shutil.rmtree(aside, ignore_errors=True)
-        write_files(self.path, {"study.toml": self._study.text, "study.json": self._describe("running", {})}, ROOM)
+
+    @property
+    def aside(self) -> Path:
+        """Folder in which workers of this machine write the files of whole parts."""
+        return self.path.resolve() / ".shipcollision-workers"
 
     def find_marks(self) -> Iterator[tuple[Part, Mark | None]]:
         """All parts in order, each with the mark of its files, None where the part must be computed."""
@@ -82,10 +91,22 @@ class StudyFolder:
             if path.exists() and not self._read_mark(table, part)
         ]
 
-    def write(self, part: PartBytes) -> None:
-        """Writes both files of a part. Raises HostError."""
+    def write(self, part: PartBytes | PartFiles) -> None:
+        """Puts both files of a part in place. Raises HostError."""
+        if isinstance(part, PartFiles):
+            self._move(part)
+            return
         write_files(self.path / "collisions", {part.part.file: part.collisions}, ROOM)
         write_files(self.path / "encounters", {part.part.file: part.encounters}, ROOM)
+
+    def _move(self, part: PartFiles) -> None:
+        try:
+            for table in ("collisions", "encounters"):
+                (self.path / table).mkdir(exist_ok=True)
+                part.move(table, self.path / table / part.part.file)
+            part.folder.rmdir()
+        except OSError as error:
+            raise describe_failure(self.path, error, ROOM) from None
 
     def write_status(self, status: str, counts: dict[str, int]) -> None:
         """Writes study.json anew."""

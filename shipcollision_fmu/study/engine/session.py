@@ -58,7 +58,7 @@ def _run(
     folder.check(resume, engine)
     tally = Tally()
     missing = list(_find_missing(folder, tally, notify))
-    with _open_executor(study, compute, folder.engine, means if missing else HERE, notify) as executor:
+    with _open_executor(study, compute, folder, means if missing else HERE, notify) as executor:
         folder.open()
         loop = Loop(executor, BatchPlan(missing), Assembly(study.fingerprint), folder, tally, study.rows, progress)
         there = tally.rows
@@ -82,22 +82,28 @@ def _run(
 
 
 @contextmanager
-def _open_executor(study: Study, compute: ComputeRows, engine: str, means: Means, notify: Notify) -> Iterator[Executor]:
+def _open_executor(
+    study: Study, compute: ComputeRows, folder: StudyFolder, means: Means, notify: Notify
+) -> Iterator[Executor]:
     if means.workers == 0:
-        yield InProcess(study, compute, engine)
+        yield InProcess(study, compute, folder.engine)
         return
     from .clusters import quiet_dask, start_local_cluster, use_scheduler
     from .dask_executor import DaskExecutor
 
     is_local = means.scheduler is None and means.scheduler_file is None
     opened = start_local_cluster(means.workers) if is_local else use_scheduler(means.scheduler, means.scheduler_file)
-    with quiet_dask(), opened as cluster:
-        executor = DaskExecutor(study, compute, engine, cluster, notify)
-        try:
-            notify(f"dashboard: {executor.dashboard}")
-            yield executor
-        finally:
-            executor.close()
+    aside = folder.aside if is_local else None
+    try:
+        with quiet_dask(), opened as cluster:
+            executor = DaskExecutor(study, compute, folder.engine, cluster, notify, aside)
+            try:
+                notify(f"dashboard: {executor.dashboard}")
+                yield executor
+            finally:
+                executor.close()
+    finally:
+        folder.close()  # what workers wrote that ended in the middle of a batch
 
 
 def _find_missing(folder: StudyFolder, tally: Tally, notify: Callable[[str], None]) -> Iterator[Part]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import resource
 import signal
 import subprocess
 import sys
@@ -19,7 +20,7 @@ from shipcollision_fmu.study.engine.batches import Batch
 from shipcollision_fmu.study.engine.dask_executor import DaskExecutor
 from shipcollision_fmu.study.engine.run import run_study
 from tests.study.engine.cluster import PROJECT, wait_for
-from tests.study.engine.folders import STUDY, digest
+from tests.study.engine.folders import STUDY, digest, list_files
 from tests.study.engine.stand_in import StandIn, compute_stand_in
 
 pytestmark = pytest.mark.slow
@@ -55,6 +56,7 @@ def test_real_rows_are_those_of_one_process(tmp_path: Path) -> None:
     for workers in (0, 2):
         run_study("quick", tmp_path / str(workers), workers=workers)
     assert len(digest(tmp_path / "0")) == 2
+    assert list_files(tmp_path / "2") == list_files(tmp_path / "0")
     assert digest(tmp_path / "2") == digest(tmp_path / "0")
 
 
@@ -69,6 +71,22 @@ def test_workers_take_no_part_of_the_package_that_an_fmu_has_brought(
     run_study(STUDY, tmp_path / "study", workers=1, engine="python", compute=compute_stand_in)
     assert digest(tmp_path / "study") == digest(whole)
     assert sys.path == path
+
+
+def test_a_disk_that_fills_under_a_worker_ends_the_study_with_one_line(whole: Path, tmp_path: Path) -> None:
+    """Workers write whole parts; a limit of the size of files, which they inherit, stands for the full disk."""
+    out = tmp_path / "study"
+    largest = max(path.stat().st_size for path in whole.rglob("*.parquet"))
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (largest - 1, before[1]))
+    try:
+        with pytest.raises(HostError, match=rf"^cannot write to {out}: File too large; make room on the disk, or its"):
+            run_study(STUDY, out, workers=1, engine="python", compute=compute_stand_in)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+    assert not [path for path in list_files(out) if ".shipcollision" in path]
+    run_study(STUDY, out, workers=1, resume=True, engine="python", compute=compute_stand_in)
+    assert digest(out) == digest(whole)
 
 
 def test_a_batch_that_kills_its_worker_is_halved(whole: Path, tmp_path: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import pickle
 import resource
 import shutil
 from dataclasses import replace
@@ -303,6 +304,22 @@ def test_rows_that_are_lost_or_doubled_are_a_fault(tmp_path: Path) -> None:
         with pytest.raises(RuntimeError, match=r"^rows \d+ to \d+ were computed as \d+ other rows$"):
             run_study(STUDY, tmp_path / str(number), workers=0, engine="python", compute=compute)
         assert list((tmp_path / str(number) / "encounters").glob("*")) in ([], [tmp_path / "1" / "encounters" / FIRST])
+
+
+def test_a_worker_with_the_disk_of_the_study_writes_a_whole_part_itself(whole: Path, tmp_path: Path) -> None:
+    """Its answer then stays small, and the client moves the same bytes into place."""
+    part = get_part(0, STUDY.rows, STUDY.level)
+    folder = StudyFolder(tmp_path / "study", STUDY)
+    folder.check(False, lambda _: "python")
+    folder.open()
+    answer = compute_batch(STUDY, compute_stand_in, "python", Batch(part, part.first, part.count), aside=folder.aside)
+    assert len(pickle.dumps(answer)) < 2_000 < (whole / "encounters" / FIRST).stat().st_size
+    assert answer.part is not None
+    folder.write(answer.part)
+    folder.close()
+    assert list_files(folder.path) == sorted([f"collisions/{FIRST}", f"encounters/{FIRST}", "study.json", "study.toml"])
+    for table in ("collisions", "encounters"):
+        assert (folder.path / table / FIRST).read_bytes() == (whole / table / FIRST).read_bytes()
 
 
 def test_memory_of_the_client_holds_one_part(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
