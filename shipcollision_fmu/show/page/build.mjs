@@ -1,4 +1,5 @@
-// Bundles src/ into bundle/page.js and bundle/page.css: `npm ci && npm run build`.
+// Bundles src/ into bundle/page.js and .css, the replay page, and live.js and .css, the live pages:
+// `npm ci && npm run build`.
 // What is bundled is under the MIT licence, which wants its text in every copy: it leads the bundle as a comment.
 import { readFileSync } from "node:fs";
 import { build } from "esbuild";
@@ -10,7 +11,7 @@ const notices = ["three", "uplot"].map((name) => {
 });
 
 await build({
-  entryPoints: { page: "src/main.js" },
+  entryPoints: { page: "src/main.js", live: "src/live/main.js" },
   outdir: "bundle",
   bundle: true,
   minify: true,

@@ -1,10 +1,13 @@
-// The ships' tracks, read off the .glb's animation: the pose at any time, before the start on a straight course.
+// The ships' tracks. A track has `at(time, position, quaternion)`, which sets the pose in n, from the origin, at a time
+// since the start; before the start a ship is on a straight course. A motion has `trackOf(node)` and `pose(time)`, which
+// puts the nodes of the scene where they are at a time.
 import * as THREE from "three";
 
 /** From n (north, east, down) to the page's world (x north, y up, z east), in place. */
 export const toWorld = (v) => v.set(v.x, -v.z, v.y);
 
-export class Track {
+/** A ship's track in the .glb's animation. */
+export class ClipTrack {
   constructor(clip, node) {
     const of = (path) => clip.tracks.find((track) => track.name === `${node.name}.${path}`);
     this.positions = of("position").createInterpolant();
@@ -14,10 +17,25 @@ export class Track {
     this.velocity.sub(new THREE.Vector3(...this.positions.evaluate(0))).divideScalar(dt);
   }
 
-  /** Position and quaternion in n from the origin at a time since the start. */
   at(time, position, quaternion) {
     position.fromArray(this.positions.evaluate(Math.max(0, time)));
     if (time < 0) position.addScaledVector(this.velocity, time);
     quaternion.fromArray(this.rotations.evaluate(Math.max(0, time)));
   }
+}
+
+/** The motion of a run that is over: the .glb's animation, whose time is set, not run. */
+export function playClip(gltf) {
+  const clip = gltf.animations[0];
+  const mixer = new THREE.AnimationMixer(gltf.scene);
+  const action = mixer.clipAction(clip);
+  action.play();
+  action.paused = true;
+  return {
+    trackOf: (node) => new ClipTrack(clip, node),
+    pose(time) {
+      action.time = Math.min(Math.max(time, 0), clip.duration);
+      mixer.update(0);
+    },
+  };
 }

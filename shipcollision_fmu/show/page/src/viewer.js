@@ -7,7 +7,7 @@ import { makeLabels } from "./labels.js";
 import { growScratches } from "./scratches.js";
 import { makeSea } from "./sea.js";
 import { makeSky, SUN } from "./sky.js";
-import { toWorld, Track } from "./tracks.js";
+import { playClip, toWorld } from "./tracks.js";
 import { makeWake } from "./wake.js";
 
 const SHADOW_REACH = 420; // around what the camera looks at [m]
@@ -20,12 +20,12 @@ function setSun({ camera, controls }) {
 }
 
 /** The ships in the order of the scene: node, what is known of them, track. */
-function shipsOf(gltf, data) {
+function shipsOf(gltf, data, motion) {
   const found = [];
   gltf.scene.traverse((node) => {
     if (node.userData.ship === undefined) return;
     const known = data.ships.find(({ name }) => name === node.userData.ship);
-    found.push({ node, info: { ...node.userData, ...known }, track: new Track(gltf.animations[0], node) });
+    found.push({ node, info: { ...node.userData, ...known }, track: motion.trackOf(node) });
   });
   return found.sort((a, b) => data.ships.findIndex(({ name }) => name === a.info.name) - data.ships.findIndex(({ name }) => name === b.info.name));
 }
@@ -39,8 +39,11 @@ export function drawsInSoftware() {
   return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
 }
 
-/** A viewer of the scene on a canvas, with smooth edges or without; `show(time)` asks for a picture. */
-export async function makeViewer(canvas, data, glb, isSmooth) {
+/**
+ * A viewer of the scene on a canvas, with smooth edges or without; `show(time)` asks for a picture.
+ * `makeMotion(gltf)` is what moves the ships (tracks.js), `CamerasOf` the class of the cameras.
+ */
+export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playClip, CamerasOf = Cameras) {
   const renderer = new THREE.WebGLRenderer({ canvas, antialias: isSmooth, alpha: false, preserveDrawingBuffer: true });
   renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
   renderer.toneMapping = THREE.NeutralToneMapping;
@@ -52,7 +55,8 @@ export async function makeViewer(canvas, data, glb, isSmooth) {
   const gltf = await new GLTFLoader().parseAsync(glb, "");
   const world = new THREE.Scene();
   world.add(gltf.scene);
-  const ships = shipsOf(gltf, data);
+  const motion = makeMotion(gltf);
+  const ships = shipsOf(gltf, data, motion);
   const sky = makeSky();
   const sea = makeSea(ships.map(({ info }) => ({
     halfLength: 0.48 * info.L_oa, halfBreadth: 0.47 * info.B, height: info.height, colour: info.colour,
@@ -66,12 +70,6 @@ export async function makeViewer(canvas, data, glb, isSmooth) {
   Object.assign(shadow.camera, { left: -SHADOW_REACH, right: SHADOW_REACH, top: SHADOW_REACH, bottom: -SHADOW_REACH, near: 10, far: 3000 });
   sky.sun.castShadow = true;
 
-  const clip = gltf.animations[0];
-  const mixer = new THREE.AnimationMixer(gltf.scene);
-  const action = mixer.clipAction(clip);
-  action.play();
-  action.paused = true; // its time is set, not run
-
   gltf.scene.traverse((node) => {
     if (node.isMesh && node.userData.scratch === undefined) {
       node.castShadow = true;
@@ -84,20 +82,19 @@ export async function makeViewer(canvas, data, glb, isSmooth) {
   const labels = makeLabels(ships, canvas);
   canvas.after(labels.node);
   const showScratches = growScratches(gltf.scene);
-  const showEffects = addEffects(data.effects, nodeOf);
+  const effects = [addEffects(data.effects, nodeOf)];
 
   let time = data.start;
   let wanted = false;
   let shadowOf = "";
   const shown = { triangles: 0, effects: 0, frames: 0 };
-  const cameras = new Cameras(canvas, ships, data, () => want());
+  const cameras = new CamerasOf(canvas, ships, data, () => want());
 
   function pose() {
-    action.time = Math.min(Math.max(time - data.start, 0), clip.duration);
-    mixer.update(0);
+    motion.pose(time - data.start);
     gltf.scene.updateMatrixWorld(true);
     shown.triangles = showScratches(time - data.start);
-    shown.effects = showEffects(time);
+    shown.effects = effects.reduce((count, showAt) => count + showAt(time), 0);
   }
 
   function draw() {
@@ -157,6 +154,8 @@ export async function makeViewer(canvas, data, glb, isSmooth) {
       cameras.choose(mode, time);
       want();
     },
+    /** Adds effects of a collision that has happened since. */
+    addEffects: (more) => effects.push(addEffects(more, nodeOf)),
     /** Plain: no waves, no wake, no shadows, and no more pixels than the screen's own. For weak computers. */
     setPlain(isPlain) {
       sea.setPlain(isPlain);
