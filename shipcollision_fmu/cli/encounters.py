@@ -41,6 +41,10 @@ __all__ = ["encounter", "import_"]
     metavar="DEG",
     help="Its direction, from the bow clockwise.  [default: 90]",
 )
+@click.option("--current-speed", type=NUMBER, metavar="M/S", help="Of the water, with --hydrodynamics.")
+@click.option("--current-towards-deg", type=NUMBER, metavar="DEG", help="Where it flows to, clockwise from north.")
+@click.option("--wind-speed", type=NUMBER, metavar="M/S", help="Of the wind, with --hydrodynamics.")
+@click.option("--wind-from-deg", type=NUMBER, metavar="DEG", help="Where it comes from, clockwise from north.")
 @click.option("--case", type=WHOLE_NUMBER, metavar="N", help="Of imazu: 1 to 22.")
 @click.option("--hydrodynamics/--coasting", default=None, help="Sail the ships, or let them coast.  [default: by TYPE]")
 @click.option("--degrees-of-freedom", type=Choice(["3", "4", "6"]), help="Of all ships.  [default: 3]")

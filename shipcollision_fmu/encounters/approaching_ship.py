@@ -1,4 +1,4 @@
-"""How each ship comes to the impact: its file, its speed through the water, its helm orders, and the current.
+"""How each ship comes to the impact: its file, its speed through the water, its helm orders, current and wind.
 
 A coasting ship has no orders. A sailed ship keeps its revolutions; own's rudder may be put over before the impact.
 """
@@ -10,6 +10,7 @@ from math import cos, radians, sin
 from typing import NamedTuple
 
 from ..manoeuvring.trials.steady_course import find_self_propulsion
+from ..scenario.tables.environment import CurrentTable, Environment, WindTable
 from ..ship.coasting_law import COASTING
 from .request import Kind, Request, value_or_default
 from .ship_table import require_manoeuvring
@@ -54,8 +55,8 @@ class ApproachingShip:
 
 def plan_approaching_ships(
     request: Request, kind: Kind, sailed: bool, steps: int
-) -> tuple[tuple[float, float], ApproachingShip, ApproachingShip]:
-    """Current (north, east) [m/s], own and target; the impact is at the communication point `steps`.
+) -> tuple[Environment, ApproachingShip, ApproachingShip]:
+    """Current and wind, own and target; the impact is at the communication point `steps`.
 
     A sailed target drifts with a current, in which both ships sail. A coasting target has the drift as its own velocity
     and there is no current. Raises ScenarioError for a ship that has to be sailed and can only coast.
@@ -66,7 +67,7 @@ def plan_approaching_ships(
     free = request.degrees_of_freedom or 3
     if not sailed:
         return (
-            (0.0, 0.0),
+            Environment(),
             ApproachingShip(request.own, own_speed, 0.0, None, free),
             ApproachingShip(
                 request.target,
@@ -77,7 +78,14 @@ def plan_approaching_ships(
             ),
         )
     towards = radians(request.heading_deg) + drift_angle
-    current = (round(drift_speed * cos(towards), 9), round(drift_speed * sin(towards), 9))
+    velocity = [drift_speed * cos(towards), drift_speed * sin(towards)]
+    if request.current_speed is not None:
+        velocity = CurrentTable(
+            speed=request.current_speed, towards_deg=value_or_default(request.current_towards_deg, 0.0)
+        ).velocity
+    wind = None
+    if request.wind_speed:
+        wind = WindTable(speed=request.wind_speed, from_deg=value_or_default(request.wind_from_deg, 0.0))
     own, target = (
         ApproachingShip(file, speed, 0.0, (_order_straight_course(file, speed),), free)
         for file, speed in ((request.own, own_speed), (request.target, target_speed))
@@ -86,7 +94,7 @@ def plan_approaching_ships(
         k = steps - round(value_or_default(request.before, kind.before) / request.step)
         rudder_deg = value_or_default(request.rudder_deg, kind.rudder_deg)
         own = ApproachingShip(own.file, own.surge, 0.0, _insert_rudder_order(own.orders, max(0, k), rudder_deg), free)
-    return current, own, target
+    return Environment(current=[round(component, 9) for component in velocity], wind=wind), own, target
 
 
 def _order_straight_course(ship: str, speed: float) -> HelmOrder:

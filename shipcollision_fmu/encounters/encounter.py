@@ -2,7 +2,7 @@
 
     check_request            the kind and its defaults                              request.py
     plan_impact              the struck place on "target", the angle to "own"       planned_impact.py
-    plan_approaching_ships   speeds, current, helm orders                           approaching_ship.py
+    plan_approaching_ships   speeds, current, wind, helm orders                     approaching_ship.py
     make_track               the way to the impact, straight or sailed              approach_track.py
     aim_track                corrected until the collision model agrees             targeting.py
     check_no_earlier_overlap hulls apart until the impact                           earlier_overlap.py
@@ -24,13 +24,14 @@ import numpy as np
 
 from ..errors import ScenarioError
 from ..scenario.scenario import Scenario, parse_scenario
+from ..scenario.tables.environment import Environment
 from .approach_track import compute_relative_velocity, make_track, sail_as_in_run, shift_track
 from .approaching_ship import ApproachingShip, plan_approaching_ships
 from .earlier_overlap import check_no_earlier_overlap
 from .encounter_file import Approach, write_encounter
 from .plan_contact import find_contacts
 from .planned_impact import PlannedImpact, describe_impact, plan_impact
-from .request import Request, check_request, count_steps, make_request, value_or_default
+from .request import Request, check_request, check_surroundings, count_steps, make_request, value_or_default
 from .targeting import ACCEPTED, ImpactFinder, aim_track
 
 __all__ = ["Encounter", "encounter"]
@@ -89,14 +90,15 @@ def encounter(request: Request | str, directory: str | Path = ".", **options: An
     steps = count_steps(value_or_default(request.time, usual), request.step)
     sailed = kind.sailed if request.hydrodynamics is None else request.hydrodynamics
     impact = plan_impact(request, kind)
-    current, own, target = plan_approaching_ships(request, kind, sailed, steps)
+    check_surroundings(request, kind, sailed)
+    around, own, target = plan_approaching_ships(request, kind, sailed, steps)
     with closing(ImpactFinder(own, target, steps, request.step)) as finder:
-        approach = _aim(request, impact, own, target, current, steps, finder)
+        approach = _aim(request, impact, own, target, around, steps, finder)
         check_no_earlier_overlap(
             approach.own_track, approach.target_track, impact.sections, impact.deck, steps, request.step
         )
         text, scenario = _write_as_run(
-            lambda to: write_encounter(request, kind, impact, steps, current, to, sailed, Path(directory)),
+            lambda to: write_encounter(request, kind, impact, steps, around, to, sailed, Path(directory)),
             lambda text: parse_scenario(text, f"encounter {request.kind}", directory),
             request, impact, approach, steps, finder,
         )  # fmt: skip
@@ -113,14 +115,14 @@ def encounter(request: Request | str, directory: str | Path = ".", **options: An
 
 def _aim(
     request: Request, impact: PlannedImpact, own: ApproachingShip, target: ApproachingShip,
-    current: tuple[float, float], steps: int, finder: ImpactFinder,
+    around: Environment, steps: int, finder: ImpactFinder,
 ) -> Approach:  # fmt: skip
     """The first contact in plan for which the tracks lead to the impact, which is at n's origin."""
     psi, h, place = radians(request.heading_deg), request.step, impact.place
     R = np.array([[cos(psi), -sin(psi)], [sin(psi), cos(psi)]])
-    target_track = make_track(target, -R @ place.point, psi, current, steps, h)
+    target_track = make_track(target, -R @ place.point, psi, around, steps, h)
     contacts = find_contacts(place, impact.sections["own"], impact.heading)
-    own_track = make_track(own, R @ (contacts[0].position - place.point), psi + impact.heading, current, steps, h)
+    own_track = make_track(own, R @ (contacts[0].position - place.point), psi + impact.heading, around, steps, h)
     least_off = inf
     for i, contact in enumerate(contacts):
         shifted = shift_track(own_track, R @ (contact.position - contacts[0].position))

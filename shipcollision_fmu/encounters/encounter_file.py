@@ -6,6 +6,7 @@ from math import degrees
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from ..scenario.tables.environment import Environment
 from ..scenario.toml_writer import format_toml
 from ..ship.ship_state import ShipState
 from .approaching_ship import ApproachingShip
@@ -32,7 +33,7 @@ class Approach(NamedTuple):
 
 
 def write_encounter(
-    request: Request, kind: Kind, impact: PlannedImpact, steps: int, current: tuple[float, float], approach: Approach,
+    request: Request, kind: Kind, impact: PlannedImpact, steps: int, around: Environment, approach: Approach,
     sailed: bool, directory: Path,
 ) -> str:  # fmt: skip
     """The text of the scenario file, in which paths of ships are relative to `directory`."""
@@ -60,8 +61,12 @@ def write_encounter(
         "ships.target": _ship_table(approach.target, approach.target_track[0], request.step, sailed, directory),
         "collision": CONTACT_LAW,
     }
-    if any(current):
-        tables["environment"] = {"current": [*current]}
+    environment = {
+        "current": around.current if any(around.current) else None,
+        "wind": None if around.wind is None else around.wind.model_dump(),
+    }
+    if any(environment.values()):
+        tables["environment"] = environment
     return format_toml(comment, tables)
 
 

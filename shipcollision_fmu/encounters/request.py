@@ -13,10 +13,14 @@ from math import ceil, isfinite
 from typing import Any
 
 from ..errors import ScenarioError
+from ..scenario.tables.environment import MAXIMUM_CURRENT, MAXIMUM_WIND
 from ..ship.loading.messages import suggest_or_list
 from .plan_contact import Side
 
-__all__ = ["FASTEST", "KINDS", "Kind", "Request", "check_request", "count_steps", "make_request", "value_or_default"]
+__all__ = [
+    "FASTEST", "KINDS", "Kind", "Request", "check_request", "check_surroundings", "count_steps", "make_request",
+    "value_or_default",
+]  # fmt: skip
 
 FASTEST = 50.0
 """[m/s] Limit of every speed. No ship is faster, so a higher value was meant in another unit. The check for an earlier
@@ -114,6 +118,8 @@ class Request:
     before, rudder_deg time of own's rudder order before the impact [s], and its angle [deg], positive to starboard
                        (late-evasive and loss-of-steering)
     drift_speed, drift_deg    speed of a drifting target [m/s] and its direction from the target's bow, clockwise [deg]
+    current_speed, current_towards_deg    the water's [m/s] and the direction to which it flows [deg], for sailed ships
+    wind_speed, wind_from_deg             the wind's [m/s] and the direction from which it comes [deg], likewise
     name               name of the scenario
     """
 
@@ -135,6 +141,10 @@ class Request:
     rudder_deg: float | None = None
     drift_speed: float | None = None
     drift_deg: float = 90.0
+    current_speed: float | None = None
+    current_towards_deg: float | None = None
+    wind_speed: float | None = None
+    wind_from_deg: float | None = None
     name: str | None = None
 
 
@@ -185,6 +195,10 @@ def _check_ranges(request: Request) -> None:
         ("rudder_deg", request.rudder_deg, -90.0, 90.0, "positive is to starboard"),
         ("drift_speed", request.drift_speed, 0.0, FASTEST, "give metres per second"),
         ("drift_deg", request.drift_deg, -360.0, 360.0, "from the target's bow clockwise"),
+        ("current_speed", request.current_speed, 0.0, MAXIMUM_CURRENT, "give metres per second"),
+        ("current_towards_deg", request.current_towards_deg, -360.0, 720.0, "clockwise from north"),
+        ("wind_speed", request.wind_speed, 0.0, MAXIMUM_WIND, "give metres per second"),
+        ("wind_from_deg", request.wind_from_deg, -360.0, 720.0, "clockwise from north"),
     ]
     for name, value, least, most, remedy in limits:
         if value is not None and not (isfinite(value) and least <= value <= most):
@@ -210,6 +224,29 @@ def _check_options_of_kind(request: Request, kind: Kind) -> None:
         )
     if kind.drift_speed and request.target_speed:
         raise ScenarioError(f"encounter {request.kind}: the target drifts: give drift_speed, not target_speed")
+
+
+def check_surroundings(request: Request, kind: Kind, sailed: bool) -> None:
+    """Raise ScenarioError for a current or a wind that acts on neither ship, or that lacks its speed or direction."""
+    for what, direction in (("current", "current_towards_deg"), ("wind", "wind_from_deg")):
+        speed = f"{what}_speed"
+        missing = [name for name in (speed, direction) if getattr(request, name) is None]
+        if len(missing) == 2:
+            continue
+        given = direction if missing == [speed] else speed
+        if not sailed:
+            raise ScenarioError(
+                f"encounter {request.kind}: {given} has no effect on ships that coast: give --hydrodynamics, or leave "
+                "it out"
+            )
+        if missing:
+            raise ScenarioError(
+                f"encounter {request.kind}: {missing[0]} is missing: a {what} has a speed and a direction"
+            )
+        if what == "current" and kind.drift_speed:
+            raise ScenarioError(
+                f"encounter {request.kind}: the drift is that of the water: give drift_speed and drift_deg, not {given}"
+            )
 
 
 def value_or_default(given: float | None, default: float) -> float:

@@ -9,13 +9,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import product
-from math import degrees, hypot
+from math import cos, degrees, hypot, radians, sin
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 from shipcollision_fmu import load_scenario, simulate
+from shipcollision_fmu.cosim.run import Run
 from shipcollision_fmu.encounters.encounter import Encounter, encounter
 from shipcollision_fmu.encounters.request import KINDS, Request
 from shipcollision_fmu.errors import ScenarioError, ShipError
@@ -24,12 +26,12 @@ TOLERANCE = 0.5
 STEP = 0.05
 
 
-def check(made: Encounter) -> None:
+def check(made: Encounter, run: Run | None = None, angle_deg: float = 1e-4) -> None:
     """Run it and compare time, angle and place of the first contact with the request."""
-    run = simulate(made.scenario, in_process=True)
+    run = run or simulate(made.scenario, in_process=True)
     (first, *_) = run.events["collisions"]
     assert first["start"] == pytest.approx(made.time, abs=1.5 * STEP)
-    assert abs(degrees(first["angle"] - made.angle)) < 1e-4
+    assert abs(degrees(first["angle"] - made.angle)) < angle_deg
     role = "b_b" if first["ship_b"] == "target" else "b_a"
     x, y, _ = first["first_point"][role]
     assert hypot(x - made.point[0], y - made.point[1]) < TOLERANCE
@@ -43,6 +45,67 @@ def test_every_kind_collides_as_requested(kind: str, hydrodynamics: bool | None)
             Request(kind, time=20.0, after=0.5, hydrodynamics=hydrodynamics, before=15.0 if KINDS[kind].helm else None)
         )
     )
+
+
+@pytest.mark.parametrize("seed", [0, 1, *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(2, 24))])
+def test_ships_collide_as_requested_in_current_and_wind(seed: int) -> None:
+    """All drawn at random. The heading of a ship that turns differs by its yaw rate times the error in time."""
+    rng = np.random.default_rng(seed)
+    kind = str(rng.choice(["crossing", "head-on", "t-bone", "late-evasive", "loss-of-steering", "drifting-target"]))
+    options: dict[str, Any] = {
+        "own": str(rng.choice(["kcs", "kvlcc2"])), "target": str(rng.choice(["kcs", "kvlcc2"])),
+        "heading_deg": rng.uniform(0.0, 360.0), "degrees_of_freedom": int(rng.choice([3, 4])),
+        "wind_speed": rng.uniform(5.0, 40.0), "wind_from_deg": rng.uniform(0.0, 360.0),
+    }  # fmt: skip
+    if kind != "drifting-target":
+        options |= {"current_speed": rng.uniform(0.2, 2.0), "current_towards_deg": rng.uniform(0.0, 360.0)}
+    if kind == "crossing":
+        options |= {"angle_deg": rng.uniform(20.0, 170.0), "at": rng.uniform(-0.5, 0.5)}
+    made = encounter(kind, hydrodynamics=True, after=0.5, own_speed=6.0, **options)
+    around = made.scenario.environment
+    assert around.wind is not None
+    assert (around.wind.speed, around.wind.from_deg) == (options["wind_speed"], options["wind_from_deg"])
+    if kind != "drifting-target":
+        towards = radians(options["current_towards_deg"])
+        current = options["current_speed"] * np.array([cos(towards), sin(towards)])
+        assert around.current == pytest.approx(current, abs=1e-9)
+    start = made.scenario.ships["own"].start
+    c, s = cos(start.attitude[2]), sin(start.attitude[2])
+    through_water = np.array(start.velocity[:2]) - np.array([[c, s], [-s, c]]) @ around.current
+    assert through_water == pytest.approx([6.0, 0.0], abs=1e-7)
+    run = simulate(made.scenario, in_process=True)
+    (first, *_) = run.events["collisions"]
+    k = int(np.searchsorted(run.states["time"], made.time)) - 2  # before the impact
+    turning = sum(abs(float(run.states[f"{name}.rate.yaw"][k])) for name in ("own", "target"))
+    check(made, run, 1e-4 + 1.1 * degrees(turning) * abs(first["start"] - made.time))
+
+
+def test_wind_turns_a_ship_that_lies_stopped() -> None:
+    """The start of the approach is another than in calm water, and the impact the same."""
+    calm, windy = (
+        encounter("t-bone", hydrodynamics=True, after=0.5, target="kcs", **around)
+        for around in ({}, {"wind_speed": 20.0, "wind_from_deg": 60.0})
+    )
+    a, b = (made.scenario.ships["target"].start for made in (calm, windy))
+    assert hypot(a.position[0] - b.position[0], a.position[1] - b.position[1]) > 5.0
+    check(windy, simulate(windy.scenario, in_process=True))
+
+
+@pytest.mark.slow
+def test_the_heading_is_found_where_the_wind_turns_the_ships_for_long() -> None:
+    """Corrections by the error alone do not come to an end here."""
+    made = encounter("t-bone", hydrodynamics=True, after=0.5, target="kcs", time=300.0, step=0.2, wind_speed=30.0,
+                     wind_from_deg=60.0)  # fmt: skip
+    check(made)
+
+
+@pytest.mark.slow
+def test_a_heading_from_which_the_wind_turns_a_ship_is_refused() -> None:
+    """A stopped ship does not lie with its bow to the wind for five minutes."""
+    with pytest.raises(
+        ScenarioError, match=r"^ship 'kcs' does not come to 0.0 deg in this current and wind: take less"
+    ):
+        encounter("t-bone", hydrodynamics=True, target="kcs", time=300.0, step=0.5, wind_speed=20.0, wind_from_deg=10.0)
 
 
 @pytest.mark.slow
@@ -199,6 +262,15 @@ def test_a_ship_given_by_path_is_found_from_the_file(tmp_path: Path) -> None:
         (Request("late-evasive", hydrodynamics=False), r"late-evasive needs ships that steer: leave out --coasting"),
         (Request("late-evasive", time=30.0, before=60.0), r"before = 60 must be 0 to 30: the order is given within"),
         (Request("late-evasive", own="guan2014_own"), r"ship 'guan2014_own' can only coast, it has no \[manoeuvring\]"),
+        (Request("crossing", wind_speed=9.0, wind_from_deg=1.0),
+         r"^encounter crossing: wind_speed has no effect on ships that coast: give --hydrodynamics, or leave it out$"),
+        (Request("crossing", current_towards_deg=9.0), r"current_towards_deg has no effect on ships that coast: give"),
+        (Request("crossing", current_speed=1.0, hydrodynamics=True),
+         r"current_towards_deg is missing: a current has a speed and a direction$"),
+        (Request("late-evasive", wind_from_deg=1.0), r"wind_speed is missing: a wind has a speed and a direction$"),
+        (Request("late-evasive", wind_speed=70.0, wind_from_deg=1.0), r"wind_speed = 70 must be 0 to 60: give"),
+        (Request("drifting-target", hydrodynamics=True, current_speed=1.0, current_towards_deg=0.0),
+         r"the drift is that of the water: give drift_speed and drift_deg, not current_speed$"),
         (Request("crossing", own_speed=12.0, hydrodynamics=True), r"'kvlcc2' needs 1.846 rev/s for 12 m/s; must"),
     ],
 )  # fmt: skip

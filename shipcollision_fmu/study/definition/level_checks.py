@@ -31,6 +31,7 @@ def check_level(
             )
         _check_astern(place, name, level, _find_limits(name, file, variables, tables))
         _check_kinds(place, name, kinds, _find_limits(name, file, variables, tables))
+    _check_surroundings(file, source)
     place = f"{source}: [{'grid' if 'kind' in file.grid else 'encounter'}] kind"
     for kind in kinds:
         if kind != SITUATION and KINDS[kind].sailed and level != "sailed":
@@ -49,6 +50,9 @@ def _check_situations(file: StudyFile, source: str) -> None:
     for name in WORDS:
         if name in file.encounter.model_fields_set or name in file.grid:
             raise StudyError(f"{source}: {name} has no effect with [situations]: remove it")
+
+
+def _check_surroundings(file: StudyFile, source: str) -> None:
     given = {*file.encounter.model_fields_set, *file.grid}
     for what in ("current", "wind"):
         both = {name for name in SURROUNDINGS if name.startswith(what)}
@@ -98,7 +102,6 @@ def _check_kinds(place: str, name: str, kinds: list[str], limits: tuple[float, f
             )
     if kinds and not any(acts_with(name, kind) for kind in kinds):
         able = [kind for kind in KINDS if acts_with(name, kind)]
-        if kinds == [SITUATION] or not able:
-            words = "with [situations]: remove it" if kinds == [SITUATION] else "without [situations]: remove it"
-            raise StudyError(f"{place} has no effect {words}")
+        if kinds == [SITUATION]:
+            raise StudyError(f"{place} has no effect with [situations]: remove it")
         raise StudyError(f'{place} has no effect with kind "{kinds[0]}": remove it, or take kind {" or ".join(able)}')

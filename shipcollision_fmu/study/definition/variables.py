@@ -17,7 +17,8 @@ LEVELS = ("impact", "encounter", "sailed")
 
 SITUATION = "situation"
 """Stands for the kind of encounter where a file of traffic is the case."""
-SURROUNDINGS = ("current_speed", "current_towards_deg", "wind_speed", "wind_from_deg")
+OF_THE_WATER = ("current_speed", "current_towards_deg")
+SURROUNDINGS = (*OF_THE_WATER, "wind_speed", "wind_from_deg")
 OF_A_SITUATION = ("friction", "restitution", *SURROUNDINGS)
 """Variables of a situation; the others are in its file."""
 SIDES = ("port", "starboard")
@@ -79,12 +80,12 @@ NUMBERS = {
         "deg", -90.0, 90.0, (SAILED,), "the angle of own's rudder order", "positive is to starboard", None
     ),
     "current_speed": Number(
-        "m/s", 0.0, MAXIMUM_CURRENT, (SAILED,), "the speed of the water in a situation", _SPEED, None
+        "m/s", 0.0, MAXIMUM_CURRENT, (SAILED,), "the speed of the water", _SPEED, None
     ),
     "current_towards_deg": Number(
         "deg", -360.0, 720.0, (SAILED,), "the direction to which the water flows", "clockwise from north", None
     ),
-    "wind_speed": Number("m/s", 0.0, MAXIMUM_WIND, (SAILED,), "the speed of the wind in a situation", _SPEED, None),
+    "wind_speed": Number("m/s", 0.0, MAXIMUM_WIND, (SAILED,), "the speed of the wind", _SPEED, None),
     "wind_from_deg": Number(
         "deg", -360.0, 720.0, (SAILED,), "the direction from which the wind comes", "clockwise from north", None
     ),
@@ -100,8 +101,8 @@ def acts_with(name: str, kind: str) -> bool:
     if kind == SITUATION:
         return name in OF_A_SITUATION
     of = KINDS[kind]
-    if name in SURROUNDINGS:
-        return False
+    if name in OF_THE_WATER:  # a target that drifts is carried by a current of its own
+        return of.drift_speed == 0.0
     if name in ("before", "rudder_deg"):
         return bool(of.helm)
     if name in ("drift_speed", "drift_deg"):

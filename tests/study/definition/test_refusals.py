@@ -290,9 +290,21 @@ REFUSALS: dict[str, tuple[tuple[str, str], str]] = {
         (END, BESIDE + 'current_speed = 1.0'),
         "[encounter] current_towards_deg is missing: a current has a speed and a direction",
     ),
-    "a current without situations": (
-        (END, SAILED + "[encounter]\ncurrent_speed = 1.0"),
-        "[encounter] current_speed has no effect without [situations]: remove it",
+    "a wind without a speed": (
+        (END, SAILED + "[encounter]\nwind_from_deg = 1.0"),
+        "[encounter] wind_speed is missing: a wind has a speed and a direction",
+    ),
+    "a wind on coasting ships": (
+        (END, SAILED.replace("sailed", "encounter") + "[encounter]\nwind_speed = 9.0\nwind_from_deg = 1.0"),
+        '[encounter] wind_speed has no effect at level = "encounter": remove it, or take level = "sailed"',
+    ),
+    "a current at an impact": (
+        (SPEED, "current_speed = 1.0\ncurrent_towards_deg = 2.0"),
+        '[encounter] current_speed has no effect at level = "impact": remove it, or take level = "sailed"',
+    ),
+    "a current that carries a drifting target": (
+        (END, SAILED + '[encounter]\nkind = "drifting-target"\ncurrent_speed = 1.0\ncurrent_towards_deg = 1.0'),
+        '[encounter] current_speed has no effect with kind "drifting-target": remove it, or take kind head-on or',
     ),
     # -- other files
     "no TOML": (("[own]", "[own"), "is not valid TOML: "),

@@ -88,6 +88,29 @@ def test_sailed_cases_are_those_of_encounter() -> None:
         compare(line, find_collisions(tables, line["row"]), direct)
 
 
+SURROUNDED = """
+kind = {distribution = "discrete", values = ["crossing", "drifting-target"]}
+angle_deg = 80.0
+current_speed = {distribution = "uniform", least = 0.5, most = 2.0}
+current_towards_deg = {distribution = "uniform", least = 0.0, most = 360.0}
+wind_speed = {distribution = "uniform", least = 5.0, most = 20.0}
+wind_from_deg = {distribution = "uniform", least = 0.0, most = 360.0}
+"""
+
+
+@pytest.mark.parametrize("engine", ["native", pytest.param("python", marks=pytest.mark.needs("pybullet"))])
+def test_sailed_cases_have_current_and_wind(engine: str) -> None:
+    """A drifting target has a current of its own. Angle and place are those of the row all the same."""
+    lines = compute_rows(read("sailed", SURROUNDED), 0, 4, engine).encounters.to_pylist()
+    assert {line["kind"] for line in lines} == {"crossing", "drifting-target"}
+    for line in lines:
+        assert (line["status"], line["collisions"] >= 1) == ("done", True)
+        assert (line["current_speed"] is None) == (line["kind"] == "drifting-target")
+        assert line["wind_speed"] >= 5.0
+        assert line["collision_angle_deg"] == pytest.approx(80.0, abs=2e-3)
+        assert line["target_x"] == pytest.approx(0.0, abs=4.0)  # from the middle of L_oa to midship
+
+
 @pytest.mark.parametrize("freedom", [4, 6])
 def test_impacts_in_more_degrees_of_freedom(freedom: int) -> None:
     tables = compute_rows(read("impact", "", freedom), 0, 6)
