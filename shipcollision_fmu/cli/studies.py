@@ -75,6 +75,11 @@ def study(
         f"{result.rows} rows: {result.refused} refused, {result.collisions} collisions; {result.computed} computed in "
         f"{result.seconds:.1f} s, engine {result.engine}"
     )
+    if result.contact_at_end:
+        say(
+            f"{result.contact_at_end} rows end with hulls that touch, column contact_at_end: a longer `after` in [run] "
+            "gives more of their energy"
+        )
     say(f"stored in {folder}: {folder}/encounters and {folder}/collisions are tables in Parquet files")
 
 

@@ -35,8 +35,9 @@ __all__ = ["Study", "list_study_names", "parse_study", "read_study"]
 
 SOBOL_DIMENSIONS = 32
 """Dimensions for which rows/direction_numbers.py has numbers."""
-FORMAT = 1
-"""Counts changes of how rows are made from a study: part of the fingerprint, so that old and new rows never mix."""
+FORMAT = 2
+"""Counts changes of how rows and columns are made from a study: part of the fingerprint, so that old and new rows never
+mix."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -23,17 +23,21 @@ class Tally:
     """Counts of the parts that are written."""
 
     def __init__(self) -> None:
-        self.rows = self.refused = self.collisions = 0
+        self.rows = self.refused = self.collisions = self.contact_at_end = 0
 
     def add(self, mark: Mark) -> None:
         """Adds those of a part."""
         self.rows += mark.last - mark.first + 1
         self.refused += mark.refused
         self.collisions += mark.collisions
+        self.contact_at_end += mark.contact_at_end
 
     def as_counts(self) -> dict[str, int]:
         """Those of study.json."""
-        return {"rows": self.rows, "refused": self.refused, "collisions": self.collisions}
+        return {
+            "rows": self.rows, "refused": self.refused, "collisions": self.collisions,
+            "contact_at_end": self.contact_at_end,
+        }  # fmt: skip
 
 
 class Loop:

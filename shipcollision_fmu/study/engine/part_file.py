@@ -33,6 +33,7 @@ __all__ = [
 
 KEY = b"shipcollision.part"
 """Key of the mark in the metadata of the schema. Other programs pass over it."""
+AT_END = "contact_at_end"
 
 
 @dataclass(frozen=True)
@@ -45,6 +46,8 @@ class Mark:
     refused: int
     """Rows that are refused cases."""
     collisions: int
+    contact_at_end: int = 0
+    """Rows that end with hulls that touch."""
 
 
 @dataclass(frozen=True)
@@ -90,7 +93,10 @@ def encode(table: pa.Table) -> bytes:
 def encode_part(tables: RowTables, part: Part, fingerprint: str) -> PartBytes:
     """Both files of a part, of the tables of all its rows."""
     refused = pc.sum(pc.equal(tables.encounters["status"], "refused")).as_py() or 0
-    mark = Mark(fingerprint, part.first, part.last, refused, tables.collisions.num_rows)
+    at_end = 0
+    if AT_END in tables.encounters.column_names:
+        at_end = pc.sum(tables.encounters[AT_END]).as_py() or 0
+    mark = Mark(fingerprint, part.first, part.last, refused, tables.collisions.num_rows, at_end)
     return PartBytes(part, encode(_put_mark(tables.encounters, mark)), encode(_put_mark(tables.collisions, mark)), mark)
 
 

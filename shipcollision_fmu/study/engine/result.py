@@ -17,6 +17,8 @@ class StudyResult:
     refused: int
     """Rows that are refused cases."""
     collisions: int
+    contact_at_end: int
+    """Rows that end with hulls that touch: their energy may not be the whole."""
     computed: int
     """Rows that this call computed; the others were there."""
     engine: str

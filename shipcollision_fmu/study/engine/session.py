@@ -77,7 +77,16 @@ def _run(
         write_csv(folder.path, study)
     computed, seconds = tally.rows - there, perf_counter() - begin
     return StudyResult(
-        out, tally.rows, tally.refused, tally.collisions, computed, folder.engine, seconds, loop.busy, loop.waited
+        out,
+        tally.rows,
+        tally.refused,
+        tally.collisions,
+        tally.contact_at_end,
+        computed,
+        folder.engine,
+        seconds,
+        loop.busy,
+        loop.waited,
     )
 
 

@@ -95,6 +95,11 @@ def _describe(table: StudyTable) -> str:
         )
     else:
         lines.append("None is refused. All cases weigh the same.")
+    if table.contact_at_end:
+        lines.append(
+            f"{_group(table.contact_at_end)} cases end with hulls that touch (column `contact_at_end`): their energy "
+            "may not be the whole. A longer `after` in [run] gives more of it."
+        )
     lines.append(f"Sampler: {table.sampler}.")
     if table.sampler != "random":
         lines.append(

@@ -26,6 +26,7 @@ class StudyTable:
 
     name, level, sampler, engine: as in the study; rows: its cases; present: those whose part is written
     row: numbers of the cases that are done, rising; energy: what they lost [J]
+    contact_at_end: number of cases that end with hulls that touch
     """
 
     def __init__(self, folder: Path) -> None:
@@ -39,6 +40,7 @@ class StudyTable:
         self._parts = self._find_parts()
         status = np.concatenate([self._read(part, "status").to_numpy(False) == "done" for part in self._parts])
         energy = self._join("energy")
+        self.contact_at_end = int(np.nansum(self._join("contact_at_end")))
         self.present, self._is_done = len(status), status & np.isfinite(energy)
         self.energy, self.row = energy[self._is_done], self._join("row")[self._is_done].astype(np.int64)
         if not len(self.row):

@@ -62,6 +62,12 @@ ENCOUNTERS = (
     StudyColumn("collisions", "int32", "", "number of collisions"),
     StudyColumn("contacts", "int32", "", "contact points of all collisions"),
     _real("duration", "s", "time that was simulated"),
+    StudyColumn(
+        "contact_at_end",
+        "bool",
+        "",
+        "whether hulls touched in the last second that was simulated: a longer time may give more energy and impulse",
+    ),
     _real("clearance", "m", "least distance between hulls, at most 200; negative where they overlap"),
     _real("energy", "J", "kinetic energy lost to contact"),
     _real("energy_normal", "J", "share of it that was lost along the normals"),
@@ -116,7 +122,13 @@ COLLISIONS = (
 def make_schema(columns: tuple[StudyColumn, ...]) -> Any:
     """The pyarrow.Schema of a table; each field has `unit` and `meaning` in its metadata. Raises HostError."""
     pa = import_pyarrow()
-    types = {"double": pa.float64(), "int64": pa.int64(), "int32": pa.int32(), "string": pa.string()}
+    types = {
+        "double": pa.float64(),
+        "int64": pa.int64(),
+        "int32": pa.int32(),
+        "string": pa.string(),
+        "bool": pa.bool_(),
+    }
     return pa.schema(
         [
             pa.field(column.name, types[column.type], metadata={"unit": column.unit, "meaning": column.meaning})

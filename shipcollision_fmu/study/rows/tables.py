@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from ...errors import ShipError
 from ..definition.study import Study
+from ..definition.variables import IMPACT
 from ..extra import import_pyarrow
 from .columns import COLLISIONS, ENCOUNTERS, StudyColumn, make_schema
 from .fleet_ships import find_ship
@@ -17,6 +18,11 @@ from .results import Results
 __all__ = ["RowTables", "build_tables"]
 
 Values = npt.NDArray[Any]
+
+AT_END = 1.0
+"""[s] before the end. Hulls that lie along each other part and touch again several times a second."""
+ROUNDING = 1e-6
+"""[s] of times that are sums of steps."""
 
 
 class RowTables(NamedTuple):
@@ -37,9 +43,23 @@ def build_tables(study: Study, results: Results) -> RowTables:
         "reason": np.array([reason or None for reason in results.reasons], object),
         "level": np.full(n, study.level), "engine": np.full(n, results.engine), **cases.numbers, **results.numbers,
     }  # fmt: skip
+    if study.level != IMPACT:
+        given["contact_at_end"] = _find_contact_at_end(results, study.run.separation)
     for role in ("own", "target"):
         given.update(_describe_ships(study, role, cases.ships[role]))
     return RowTables(_make_table(ENCOUNTERS, given, n), _make_collisions(results))
+
+
+def _find_contact_at_end(results: Results, separation: float | None) -> Values:
+    """1 for the cases that ended with hulls that touch, 0 for the others, NaN for those that are refused. A case that
+    ends after a separation shorter than AT_END has none."""
+    duration = results.numbers.get("duration", np.full(len(results.cases), np.nan))
+    last = np.full(len(duration), -np.inf)
+    for part in results.collisions:
+        np.maximum.at(last, part["case"].astype(np.int64), part["end"])
+    within = AT_END if separation is None else min(AT_END, separation)
+    found: Values = np.where(np.isnan(duration), np.nan, duration - last < within - ROUNDING)
+    return found
 
 
 def _as_words(values: Values) -> Values:
@@ -85,8 +105,8 @@ def _make_table(columns: tuple[StudyColumn, ...], given: dict[str, Values], n: i
             arrays.append(pa.nulls(n, field.type))
         elif values.dtype.kind == "f":
             missing = np.isnan(values)
-            whole = np.where(missing, 0.0, values).astype(np.int32) if field.type == pa.int32() else values
-            arrays.append(pa.array(whole, field.type, mask=missing))
+            kind = {pa.int32(): np.int32, pa.bool_(): np.bool_}.get(field.type, np.float64)
+            arrays.append(pa.array(np.where(missing, 0.0, values).astype(kind), field.type, mask=missing))
         else:
             arrays.append(pa.array(values, field.type))
     return pa.Table.from_arrays(arrays, schema=schema)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import pty
 import signal
@@ -10,6 +11,7 @@ import sys
 from contextlib import suppress
 from pathlib import Path
 
+import pyarrow.parquet as pq
 import pytest
 from click.testing import CliRunner, Result
 
@@ -42,6 +44,21 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (tmp_path / "small.toml").write_text(SMALL, encoding="utf-8")
     monkeypatch.chdir(tmp_path)
     return tmp_path
+
+
+TOUCHING = """
+[study]
+name = "touching"
+level = "encounter"
+rows = 40
+[own]
+ships = ["kvlcc2"]
+[run]
+after = 10.0
+[encounter]
+at = { distribution = "uniform", least = -0.45, most = 0.45 }
+angle_deg = { distribution = "uniform", least = 20.0, most = 160.0 }
+"""
 
 
 def called(*arguments: str) -> Result:
@@ -101,6 +118,24 @@ def test_a_mistake_is_one_line_and_leaves_nothing(
     assert len(lines) == 1
     assert (result.exit_code, result.stdout) == (status, "")
     assert [path.name for path in folder.iterdir()] == ["small.toml"]
+
+
+def test_contact_that_the_end_cuts_off_is_counted(folder: Path) -> None:
+    """In the lines of the command, in study.json and on the page."""
+    (folder / "touching.toml").write_text(TOUCHING, encoding="utf-8")
+    said = called("touching.toml", "--workers", "0", "--out", "t").stdout.splitlines()
+    table = pq.read_table(folder / "t" / "encounters")
+    count = sum(map(bool, table["contact_at_end"].to_pylist()))
+    assert 0 < count < 40
+    line = (
+        f"{count} rows end with hulls that touch, column contact_at_end: a longer `after` in [run] gives more of thei"
+    )
+    assert said[1].startswith(line)
+    assert json.loads((folder / "t" / "study.json").read_text())["counts"]["contact_at_end"] == count
+    assert CliRunner().invoke(main, ["show", "t"]).exit_code == 0
+    assert (
+        f"{count} cases end with hulls that touch (column `contact_at_end`)" in (folder / "t/report.html").read_text()
+    )
 
 
 def test_without_the_extra_the_remedy_is_a_command(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:

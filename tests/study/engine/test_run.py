@@ -59,7 +59,7 @@ def test_study_file_versions_and_counts_are_beside_the_tables(whole: Path) -> No
     content = json.loads((whole / "study.json").read_text(encoding="utf-8"))
     refused = len(range(0, 1010, 7))
     collisions = sum(row % 3 for row in range(1010) if row % 7)
-    assert content["counts"] == {"rows": 1010, "refused": refused, "collisions": collisions}
+    assert content["counts"] == {"rows": 1010, "refused": refused, "collisions": collisions, "contact_at_end": 0}
     assert (content["status"], content["parts"], content["level"]) == ("complete", 6, "sailed")
     assert content["fingerprint"] == STUDY.fingerprint
     assert content["versions"]["shipcollision_fmu"] == __version__

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from shipcollision_fmu import collide, encounter, impact, run_encounters
+from shipcollision_fmu import collide, encounter, impact, load_scenario, run_encounters, simulate
 from shipcollision_fmu.study.definition.study import Study, parse_study
+from shipcollision_fmu.study.rows.case_scenario import write_case
 from shipcollision_fmu.study.rows.compute import compute_rows
 from tests.study.rows.test_compute import as_bytes
 
@@ -86,6 +88,44 @@ def test_sailed_cases_are_those_of_encounter() -> None:
         contact = scenario.collision.model_copy(update={"friction": line["friction"], "restitution": 0.0})
         direct = run_encounters([scenario.model_copy(update={"collision": contact})], separation=8.0)
         compare(line, find_collisions(tables, line["row"]), direct)
+
+
+def find_last_contact(study: Study, row: int, folder: Path) -> tuple[float, float]:
+    """Time of the last contact in a run of the Python models, and of the end; [s]."""
+    run = simulate(load_scenario(write_case(study, row, folder)), in_process=True)
+    return float(run.contacts["time"].max()), float(run.states["time"][-1])
+
+
+@pytest.mark.needs("pybullet")
+@pytest.mark.parametrize(("level", "first", "rows"), [("encounter", 14, 3), ("sailed", 0, 1)])
+def test_contact_that_the_end_cuts_off_is_said(level: str, first: int, rows: int, tmp_path: Path) -> None:
+    """Four seconds after the impact some ships still touch. Those that are sailed press on, and lose more energy."""
+    more = 'angle_deg = {distribution = "uniform", least = 20.0, most = 160.0}'
+    texts = [
+        TEXT.format(level=level, more=more, freedom=3).replace("after = 30.0", f"after = {t}") for t in (4.0, 64.0)
+    ]
+    short, long = (parse_study(text.replace("separation = 8.0\n", "")) for text in texts)
+    lines, longer = (compute_rows(study, first, rows).encounters.to_pylist() for study in (short, long))
+    for line, later in zip(lines, longer, strict=True):
+        last, end = find_last_contact(short, line["row"], tmp_path)
+        assert line["contact_at_end"] is (end - last < 1.0)
+        assert later["energy"] >= line["energy"]
+    assert {line["contact_at_end"] for line in lines} >= {True}
+    if level == "encounter":
+        assert {line["contact_at_end"] for line in lines} == {True, False}
+    else:
+        assert longer[0]["energy"] > 1.001 * lines[0]["energy"]
+
+
+def test_a_case_that_ends_by_separation_has_no_contact_at_its_end() -> None:
+    text = TEXT.format(level="encounter", more="angle_deg = 60.0", freedom=3).replace(
+        "separation = 8.0", "separation = 0.3"
+    )
+    lines = compute_rows(parse_study(text), 0, 8).encounters.to_pylist()
+    assert {line["contact_at_end"] for line in lines} == {False}
+    refused, *_ = compute_rows(read("encounter", "angle_deg = 0.0\nown_speed = 1.0"), 0, 1).encounters.to_pylist()
+    touching, *_ = compute_rows(read("impact", ""), 0, 1).encounters.to_pylist()
+    assert (refused["contact_at_end"], touching["contact_at_end"]) == (None, None)
 
 
 SURROUNDED = """
