@@ -13,6 +13,7 @@ from ..collision.responses import RESPONSES
 from ..cosim.parameters import surroundings
 from ..cosim.prepared_files import refuse_response
 from ..cosim.scenario_helm import build_steering
+from ..errors import ScenarioError
 from ..scenario.order_schedule import schedule_headings, schedule_orders
 from ..scenario.scenario import Scenario
 from ..scenario.tables.ship_start import ShipStart
@@ -47,6 +48,11 @@ def make_case(scenario: Scenario, files: PreparedShips, separation: float | None
     and for a contact response that needs Python.
     """
     refuse_response(scenario, "simulate() with engine = 'python'")
+    if scenario.tracks:
+        raise ScenarioError(
+            f"{scenario.name}: [ships.{next(iter(scenario.tracks))}] follows a track, which encounters in one call "
+            "cannot: take simulate()"
+        )
     numbers = _collision_numbers(scenario)
     ships = scenario.load_ships()
     order = {name: i for i, name in enumerate(ships)}

@@ -56,6 +56,8 @@ def run(
     if in_process and (native or fmi != "2"):
         raise click.UsageError(f"--in-process runs without FMI: leave out {'--native' if native else '--fmi'}")
     loaded = load_scenario(scenario)
+    for note in loaded.notes:
+        say(f"note: {note}")
     if native:
         refuse_response(loaded, "leave --native out")
     else:

@@ -5,6 +5,7 @@
     wiring.py           a scenario becomes a System of connected instances; parameters.py has their parameters
     component.py        what a master asks of an instance, and a model in process that answers it
       fmi2_component.py, fmi3_component.py    instances of FMUs; fmu_instance.py has what both versions share
+      track_component.py     a ship that follows a recorded track
       factories.py      makes the components of a run
       fmu_files.py      where the FMUs of a run lie, built when they are missing
       native_fmu_files.py, prepared_files.py  FMUs without Python made for a run, and the ships and obstacles they read

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from math import radians
 
+from ..collision.feedback import PRESCRIBED
 from ..collision.obstacles import format_obstacles
 from ..fmi.names import STATE
 from ..scenario.scenario import Scenario
@@ -40,6 +41,8 @@ def collision_parameters(scenario: Scenario) -> dict[str, Value]:
         parameters[f"{name}.ship"] = scenario.ship_file(name)
         parameters[f"{name}.degrees_of_freedom"] = ship.free
         parameters[f"{name}.coasting"] = ship.predicted_law
+        if ship.track is not None:
+            parameters[f"{name}.feedback"] = PRESCRIBED
         if ship.fender is not None:
             for key, value in ship.fender.model_dump().items():
                 parameters[f"{name}.fender.{key}"] = value

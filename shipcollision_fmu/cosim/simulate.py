@@ -129,7 +129,7 @@ def _run(
 ) -> Run:
     free = {name: start.free for name, start in scenario.ships.items()}
     headings = {name: radians(table.heading_deg) for name, table in scenario.obstacles.items()}
-    events = build_events(record, ships, free, scenario.collision.damage, headings)
+    events = build_events(record, ships, free, scenario.collision.damage, headings, scenario.tracks)
     return Run(
         states=record.states,
         contacts=record.contacts,

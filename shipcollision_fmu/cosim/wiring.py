@@ -4,6 +4,9 @@ ship      position attitude velocity rate impulse_applied  ->  S.position ... S.
 ship      impulse                                          <-  S.impulse           feedback "ledger"
 ship      force, moment                                    <-  S.force, S.moment   feedback "force"
                                                            nothing                 feedback "none"
+
+A ship that follows a recorded track is no instance of an FMU (track_component.py). Its states go to the collision,
+whose parameter S.feedback is "prescribed"; nothing comes back.
 """
 
 from __future__ import annotations
@@ -20,6 +23,7 @@ from .master import System, Wire
 from .parameters import collision_parameters, ship_parameters, surroundings
 from .prepared_files import PreparedFiles
 from .scenario_helm import build_helm
+from .track_component import TrackComponent
 
 __all__ = ["connect"]
 
@@ -31,7 +35,8 @@ def connect(
     make_collision: MakeCollision,
     prepared: PreparedFiles | None = None,
 ) -> tuple[System, list[Helm]]:
-    """The scenario's instances, initialised and wired, and the helms of its `ships`; prepared: files of native FMUs.
+    """The scenario's instances, initialised and wired, and the helms of those of its `ships` that are steered;
+    prepared: files of native FMUs.
 
     The two functions make the components and own them: they close all, also when this function fails.
     """
@@ -39,6 +44,9 @@ def connect(
     instances: dict[str, Component] = {}
     helms: list[Helm] = []
     for name, start in scenario.ships.items():
+        if start.recorded is not None:
+            instances[name] = TrackComponent(name, start.recorded)
+            continue
         instances[name] = make_ship(name)
         helm = build_helm(start, ships[name].L_pp, instances[name], scenario.step)
         around = instances[name].reals(SURROUNDINGS)
@@ -54,12 +62,13 @@ def connect(
     for name, instance in instances.items():
         outputs = (*STATE, *APPLIED)
         states.append(Wire.between(instance, outputs, collision, named(name, outputs)))
-        if answer:
+        if answer and scenario.ships[name].recorded is None:
             answers.append(Wire.between(collision, named(name, answer), instance, answer))
     for wire in states:
         wire.outputs.read()
     buffers = dict(zip(instances, (wire.outputs.values for wire in states), strict=True))
-    for helm, (name, start) in zip(helms, scenario.ships.items(), strict=True):
+    steered = [(name, start) for name, start in scenario.ships.items() if start.recorded is None]
+    for helm, (name, start) in zip(helms, steered, strict=True):
         helm.own = buffers[name]
         helm.other = None if start.evasion is None else buffers[start.evasion.of]
     instead = prepared.list_collision_values() if prepared is not None else {}

@@ -92,6 +92,11 @@ def build_system_structure(
         raise ScenarioError(
             f"[ships.{COLLISION}] cannot be packaged: that is the name of the collision's own instance; rename the ship"
         )
+    for name in scenario.tracks:
+        raise ScenarioError(
+            f"[ships.{name}] follows a recorded track, which only our own master does: remove track and give position, "
+            "or take `shipcollision run`"
+        )
     ships, foreign = tuple(scenario.ships), foreign or {}
     for name in foreign:
         if name not in ships:

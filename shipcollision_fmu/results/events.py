@@ -7,7 +7,7 @@ forward, if the point lies ahead of BOW.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from math import radians
 from typing import Any
 
@@ -31,12 +31,14 @@ def build_events(
     free: Mapping[str, int],
     damage: DamageTable | None = None,
     obstacles: Mapping[str, float] | None = None,
+    prescribed: Collection[str] = (),
 ) -> dict[str, Any]:
     """{"collisions": [...], "scratches": [...]} as JSON-able data; the schema is results/events.schema.json.
 
-    `free` are the ships' degrees of freedom, `obstacles` the headings [rad] of what is fixed.
+    `free` are the ships' degrees of freedom, `obstacles` the headings [rad] of what is fixed,
+    `prescribed` the ships that follow a track.
     """
-    gains = velocity_gains(record, ships, free)
+    gains = velocity_gains(record, ships, free, prescribed)
     collisions = [
         build_collision(number, rows, record, gains, obstacles or {})
         for number, rows in _group(record.contacts, "impact")  # 0: a fender acts, which is no collision

@@ -9,6 +9,7 @@
                while the velocity does not
     energy     kinetic energy of every ship [J]; the energy that contact dissipated, along the normals and across them;
                the energy stored in fenders and dissipated by them, which is counted apart
+    place      latitude, longitude of n's origin and time at time 0, where the scenario gives them
     solver     answers of the contact solver that missed the law by more than 1e-9 of the approach, and answers that
                were scaled back because they would have added energy
     obstacles  by name: the impulse that the obstacle took, in n [N s]. An obstacle has no momentum of its own
@@ -88,6 +89,8 @@ def build_summary(
             **dict(zip(("fender_stored", "fender_dissipated"), record.fender, strict=True)),
         },
     }
+    if scenario.place is not None:
+        data["place"] = scenario.place.model_dump(mode="json")
     if scenario.reference is not None:
         data["reference"] = {"source": scenario.reference.source, "time": scenario.reference.time}
         data["paper"] = compare_published(scenario.reference, record.states, ships)
@@ -101,7 +104,7 @@ def _is_momentum_closed(scenario: Scenario, ships: Mapping[str, Ship], record: R
 
 def _keeps_momentum(table: ShipStart, ship: Ship) -> bool:
     """Whether the momentum of ship and water stays while the ship coasts."""
-    if table.hydrodynamics:
+    if table.hydrodynamics or table.track is not None:
         return False
     if table.law == "straight":
         return not bool(ship.M_A.any())
@@ -116,7 +119,19 @@ def _ship(scenario: Scenario, name: str, ship: Ship) -> dict[str, Any]:
         "hydrodynamics": bool(scenario.ships[name].hydrodynamics),
         "coasting": None if scenario.ships[name].hydrodynamics else scenario.ships[name].law,
         "estimated": list(ship.estimated),
+        **_identity(scenario, name),
     }
+
+
+def _identity(scenario: Scenario, name: str) -> dict[str, Any]:
+    """What a ship follows, and what it tells by AIS, where the scenario says so."""
+    start = scenario.ships[name]
+    identity: dict[str, Any] = {}
+    if start.recorded is not None:
+        identity["track"] = {"mmsi": start.recorded.mmsi}
+    if start.ais is not None:
+        identity["ais"] = start.ais.model_dump(exclude_unset=True)
+    return identity
 
 
 def _states(record: Record, ships: Mapping[str, Ship], row: int) -> dict[str, Array]:

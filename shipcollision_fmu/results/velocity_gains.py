@@ -9,7 +9,7 @@ collision instead.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 import numpy as np
 
@@ -23,8 +23,13 @@ from .record import Record
 __all__ = ["velocity_gains"]
 
 
-def velocity_gains(record: Record, ships: Mapping[str, Ship], free: Mapping[str, int]) -> dict[tuple[int, str], Array]:
-    """delta_v (3,) by number of the collision and name of the ship; `free` are the degrees of freedom."""
+def velocity_gains(
+    record: Record, ships: Mapping[str, Ship], free: Mapping[str, int], prescribed: Collection[str] = ()
+) -> dict[tuple[int, str], Array]:
+    """delta_v (3,) by number of the collision and name of the ship; `free` are the degrees of freedom.
+
+    Ships whose motion is `prescribed` gain nothing.
+    """
     names = list(ships)
     upright = {name: free_inverse(ship.M, free[name]) for name, ship in ships.items()}
     gains: dict[tuple[int, str], Array] = {}
@@ -32,6 +37,8 @@ def velocity_gains(record: Record, ships: Mapping[str, Ship], free: Mapping[str,
     for k, issued in record.issued.items():
         rows = record.contacts[record.contacts["time"] == record.states["time"][k]]
         for i, name in enumerate(names):
+            if name in prescribed:
+                continue
             state = row_state(record.states[k - 1], name)
             R_nb = state.R_nb
             on_ship = rows[(rows["ship_a"] == name) | (rows["ship_b"] == name)]

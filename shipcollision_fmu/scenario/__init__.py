@@ -2,6 +2,8 @@
 
     scenario.py          Scenario, load_scenario(), parse_scenario(): a file or its text becomes a checked Scenario
     tables/              every key of the file with its description, unit and limits
+    tracks/              recorded AIS as motion; places on earth
+    recorded_ships.py    gives ships the tracks that they follow
     order_schedule.py    orders by communication point
     initial_overlap.py   refuses bodies that overlap at the start
     toml_writer.py       writes tables as TOML, for generated scenarios and ship files

@@ -23,11 +23,14 @@ from ..ship.loading.toml import parse_toml, read_toml
 from ..ship.ship import Ship
 from ..ship.tables.table import Table
 from .initial_overlap import refuse_overlap
+from .recorded_ships import follow_tracks
 from .tables.collision import Collision
 from .tables.environment import Environment
 from .tables.header import Algorithm, Header
+from .tables.place import EVERYWHERE, Place
 from .tables.reference import Reference
 from .tables.ship_start import ShipStart
+from .tracks.track import Track
 
 __all__ = ["Scenario", "list_scenario_names", "load_scenario", "parse_scenario"]
 
@@ -38,12 +41,14 @@ class Scenario(Table):
     scenario: Header = Field(description="the table [scenario]: name, duration, step, algorithm")
     ships: dict[str, ShipStart] = Field(min_length=1, description="a table [ships.NAME] for each of two or more ships")
     collision: Collision = Field(default=Collision(), description="the table [collision]: contact and feedback")
+    place: Place | None = Field(default=None, description="the table [place]: where on earth and when")
     environment: Environment = Field(default=Environment(), description="the table [environment]: current and wind")
     obstacles: dict[str, ObstacleTable] = Field(default={}, description="a table [obstacles.NAME] for each")
     reference: Reference | None = Field(default=None, description="the table [reference]: published results")
 
     _source: str = PrivateAttr(default="scenario")
     _directory: Path = PrivateAttr(default_factory=Path)
+    _estimated_ships: dict[str, str] = PrivateAttr(default_factory=dict)
 
     @property
     def name(self) -> str:
@@ -68,9 +73,25 @@ class Scenario(Table):
     def ship_file(self, name: str) -> str:
         """The argument of load_ship for ship `name`: a shipped ship's name, or an absolute path.
 
-        A path in a scenario file is relative to that file.
+        A path in a scenario file is relative to that file. A ship with a track and no ship file has one by estimate.
         """
-        return _resolve(self.ships[name].ship, self._directory)
+        ship = self.ships[name].ship
+        return self._estimated_ships[name] if ship is None else _resolve(ship, self._directory)
+
+    @property
+    def tracks(self) -> dict[str, Track]:
+        """The tracks of the ships that have one, by name."""
+        return {name: start.recorded for name, start in self.ships.items() if start.recorded is not None}
+
+    @property
+    def notes(self) -> list[str]:
+        """Sentences on what was done to recorded tracks."""
+        return list(dict.fromkeys(note for track in self.tracks.values() for note in track.notes))
+
+    @property
+    def somewhere(self) -> Place:
+        """The table [place], or the usual one where there is none."""
+        return EVERYWHERE if self.place is None else self.place
 
     def load_ships(self) -> dict[str, Ship]:
         """The ships by name. Raises ScenarioError, in one line, for a ship that cannot be loaded."""
@@ -145,10 +166,24 @@ class Scenario(Table):
     def _check_positions(self) -> Scenario:
         places: dict[tuple[float, ...], str] = {}
         for name, ship in self.ships.items():
+            if ship.track is not None:
+                continue
             place = tuple(ship.start.position)
             if place in places:
                 raise ValueError(f"[ships.{name}] position = {ship.position} is also that of {places[place]}: move one")
             places[place] = name
+        return self
+
+    @model_validator(mode="after")
+    def _check_tracks(self) -> Scenario:
+        tracked = [name for name, ship in self.ships.items() if ship.track is not None]
+        if tracked and len(tracked) == len(self.ships):
+            raise ValueError("[ships] all follow tracks, and nothing could answer: give a ship without track")
+        if tracked and self.collision.response == "bullet":
+            raise ValueError(
+                f"[collision] response = 'bullet' moves bodies by their mass, and {tracked[0]} follows a track: "
+                "take 'pgs'"
+            )
         return self
 
     @model_validator(mode="after")
@@ -248,7 +283,9 @@ def _choose_motions(data: dict[str, Any], directory: Path) -> dict[str, Any]:
 
 
 def _choose_motion(table: Any, directory: Path) -> Any:
-    if not isinstance(table, Mapping) or "hydrodynamics" in table or not isinstance(table.get("ship"), str):
+    if not isinstance(table, Mapping) or "hydrodynamics" in table or "track" in table:
+        return table
+    if not isinstance(table.get("ship"), str):
         return table
     try:
         sails = "coasting" not in table and load_ship(_resolve(table["ship"], directory)).manoeuvring is not None
@@ -271,4 +308,9 @@ def _validate(data: dict[str, Any], source: str, directory: Path) -> Scenario:
     except ValidationError as error:
         raise ScenarioError(f"{source}: {describe_error(error, Scenario)}") from None
     scenario._source, scenario._directory = source, directory
+    try:
+        duration = scenario.step * scenario.steps
+        scenario._estimated_ships = follow_tracks(scenario.ships, scenario.place, directory, duration)
+    except ScenarioError as error:
+        raise ScenarioError(f"{source}: {error}") from None
     return scenario

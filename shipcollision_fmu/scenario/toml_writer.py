@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
+from datetime import datetime
 from typing import Any
 
 __all__ = ["format_toml"]
@@ -43,6 +44,8 @@ def _format_value(value: Any) -> str:
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, Mapping):
         return "{ " + ", ".join(f"{k} = {_format_value(v)}" for k, v in value.items() if v is not None) + " }"
+    if isinstance(value, datetime):
+        return value.isoformat()
     if isinstance(value, list):
         return "[" + ", ".join(map(_format_value, value)) + "]"
     return repr(float(value) if isinstance(value, float) else value)  # NumPy's floats have a repr of their own

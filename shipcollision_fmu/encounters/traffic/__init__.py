@@ -4,9 +4,8 @@
       traffic.py                Traffic: what both readers give
       ships.py                  reads JSON: start, route and planned speeds of each ship in n
         schema.py                 the members that are read, with their limits, in all versions
-        ais.py                    values by which AIS says "not available", types of ship
+        ais.py                    values by which AIS says "not available"
         angle_units.py            files of 2024 in radians and m/s
-        tangent_plane.py          latitude and longitude to north and east
       commonocean.py            reads XML: planning problem, dynamic and static obstacles
         commonocean_schema.py     the members that are read, with their limits
         commonocean_ships.py      start and route
@@ -15,7 +14,7 @@
         xml_tree.py               XML without document types and entities
         thinning.py               a trajectory's corners
       unread.py                 names the tables that nothing reads
-      ship_file.py              a ship file from length, width and type
 
-Data flow: JSON or XML -> Traffic -> text -> Scenario. Imports from the room above and what it imports.
+Data flow: JSON or XML -> Traffic -> text -> Scenario. Imports from the room above and what it imports; positions
+on earth and ship files by size are in scenario/tracks/.
 """

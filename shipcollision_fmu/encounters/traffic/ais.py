@@ -1,4 +1,4 @@
-"""Values by which AIS says "not available", and its numbers for types of ship.
+"""Values by which AIS says "not available", taken out of a table.
 
     heading 511 deg      sog 102.3 kn      cog 360 deg      lat 91, lon 181 deg      draught 0 m
     a = b = c = d = 0: no dimensions       a = c = 0, b and d not: dimensions b and d without a reference point
@@ -12,19 +12,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, TypeGuard
 
-__all__ = ["describe_ship_type", "drop_unavailable", "drop_unavailable_sizes"]
+from ...scenario.tracks.ais_codes import COG, HEADING, LATITUDE, LONGITUDE, SOG
 
-HEADING, SOG, COG, LATITUDE, LONGITUDE = 511.0, 102.3, 360.0, 91.0, 181.0
+__all__ = ["drop_unavailable", "drop_unavailable_sizes"]
+
 NORTHERLY = 5.0
 """[deg] Headings within it of north agree with a course of 360."""
-
-SHIP_TYPES = {
-    2: "wing in ground", 4: "high-speed craft", 6: "passenger", 7: "cargo", 8: "tanker",
-    30: "fishing", 31: "towing, tug", 32: "towing, tug", 33: "dredging, offshore supply", 34: "diving", 35: "naval",
-    36: "sailing, yacht", 37: "pleasure craft", 50: "pilot", 51: "search and rescue, patrol", 52: "tug",
-    53: "port tender", 54: "anti-pollution, offshore supply", 55: "law enforcement, patrol",
-}  # fmt: skip
-"""Types by their number, or by its first digit for those that have a second one for the cargo."""
 
 
 def drop_unavailable(initial: Any) -> Any:
@@ -67,11 +60,6 @@ def drop_unavailable_sizes(dimensions: Any) -> Any:
         for key in "abcd":
             kept.pop(key, None)
     return kept
-
-
-def describe_ship_type(code: int) -> str | None:
-    """Words for an AIS number of a type of ship; None for those that name no type (0 is "not available")."""
-    return SHIP_TYPES.get(code, SHIP_TYPES.get(code // 10) if 20 <= code <= 89 else None)
 
 
 def _is_number(value: object) -> TypeGuard[float]:

@@ -17,9 +17,9 @@ from math import atan2, degrees, hypot, pi, radians
 from typing import NamedTuple
 
 from ...errors import ScenarioError
+from ...scenario.tracks.tangent_plane import TangentPlane
 from ..units import KNOT
 from .schema import Leg, LegData, Position, Situation, TrafficShip, Waypoint
-from .tangent_plane import TangentPlane
 from .traffic import WIDEST
 
 __all__ = ["convert_radians"]

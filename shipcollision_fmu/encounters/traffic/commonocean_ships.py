@@ -13,10 +13,11 @@ from itertools import pairwise
 from math import atan2, cos, hypot, pi, sin
 
 from ...errors import ScenarioError
+from ...scenario.tracks.ship_size import ShipSize
 from .commonocean_schema import Obstacle, PlanningProblem, State
 from .commonocean_shapes import Frame, find_box, find_middle, place_box, read_position
 from .thinning import thin_track
-from .traffic import ShipSize, TrafficStart
+from .traffic import TrafficStart
 
 __all__ = ["read_size", "read_start"]
 

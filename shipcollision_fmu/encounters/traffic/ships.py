@@ -14,11 +14,12 @@ from math import atan2, cos, hypot, inf, radians, sin
 
 from ...errors import ScenarioError
 from ...scenario.tables.autopilot import SHORTEST_LEG
+from ...scenario.tracks.ship_size import ShipSize
+from ...scenario.tracks.tangent_plane import TangentPlane
 from ..units import KNOT
 from .angle_units import convert_radians
 from .schema import Environment, Initial, Position, Situation, Static, TrafficShip, parse_situation
-from .tangent_plane import TangentPlane
-from .traffic import LONGEST_DEFAULT, WIDEST, ShipSize, Surroundings, Traffic, TrafficStart
+from .traffic import LONGEST_DEFAULT, WIDEST, Surroundings, Traffic, TrafficStart
 from .unread import name_unread
 
 __all__ = ["read_situation"]

@@ -3,7 +3,7 @@
     JSON                  maritime-schema and trafficgen (ships.py)
     XML                   CommonOcean (commonocean.py)
     ships                 become position, heading and velocity
-    length, width         become a ship file of that size when no ship is named (ship_file.py)
+    length, width         become a ship file of that size when no ship is named (scenario/tracks/ship_file.py)
     waypoints             become the route of a ship that sails with hydrodynamics
     speeds of the legs    become orders of revolutions, at the times at which the legs begin as planned
     current, wind         become the scenario's, for ships that sail with hydrodynamics
@@ -25,10 +25,10 @@ from ...errors import ScenarioError, ShipError
 from ...manoeuvring.trials.steady_course import find_self_propulsion
 from ...scenario.scenario import load_scenario
 from ...scenario.toml_writer import format_toml
+from ...scenario.tracks.ship_file import find_engine_reach, write_ship_file
 from ..request import count_steps
 from ..ship_table import build_ship_table, refer_to_ship, require_manoeuvring, round_off
 from .commonocean import read_commonocean
-from .ship_file import find_engine_reach, write_ship_file
 from .ships import read_situation
 from .traffic import Surroundings, Traffic, TrafficStart
 

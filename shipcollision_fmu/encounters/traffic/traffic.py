@@ -5,7 +5,9 @@ from __future__ import annotations
 from math import hypot
 from typing import Any, NamedTuple
 
-__all__ = ["LONGEST_DEFAULT", "WIDEST", "ShipSize", "Surroundings", "Traffic", "TrafficStart"]
+from ...scenario.tracks.ship_size import ShipSize
+
+__all__ = ["LONGEST_DEFAULT", "WIDEST", "Surroundings", "Traffic", "TrafficStart"]
 
 WIDEST = 100e3
 """[m] Limit of the distance between own ship and a target. Beyond it the tangent plane is 4 m short, and a position is
@@ -34,20 +36,6 @@ class TrafficStart(NamedTuple):
         """Lengths of the legs of the route [m]."""
         starts = [[self.north, self.east], *self.route]
         return [hypot(b[0] - a[0], b[1] - a[1]) for a, b in zip(starts, self.route, strict=False)]
-
-
-class ShipSize(NamedTuple):
-    """Name, type (a word or an AIS code), length, width, draught [m] and largest speed [m/s] of a ship.
-
-    None where the file is silent.
-    """
-
-    name: str | None = None
-    kind: str | int | None = None
-    length: float | None = None
-    width: float | None = None
-    draught: float | None = None
-    top_speed: float | None = None
 
 
 class Surroundings(NamedTuple):

@@ -5,9 +5,11 @@
       orders               orders.py        Order: rudder, heading or revolutions at a time
       autopilot, route     autopilot.py     AutopilotTable, RouteTable
       evasion              evasion.py       EvasionTable
+      track, ais           ais.py           TrackTable, AisTable
       fender                                collision/obstacles.py
     [obstacles.NAME]                        collision/obstacles.py
     [collision]            collision.py     Collision, DamageTable
+    [place]                place.py         Place: latitude, longitude, start
     [environment]          environment.py   Environment, WindTable
     [reference]            reference.py     Reference, Published, Tolerance
 
@@ -16,5 +18,5 @@ Angles are in degrees in keys that end in `_deg`; everything else is in SI units
 the message that refuses its value, and is the key's text in the reference of the documentation.
 
 Data flow: a parsed TOML file -> Scenario. Imports from: ship (frames, tables), collision (checks, responses,
-obstacles). Used by: scenario, cosim, encounters, results.
+obstacles), scenario/tracks. Used by: scenario, cosim, encounters, results.
 """

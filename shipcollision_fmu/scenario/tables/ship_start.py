@@ -6,18 +6,22 @@ from itertools import pairwise
 from math import hypot, isclose, radians
 from typing import Any, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field, PrivateAttr, model_validator
 
 from ...collision.obstacles import FenderTable
 from ...ship.coasting_law import COASTING
 from ...ship.frames import Array, attitude_from_quaternion, rotation
 from ...ship.tables.table import Table
+from ..tracks.track import Track
+from .ais import AisTable, TrackTable
 from .autopilot import SHORTEST_LEG, AutopilotTable, RouteTable
 from .evasion import EvasionTable
 from .orders import Order
 
 __all__ = ["ShipStart", "StartState"]
 
+WITH_TRACK = frozenset({"track", "ship", "ais", "fender"})
+"""Keys of a ship that follows a track."""
 MAXIMUM_SPEED = 50.0
 """[m/s] Limit of every velocity. No displacement ship is faster; a larger value was meant in another unit."""
 MAXIMUM_RATE = 1.0
@@ -40,9 +44,16 @@ def _vector(size: int, description: str) -> Any:
 class ShipStart(Table):
     """[ships.NAME]: a ship, its state at time 0, and how it is steered."""
 
-    ship: str = Field(min_length=1, description="a shipped model's name, or the path of a ship file")
-    position: list[float] = Field(
-        min_length=2, max_length=3, description="the position of CO, [north, east] or [north, east, down] [m]"
+    ship: str | None = Field(
+        default=None,
+        min_length=1,
+        description="a shipped model's name, or the path of a ship file; only a ship with a track may leave it out",
+    )
+    position: list[float] | None = Field(
+        default=None,
+        min_length=2,
+        max_length=3,
+        description="the position of CO, [north, east] or [north, east, down] [m]; of a ship without a track",
     )
     heading_deg: float | None = Field(
         default=None, ge=-360, le=720, description="the heading, clockwise from north [deg]"
@@ -76,9 +87,26 @@ class ShipStart(Table):
     autopilot: AutopilotTable | None = Field(default=None, description="{gain = 1.5, rudder_limit_deg = 20.0}")
     route: RouteTable | None = Field(default=None, description="{waypoints = [[1000.0, 0.0], [2000.0, 500.0]]} [m]")
     evasion: EvasionTable | None = Field(default=None, description='{of = "own", distance = 900.0, rudder_deg = 35.0}')
+    track: TrackTable | None = Field(
+        default=None, description='{file = "ais.csv", mmsi = 211234560}: recorded AIS that the ship follows'
+    )
+    ais: AisTable | None = Field(
+        default=None, description='{mmsi = 211234560, name = "OWN SHIP"}: what it tells by AIS'
+    )
     fender: FenderTable | None = Field(
         default=None, description="{stiffness = 1e6, damping = 1e5, thickness = 1.0} [N/m, N s/m, m]"
     )
+
+    _recorded: Track | None = PrivateAttr(default=None)  # the track, once the scenario has read it
+
+    @property
+    def recorded(self) -> Track | None:
+        """The track that the ship follows."""
+        return self._recorded
+
+    def follow(self, track: Track) -> None:
+        """Take the motion of a track, which the scenario has read."""
+        self._recorded = track
 
     @property
     def free(self) -> int:
@@ -87,8 +115,8 @@ class ShipStart(Table):
 
     @property
     def law(self) -> str:
-        """How the ship coasts, by its name in ship/coasting_law.py."""
-        return self.coasting or COASTING[0]
+        """How the ship coasts, by its name in ship/coasting_law.py; with a track, straight from point to point."""
+        return "straight" if self.track is not None else self.coasting or COASTING[0]
 
     @property
     def predicted_law(self) -> str:
@@ -98,7 +126,13 @@ class ShipStart(Table):
 
     @property
     def start(self) -> StartState:
-        """The state at time 0 from whichever keys give it."""
+        """The state at time 0 from whichever keys give it, or from the track."""
+        if self._recorded is not None:
+            state = self._recorded.state(0.0)
+            return StartState(
+                position=[*state.position], attitude=[*state.attitude], velocity=[*state.velocity], rate=[*state.rate]
+            )
+        assert self.position is not None
         if self.quaternion is not None:
             attitude = _floats(attitude_from_quaternion(self.quaternion))
         else:
@@ -116,6 +150,12 @@ class ShipStart(Table):
 
     @model_validator(mode="after")
     def _check_each_quantity_once(self) -> ShipStart:
+        if self.track is not None:
+            return self._check_track()
+        for key in ("ship", "position"):
+            if getattr(self, key) is None:
+                said = ShipStart.model_fields[key].description
+                raise ValueError(f"{key} is missing: give {said}")
         given = self.model_fields_set
         for one, others in (
             ("quaternion", ("heading_deg", "attitude_deg")),
@@ -130,8 +170,18 @@ class ShipStart(Table):
             raise ValueError("heading_deg is missing: clockwise from north [deg], e.g. 90.0 for east")
         return self
 
+    def _check_track(self) -> ShipStart:
+        """Refuse keys that a track gives, and those that need a ship that is free to move."""
+        for key in self.model_fields_set - WITH_TRACK:
+            value = getattr(self, key)
+            if not (value is None or value is False or value == []):
+                raise ValueError(f"has a track, which gives its motion, and {key}: remove {key}")
+        return self
+
     @model_validator(mode="after")
     def _check_ranges(self) -> ShipStart:
+        if self.track is not None:
+            return self
         if self.quaternion is not None:
             length = sum(q * q for q in self.quaternion) ** 0.5
             if not isclose(length, 1.0, abs_tol=1e-3):
@@ -163,7 +213,7 @@ class ShipStart(Table):
         if self.autopilot is not None and self.route is None and all(o.heading_deg is None for o in self.orders):
             raise ValueError("has an autopilot with nothing to steer: give orders a heading_deg, or give a route")
         if self.route is not None:
-            for earlier, later in pairwise([[float(x) for x in self.position[:2]], *self.route.waypoints]):
+            for earlier, later in pairwise([self.start.position[:2], *self.route.waypoints]):
                 if hypot(later[0] - earlier[0], later[1] - earlier[1]) < SHORTEST_LEG:
                     raise ValueError(f"route: waypoint {later} must be {SHORTEST_LEG:g} m or more from the one before")
         return self

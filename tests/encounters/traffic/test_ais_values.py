@@ -9,11 +9,11 @@ from typing import Any
 
 import pytest
 
-from shipcollision_fmu.encounters.traffic.ship_file import describe_kind
 from shipcollision_fmu.encounters.traffic.situation import TrafficScenario, traffic_scenario
 from shipcollision_fmu.encounters.units import KNOT
 from shipcollision_fmu.errors import ScenarioError
 from shipcollision_fmu.scenario.scenario import Scenario, load_scenario
+from shipcollision_fmu.scenario.tracks.ship_file import describe_kind
 from shipcollision_fmu.ship.ship_type import find_ship_type
 
 LEG = [{"position": {"lat": 58.79, "lon": 10.49}}, {"position": {"lat": 58.76, "lon": 10.49}, "leg": {"sog": 7.0}}]

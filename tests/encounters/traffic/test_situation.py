@@ -13,10 +13,10 @@ import pytest
 
 from shipcollision_fmu import load_scenario, simulate
 from shipcollision_fmu.encounters.traffic.situation import TrafficScenario, traffic_scenario
-from shipcollision_fmu.encounters.traffic.tangent_plane import TangentPlane
 from shipcollision_fmu.encounters.units import KNOT
 from shipcollision_fmu.errors import ScenarioError
 from shipcollision_fmu.scenario.scenario import Scenario
+from shipcollision_fmu.scenario.tracks.tangent_plane import TangentPlane
 
 HERE = Path(__file__).parent / "situations"
 OLD, NEW = HERE / "version_0_1.json", HERE / "version_0_2.json"

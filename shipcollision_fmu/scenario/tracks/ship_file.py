@@ -9,12 +9,12 @@ from __future__ import annotations
 from typing import Any
 
 from ...errors import ScenarioError
-from ...scenario.toml_writer import format_toml
 from ...ship.loading.engine_estimate import ENGINE_MARGIN, SEA_MARGIN
 from ...ship.loading.library import load_ship
 from ...ship.ship_type import find_ship_type, names_a_type
-from .ais import describe_ship_type
-from .traffic import ShipSize
+from ..toml_writer import format_toml
+from .ais_codes import describe_ship_type
+from .ship_size import ShipSize
 
 __all__ = ["describe_kind", "find_engine_reach", "write_ship_file"]
 
