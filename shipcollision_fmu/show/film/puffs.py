@@ -1,4 +1,4 @@
-"""Explosion, fire, debris and smoke as soft puffs, each a pure function of time, which may run backwards.
+"""Explosion, fire, debris, smoke, dust and splash as soft puffs, each a pure function of time, which may run backwards.
 
 A puff is born at a fixed age of its effect, drifts, grows, fades and dies. Its randomness comes from a generator with
 the effect's seed, so that every visit to a time gives the same picture. Offsets are in the axes of n from the effect's
@@ -51,6 +51,8 @@ class _Kind:
 
 
 _FLAME = ((1.0, 0.95, 0.70), (1.0, 0.70, 0.20), (0.95, 0.36, 0.07), (0.35, 0.12, 0.06))
+_RUST = ((0.42, 0.36, 0.32), (0.52, 0.48, 0.45))
+_SPRAY = ((0.94, 0.97, 0.98), (0.86, 0.92, 0.95))
 _GREY = ((0.15, 0.14, 0.14), (0.30, 0.30, 0.31), (0.50, 0.51, 0.52))
 
 _KINDS: dict[EffectKind, _Kind] = {
@@ -58,8 +60,10 @@ _KINDS: dict[EffectKind, _Kind] = {
     "fire": _Kind(26.0, None, 1.5, 0.7, 0.8, 1.6, 0.0, (1.0, 0.35), (0.0, 0.8, 0.0), (0.75, 0.5), _FLAME),
     "debris": _Kind(500.0, 0.15, 3.4, 8.0, 0.9, 0.0, 1.0, (0.13, 0.09), (1.0, 1.0, 0.6), (0.3, 0.0), _FLAME[1:]),
     "smoke": _Kind(11.0, None, 7.5, 0.6, 0.9, 1.25, 0.0, (0.8, 3.6), (0.0, 0.45, 0.3, 0.0), (0.0, 0.0), _GREY),
+    "dust": _Kind(60.0, 0.5, 1.6, 2.2, 1.0, 0.3, 0.0, (0.4, 1.7), (0.0, 0.4, 0.0), (0.0, 0.0), _RUST),
+    "splash": _Kind(160.0, 0.5, 1.5, 5.0, 0.6, 0.0, 1.0, (0.18, 0.6), (0.7, 0.45, 0.0), (0.0, 0.0), _SPRAY),
 }
-"""The four effects of Guan et al. 2014."""
+"""The four effects of Guan et al. 2014, then those of every contact."""
 
 
 def make_puffs(effect: Effect, time: float) -> Puffs:

@@ -1,7 +1,7 @@
 """The effects as OpenSceneGraph's own four particle effects, and their sprites.
 
 They are in the ship's z-up body axes and move with the ship. StartTime counts from the first frame, like the time of an
-AnimationPath; all sizes and speeds scale with Scale.
+AnimationPath; all sizes and speeds scale with Scale. OSG has no dust and no spray: a scratch without fire has none.
 
 Each effect has its own particle system, in a Geode beside it, and then emits relative to its own place. Without one OSG
 3.6 makes a system that emits at Position *in the world*, wherever the effect's parents are: ModularEmitter with an
@@ -41,6 +41,7 @@ _SCALE = {"explosion": 2.2, "debris": 1.5, "fire": 4.5, "smoke": 3.5}
 
 def build_effects(effects: Sequence[Effect], delay: float) -> list[Item]:
     """Children of a ship's transform: its effects. delay: of all times after the run's [s]."""
+    effects = [effect for effect in effects if effect.kind in _CLASSES]
     systems = [Item("osgParticle::ParticleSystem") for _ in effects]
     emitters = [_build_emitter(effect, system, delay) for effect, system in zip(effects, systems, strict=True)]
     return [*emitters, Item("osg::Geode", Name=quote("particles"), Drawables=systems)] if emitters else []

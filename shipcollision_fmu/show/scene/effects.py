@@ -1,4 +1,7 @@
-"""The four effects of Guan et al. 2014 at the first contact point of each scratch: explosion, debris, fire, smoke.
+"""The effects at the first contact point of each scratch, for pictures.
+
+    dust, splash                       of every scratch: from the plating, and at the waterline below
+    explosion, debris, fire, smoke     of Guan et al. 2014, of a scratch that dissipates enough energy (IGNITION)
 
 Only place, time and strength come from the run; the rest is for the eye. Effects move with the struck ship, the ship
 whose contact point is farther aft.
@@ -17,21 +20,31 @@ from typing import Literal
 import numpy as np
 
 from ...ship.frames import Array
+from ...ship.ship_type import find_ship_type
 from .run_folder import RunFolder
 from .scratches import Scratch
 
-__all__ = ["Effect", "EffectKind", "make_effects"]
+__all__ = ["Effect", "EffectKind", "find_ignition", "make_effects"]
 
-EffectKind = Literal["explosion", "debris", "fire", "smoke"]
+EffectKind = Literal["explosion", "debris", "fire", "smoke", "dust", "splash"]
 
 E_FULL = 1e8
 """[J] Energy of an effect at full strength; a larger value makes every effect smaller."""
 FAINTEST = 0.05
 """Least intensity; with zero a scratch would have no visible effect."""
+IGNITION = 5.0e7
+"""[J] Least energy along a scratch with explosion and fire, of dry cargo ships: half of what the published encounter
+dissipates. A lower value sets ships on fire that touch gently. It is a choice for pictures, not a model of ignition."""
+IGNITION_OF_OIL_AND_GAS = 3.27e7
+"""[J] The same where a tanker or a gas carrier takes part: 32.7 MJ, the energy that Minorsky (1959) found to be spent
+before a ship's side is opened to a depth. Cargo can burn from then on."""
+OIL_AND_GAS = ("tanker, loaded", "tanker, in ballast", "liquefied natural gas tanker")
+"""Types of ship whose cargo, or what is left of it in empty tanks, burns."""
 LARGEST = 6.0
 """[m] Size at full strength; sizes and speeds of the particles scale with it."""
 KINDS: dict[EffectKind, tuple[float, float]] = {
     "explosion": (0.0, 1.0), "debris": (0.0, 1.0), "fire": (0.4, 25.0), "smoke": (0.8, 60.0),
+    "dust": (0.0, 1.2), "splash": (0.0, 1.0),
 }  # fmt: skip
 """Delay after the contact and duration of the emission at full strength [s], by kind."""
 
@@ -57,7 +70,7 @@ class Effect:
 
 
 def make_effects(run: RunFolder, scratches: tuple[Scratch, ...]) -> tuple[Effect, ...]:
-    """Four effects per scratch in events.json, in order of time."""
+    """The effects of all scratches in events.json, in order of time."""
     lengths = {name: body.L_pp for name, body in run.bodies.ships.items()}
     number, energy = run.contacts["scratch"].astype(int), run.contacts["energy"]
     found = []
@@ -66,7 +79,10 @@ def make_effects(run: RunFolder, scratches: tuple[Scratch, ...]) -> tuple[Effect
         scratch_on_ship = min(borne, key=lambda scratch: scratch.points[0, 0] / lengths[scratch.ship])
         dissipated = float(energy[number == event.id].sum())
         intensity = float(np.clip(np.cbrt(max(dissipated, 0.0) / E_FULL), FAINTEST, 1.0))
+        burns = dissipated >= find_ignition(run, event.ship_a, event.ship_b)
         for k, (kind, (delay, duration)) in enumerate(KINDS.items()):
+            if kind not in ("dust", "splash") and not burns:
+                continue
             found.append(
                 Effect(
                     kind,
@@ -78,7 +94,13 @@ def make_effects(run: RunFolder, scratches: tuple[Scratch, ...]) -> tuple[Effect
                     duration * intensity,
                     intensity,
                     LARGEST * intensity,
-                    4 * event.id + k,
+                    len(KINDS) * event.id + k,
                 )
             )
     return tuple(sorted(found, key=lambda effect: (effect.time, effect.seed)))
+
+
+def find_ignition(run: RunFolder, *names: str) -> float:
+    """Least energy [J] of an explosion between the named ships; obstacles carry no cargo."""
+    types = [find_ship_type(run.bodies.ships[name].kind).name for name in names if name in run.bodies.ships]
+    return IGNITION_OF_OIL_AND_GAS if any(name in OIL_AND_GAS for name in types) else IGNITION

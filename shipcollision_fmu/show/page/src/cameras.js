@@ -4,6 +4,8 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { toWorld } from "./tracks.js";
 
 const UP = new THREE.Vector3(0, 1, 0);
+const LOW = (4.6 * Math.PI) / 180; // elevation of the first view: from a launch, with sky over the ships
+const CLOSE = 0.12; // and of the view of an impact [rad]
 
 export class Cameras {
   constructor(canvas, ships, data, changed) {
@@ -34,8 +36,9 @@ export class Cameras {
     if (mode === "all") return this.fleet().middle;
     if (mode === "impact") {
       const effect = this.effectAt(time);
-      const { node } = this.ships.find(({ info }) => info.name === effect.ship);
-      return node.localToWorld(new THREE.Vector3(...effect.point));
+      const { node, info } = this.ships.find((ship) => ship.info.name === effect.ship);
+      const point = node.localToWorld(new THREE.Vector3(...effect.point));
+      return point.setY(Math.min(point.y, 0.45 * info.height + 1)); // what opens is between deck and water
     }
     return null;
   }
@@ -55,10 +58,11 @@ export class Cameras {
     );
   }
 
-  /** The latest explosion, or the first one if there has been none. */
+  /** The latest impact that throws up dust, or the first one if there has been none. */
   effectAt(time) {
-    const explosions = this.data.effects.filter(({ kind }) => kind === "explosion");
-    return explosions.filter((effect) => effect.time <= time).at(-1) ?? explosions[0];
+    const impacts = this.data.effects.filter(({ kind }) => kind === "dust");
+    const known = impacts.length ? impacts : this.data.effects;
+    return known.filter((effect) => effect.time <= time).at(-1) ?? known[0];
   }
 
   choose(mode, time) {
@@ -128,8 +132,9 @@ export class Cameras {
     return { target, position: this.backOff(target, this.bestDirection(centres), this.ends()) };
   }
 
-  /** The horizontal direction, raised by 17 deg, from which ships lie side by side and the struck side shows. */
+  /** The direction, raised by LOW, from which ships lie side by side in three-quarter view and the struck side shows. */
   bestDirection(centres) {
+    const headings = this.ships.map(({ node }) => new THREE.Vector3(1, 0, 0).transformDirection(node.matrixWorld));
     const effect = this.data.effects[0];
     const outwards = new THREE.Vector3();
     if (effect) {
@@ -146,13 +151,15 @@ export class Cameras {
       const side = new THREE.Vector3(-from.z, 0, from.x);
       let apart = 0;
       for (const a of centres) for (const b of centres) apart = Math.max(apart, Math.abs(a.clone().sub(b).normalize().dot(side)));
-      const score = apart + 0.9 * Math.min(from.dot(outwards), 0.75);
+      // Sine of twice the angle to the keel: 1 where bow and side show alike.
+      const threeQuarter = headings.reduce((sum, ahead) => sum + 2 * Math.abs(ahead.dot(from) * ahead.dot(side)), 0) / headings.length;
+      const score = apart + 0.9 * Math.min(from.dot(outwards), 0.75) + 0.35 * threeQuarter;
       if (score > highest + 1e-9) {
         highest = score;
         best = from;
       }
     }
-    return best.addScaledVector(UP, Math.tan((17 * Math.PI) / 180)).normalize();
+    return best.addScaledVector(UP, Math.tan(LOW)).normalize();
   }
 
   /** The nearest place from the target in a direction from which all points are in the picture. */
@@ -171,32 +178,50 @@ export class Cameras {
     return target.clone().addScaledVector(direction, distance);
   }
 
-  /** From outside the struck side, across the ship that strikes rather than along her. */
-  clearOf(effect, node, point) {
-    const outwards = new THREE.Vector3(...effect.outwards).transformDirection(node.matrixWorld);
-    const scratch = this.data.scratches.find(({ id, ship }) => id === effect.scratch && ship === effect.ship);
-    const other = this.ships.find(({ info }) => info.name === scratch?.other);
-    const towards = other ? other.node.getWorldPosition(new THREE.Vector3()).sub(point).setY(0).normalize() : null;
-    const turned = [-1.0, 1.0].map((angle) => outwards.clone().applyAxisAngle(UP, angle));
-    return towards && turned[1].dot(towards) < turned[0].dot(towards) ? turned[1] : turned[0];
+  /** Whether a ship, taken for a box, stands between two points in the world. */
+  hides({ node, info }, from, to) {
+    const box = new THREE.Box3(new THREE.Vector3(-0.48 * info.L_oa, -0.48 * info.B, -info.height), new THREE.Vector3(0.48 * info.L_oa, 0.48 * info.B, 1));
+    const origin = node.worldToLocal(from.clone()), end = node.worldToLocal(to.clone());
+    const ray = new THREE.Ray(origin, end.clone().sub(origin).normalize());
+    const met = box.containsPoint(origin) ? origin : ray.intersectBox(box, new THREE.Vector3());
+    return met !== null && met.distanceTo(origin) < end.distanceTo(origin);
+  }
+
+  /** The horizontal direction from a place of impact in which the opened side is seen and no ship stands in the way. */
+  openSide(effect, struck, point, distance) {
+    const outwards = new THREE.Vector3(...effect.outwards).transformDirection(struck.node.matrixWorld).setY(0).normalize();
+    const beside = point.clone().addScaledVector(outwards, 0.12 * struck.info.B + 3);
+    let best = outwards;
+    let highest = -Infinity;
+    for (let i = -8; i <= 8; i++) {
+      const from = outwards.clone().applyAxisAngle(UP, 0.16 * i);
+      const eye = point.clone().addScaledVector(from, distance).setY(point.y + CLOSE * distance);
+      const along = beside.clone().lerp(eye, 0.2);
+      const hidden = this.ships.filter((ship) => this.hides(ship, eye, ship === struck ? beside : along)).length;
+      const score = -2 * hidden - Math.abs(Math.abs(0.16 * i) - 0.75) + 1e-3 * i;
+      if (score > highest) [best, highest] = [from, score];
+    }
+    return best;
   }
 
   closeUp(mode, time) {
     const target = this.anchor(mode, time);
     const out = new THREE.Vector3();
-    let distance;
+    let distance, height = 0.32;
     if (mode === "impact") {
       const effect = this.effectAt(time);
-      const { node, info } = this.ships.find((ship) => ship.info.name === effect.ship);
-      out.copy(this.clearOf(effect, node, target));
-      distance = Math.max(60, 0.85 * info.L_oa);
+      const struck = this.ships.find(({ info }) => info.name === effect.ship);
+      distance = Math.min(170, Math.max(25, 0.52 * struck.info.L_oa));
+      out.copy(this.openSide(effect, struck, target, distance));
+      height = CLOSE;
     } else {
       const { node, info } = this.ships[Number(mode.slice(5))];
       out.set(-1, 0.75, 0).transformDirection(node.matrixWorld);
-      distance = 1.7 * info.L_oa;
+      distance = 1.5 * info.L_oa;
+      height = 0.16;
     }
     out.y = 0;
-    out.normalize().addScaledVector(UP, 0.32).normalize();
+    out.normalize().addScaledVector(UP, height).normalize();
     return { target, position: target.clone().addScaledVector(out, distance) };
   }
 }

@@ -1,4 +1,5 @@
 // The bar below the picture: play, the time slider with a mark per collision, speed, camera, switches.
+import { SKIES } from "./daylight.js";
 import { element, icon } from "./dom.js";
 import { clockTime } from "./format.js";
 import { toggleTheme } from "./theme.js";
@@ -47,6 +48,8 @@ export function makeControls(data, clock, viewer, digits, actions) {
     ...SPEEDS.map((value) => element("option", { value, text: `${value}\u00d7` })));
   const camera = element("select", { id: "camera", "aria-label": "Camera", title: "Camera (C)", onchange: () => viewer.chooseCamera(camera.value) },
     ...viewer.cameras.choices.map(([value, text]) => element("option", { value, text })));
+  const sky = element("select", { id: "sky", "aria-label": "Time of day", title: "Time of day (D)", onchange: () => viewer.setSky(sky.value) },
+    ...SKIES.map(([value, text]) => element("option", { value, text })));
   const plain = button("Plain sea, for weak computers", "S", WAVES, () => setPlain(plain.getAttribute("aria-pressed") !== "true"), { id: "plain", "aria-pressed": "false" });
 
   function setPlain(isPlain) {
@@ -75,7 +78,7 @@ export function makeControls(data, clock, viewer, digits, actions) {
       button("Previous collision", "P", BACK, actions.previous), play, button("Next collision", "N", FORWARD, actions.next)),
     element("div", { class: "timeline" }, slider, marks),
     element("div", { class: "clock" }, shown, total),
-    element("div", { class: "choices" }, speed, camera, plain,
+    element("div", { class: "choices" }, speed, camera, sky, plain,
       button("Light or dark", "T", MOON, toggleTheme, { id: "theme" }),
       button("Curves and collisions", "V", PANEL, actions.panel), button("Keys", "?", HELP, actions.help)),
   );
@@ -86,6 +89,14 @@ export function makeControls(data, clock, viewer, digits, actions) {
     nextCamera() {
       camera.selectedIndex = (camera.selectedIndex + 1) % camera.options.length;
       viewer.chooseCamera(camera.value);
+    },
+    nextSky() {
+      sky.selectedIndex = (sky.selectedIndex + 1) % sky.options.length;
+      viewer.setSky(sky.value);
+    },
+    chooseSky(name) {
+      sky.value = name;
+      viewer.setSky(name);
     },
     chooseCamera(mode) {
       camera.value = mode;

@@ -1,26 +1,17 @@
-// Explosion, debris, fire and smoke. Every particle's place is a function of the time since the effect began and of its
+// Explosion, debris, fire, smoke, dust and splash. Every particle's place is a function of the time since the effect began and of its
 // own random numbers, which follow from the effect's seed: the slider scrubs both ways, and every page shows the same.
 // All in the ship's b (forward, starboard, down), so that effects move with the ship.
 import * as THREE from "three";
+import { LIGHT } from "./daylight.js";
+import { randomNumbers } from "./random.js";
 
-const COUNT = { explosion: 56, debris: 70, fire: 60, smoke: 100 };
-const LINGER = { explosion: 3, debris: 9, fire: 2, smoke: 16 }; // after the last particle is sent out [s]
-
-/** Random numbers in [0, 1) from a seed (mulberry32). */
-function randomNumbers(seed) {
-  let state = (seed * 0x9e3779b9) >>> 0;
-  return () => {
-    state = (state + 0x6d2b79f5) >>> 0;
-    let x = Math.imul(state ^ (state >>> 15), 1 | state);
-    x = (x + Math.imul(x ^ (x >>> 7), 61 | x)) ^ x;
-    return ((x ^ (x >>> 14)) >>> 0) / 4294967296;
-  };
-}
+const COUNT = { explosion: 64, debris: 90, fire: 72, smoke: 130, dust: 46, splash: 120 };
+const LINGER = { explosion: 3, debris: 9, fire: 2, smoke: 16, dust: 1.4, splash: 1.7 }; // after the last particle is sent out [s]
 
 const COMMON = /* glsl */ `
   attribute vec4 aSeed;
   uniform float uAge, uDuration, uSize, uHeight;
-  uniform vec3 uOut;
+  uniform vec3 uOut, uLit;
   varying vec2 vCorner;
   varying vec4 vColour;   // colour, opacity
   varying float vGlow;    // 1: light, 0: paint
@@ -84,10 +75,31 @@ const MOTION = {
           + uSize * (UP * 9.0 * pow(a, 0.75) + vec3(-7.0, 2.5, 0.0) * pow(a, 1.35))
           + uSize * 1.4 * a * vec3(sin(5.0 * a + 12.0 * wild), cos(4.0 * a + 8.0 * aSeed.w), around.z);
     radius = uSize * (0.7 + 3.0 * a) * (0.65 + 0.6 * aSeed.w);
-    float grey = mix(0.025, 0.20, smoothstep(0.0, 0.8, a)) * (0.7 + 0.6 * wild);
-    vColour = vec4(vec3(grey), 0.42 * pow(1.0 - a, 1.2) * smoothstep(0.0, 0.08, a));
+    float grey = mix(0.03, 0.26, smoothstep(0.0, 0.8, a)) * (0.7 + 0.6 * wild);
+    vec3 lit = grey * uLit + vec3(0.55, 0.16, 0.03) * (0.35 * exp(-9.0 * a) * (1.0 - smoothstep(0.7, 1.0, birth / uDuration)));
+    vColour = vec4(lit, 0.42 * pow(1.0 - a, 1.2) * smoothstep(0.0, 0.08, a));
     vGlow = 0.0;
     if (birth < 0.0 || birth > uDuration) radius = 0.0;`,
+  dust: /* glsl */ `
+    float life = 1.0 + 0.8 * aSeed.y;
+    float a = (uAge - 0.5 * aSeed.x * uDuration) / life;
+    vec3 direction = normalize(onSphere(aSeed.zw) * vec3(1.0, 1.0, 0.6) + 0.9 * uOut);
+    place = direction * uSize * (0.4 + 1.6 * aSeed.y) * (1.0 - exp(-3.0 * a)) + UP * uSize * 0.5 * a;
+    radius = uSize * (0.25 + 1.0 * sqrt(max(a, 0.0))) * (0.5 + 0.6 * aSeed.z);
+    vColour = vec4(uLit * vec3(0.50, 0.42, 0.36) * (0.6 + 0.6 * aSeed.w), 0.42 * (1.0 - a) * smoothstep(0.0, 0.06, a));
+    vGlow = 0.0;
+    if (a <= 0.0 || a >= 1.0) radius = 0.0;`,
+  splash: /* glsl */ `
+    float life = 1.5 + 0.9 * aSeed.y;
+    float age = uAge - 0.6 * aSeed.x * uDuration, a = age / life;
+    vec3 along = normalize(cross(uOut, UP) + 1e-4);
+    vec3 from = UP * -uHeight + uOut * uSize * 0.12 + along * uSize * (aSeed.z - 0.5) * 2.2;
+    vec3 velocity = UP * (4.0 + 1.5 * uSize * aSeed.y) + uOut * uSize * (0.15 + 0.6 * aSeed.w) + along * uSize * (aSeed.z - 0.5) * 0.8;
+    place = from + velocity * age * (1.0 - 0.18 * a) - UP * 4.905 * age * age * 0.85;
+    radius = (0.35 + 0.16 * uSize * (0.4 + aSeed.x)) * (0.35 + 1.1 * a);
+    vColour = vec4(uLit * 0.95, 0.6 * (1.0 - a) * smoothstep(0.0, 0.05, a));
+    vGlow = 0.0;
+    if (a <= 0.0 || a >= 1.0 || dot(place, UP) < -uHeight - 0.5) radius = 0.0;`,
 };
 
 const vertexShader = (motion) => /* glsl */ `
@@ -146,6 +158,7 @@ function makeEffect(effect) {
   geometry.instanceCount = count;
   const material = new THREE.ShaderMaterial({
     uniforms: {
+      uLit: LIGHT.uLit,
       uAge: { value: 0 },
       uDuration: { value: effect.duration },
       uSize: { value: effect.size },
@@ -163,7 +176,7 @@ function makeEffect(effect) {
   const mesh = new THREE.Mesh(geometry, material);
   mesh.frustumCulled = false;
   mesh.position.fromArray(effect.point);
-  mesh.renderOrder = { smoke: 1, fire: 2, debris: 3, explosion: 4 }[effect.kind];
+  mesh.renderOrder = { splash: 1, dust: 1, smoke: 1, fire: 2, debris: 3, explosion: 4 }[effect.kind];
   return mesh;
 }
 

@@ -6,6 +6,7 @@ import { readData, readGlb } from "./data.js";
 import { element } from "./dom.js";
 import { makeEvents } from "./events.js";
 import { clockTime } from "./format.js";
+import { SKIES } from "./daylight.js";
 import { listenToKeys, makeHelp } from "./keys.js";
 import { makePlots } from "./plots.js";
 import { lineColour, onTheme, startTheme, toggleTheme } from "./theme.js";
@@ -77,6 +78,7 @@ async function start() {
   function obey() {
     const wishes = asked();
     if (wishes.has("plain")) controls.setPlain(wishes.get("plain") !== "no");
+    if (SKIES.some(([value]) => value === wishes.get("sky"))) controls.chooseSky(wishes.get("sky"));
     if (wishes.has("t")) clock.seek(Number(wishes.get("t")));
     const camera = wishes.get("camera");
     if (viewer.cameras.choices.some(([value]) => value === camera)) controls.chooseCamera(camera);
@@ -97,6 +99,7 @@ async function start() {
     pause: () => clock.pause(),
     camera: (mode) => controls.chooseCamera(mode),
     plain: (isPlain) => controls.setPlain(isPlain),
+    sky: (name) => controls.chooseSky(name),
     /** Draws now and says what is in the picture. */
     drawn() {
       viewer.draw();

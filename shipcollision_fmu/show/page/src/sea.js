@@ -1,135 +1,217 @@
-// The sea: a plane at the design waterline, with waves in its light only, so that the hulls meet it in a clean line.
-// Waves are a function of the run's time, so that scrubbing back brings the same sea again.
+// The sea: a few long waves that move its surface, small ones that turn its light, foam and ships' waves from foam.js,
+// and what it mirrors. Waves are for the eye: they are low beside hulls, which keep their true place, and are functions
+// of the run's time, so that scrubbing back brings the same sea again.
 import * as THREE from "three";
-import { HAZE, SKY_GLSL, SUN_UNIFORM } from "./sky.js";
+import { LIGHT } from "./daylight.js";
+import { FIELD_GLSL } from "./foam.js";
+import { makeRipples, RIPPLES_GLSL } from "./ripples.js";
+import { SKY_GLSL } from "./sky.js";
 
 const RADIUS = 60000; // [m]
+const RINGS = 150, SECTORS = 176;
+/** Long waves: length [m], amplitude [m], bearing [rad]. */
+const SWELL = [[132, 0.52, 0.15], [81, 0.34, -0.42], [47, 0.2, 0.85], [29, 0.11, -0.95]];
 
-/** `ships`: of each, half length, half breadth and height of the deck above the waterline [m], and its colour. */
-export function makeSea(ships) {
-  const vectors = (make) => ships.map(make);
-  const places = vectors(() => new THREE.Vector4()); // x, z, and where ahead is in them
-  const material = new THREE.ShaderMaterial({
-    uniforms: {
-      uTime: { value: 0 },
-      uHaze: { value: 9000 },
-      uSun: SUN_UNIFORM,
-      uPlaces: { value: places },
-      uSizes: { value: vectors(({ halfLength, halfBreadth, height }) => new THREE.Vector3(halfLength, halfBreadth, height)) },
-      uColours: { value: vectors(({ colour }) => new THREE.Color(colour).multiplyScalar(0.55)) },
-    },
-    vertexShader: /* glsl */ `
-      varying vec3 vWorld;
-      void main() {
-        vec4 world = modelMatrix * vec4(position, 1.0);
-        vWorld = world.xyz;
-        gl_Position = projectionMatrix * viewMatrix * world;
-      }`,
-    fragmentShader: /* glsl */ `
-      uniform float uTime, uHaze;
-      varying vec3 vWorld;
-      const int SHIPS = ${ships.length};
-      uniform vec4 uPlaces[SHIPS];
-      uniform vec3 uSizes[SHIPS];
-      uniform vec3 uColours[SHIPS];
-      ${SKY_GLSL}
-      // What a ray from the sea meets: a ship, taken for a box, or the sky.
-      vec3 mirroredColour(vec3 from, vec3 direction, vec2 slope) {
-        vec3 colour = skyColour(direction);
-        float nearest = 1e9;
-        vec3 broken = normalize(direction + vec3(-slope.x, 0.0, -slope.y)); // small waves that are not drawn break it up
-        for (int i = 0; i < SHIPS; i++) {
-          vec2 ahead = uPlaces[i].zw;
-          mat2 toShip = mat2(ahead.x, -ahead.y, ahead.y, ahead.x);
-          vec2 o = toShip * (from.xz - uPlaces[i].xy), d = toShip * broken.xz;
-          vec3 origin = vec3(o, from.y), ray = vec3(d, broken.y) + 1e-6; // never 0
-          vec3 low = (vec3(-uSizes[i].xy, 0.0) - origin) / ray, high = (uSizes[i] - origin) / ray;
-          vec3 enter = min(low, high), leave = max(low, high);
-          float t = max(max(enter.x, enter.y), enter.z), end = min(min(leave.x, leave.y), leave.z);
-          if (t < end && end > 0.0 && t < nearest) {
-            nearest = t;
-            vec3 at = abs(origin + t * ray) / uSizes[i]; // fainter towards ends and top, where hulls are not boxes
-            float share = smoothstep(1.02, 0.75, at.x) * smoothstep(1.05, 0.6, at.z);
-            colour = mix(skyColour(direction), uColours[i], 0.75 * share);
-          }
-        }
-        return colour;
+/** Rings around the camera, close together near it. */
+function makeRings() {
+  const places = [0, 0, 0], index = [];
+  for (let i = 0; i < RINGS; i++) {
+    const radius = 1.5 * (RADIUS / 1.5) ** ((i / (RINGS - 1)) ** 0.9);
+    for (let j = 0; j < SECTORS; j++) {
+      const angle = (2 * Math.PI * (j + 0.5 * (i % 2))) / SECTORS;
+      places.push(radius * Math.cos(angle), 0, radius * Math.sin(angle));
+    }
+  }
+  const at = (i, j) => 1 + i * SECTORS + (j % SECTORS);
+  for (let j = 0; j < SECTORS; j++) {
+    index.push(0, at(0, j + 1), at(0, j));
+    for (let i = 0; i + 1 < RINGS; i++) index.push(at(i, j), at(i, j + 1), at(i + 1, j), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1));
+  }
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.Float32BufferAttribute(places, 3));
+  geometry.setIndex(index);
+  return geometry;
+}
+
+const shipsGlsl = (count) => /* glsl */ `
+  const int SHIPS = ${count};
+  uniform vec4 uPlaces[SHIPS];
+  uniform vec3 uSizes[SHIPS];
+  uniform vec3 uColours[SHIPS];
+`;
+
+const swellGlsl = SWELL.map(([length, amplitude, bearing]) => {
+  const k = (2 * Math.PI) / length;
+  const numbers = [Math.cos(bearing), Math.sin(bearing), k, Math.sqrt(9.81 * k), amplitude, length].map((x) => x.toFixed(6));
+  return `add(p, far, vec2(${numbers[0]}, ${numbers[1]}), ${numbers.slice(2).join(", ")}, moved, slope);`;
+}).join("\n");
+
+const vertexShader = (count) => /* glsl */ `
+  uniform float uTime;
+  ${shipsGlsl(count)}
+  varying vec3 vWorld;
+  varying vec3 vSwell; // slopes, height
+  void add(vec2 p, float far, vec2 along, float k, float omega, float amplitude, float length_, inout vec3 moved, inout vec2 slope) {
+    float phase = k * dot(along, p) - omega * uTime;
+    float a = amplitude * exp(-far / (30.0 * length_));
+    moved.y += a * cos(phase);
+    moved.xz -= along * (0.8 * a * sin(phase));
+    slope -= along * (k * a * sin(phase));
+  }
+  void main() {
+    vec4 world = modelMatrix * vec4(position, 1.0);
+    vec2 p = world.xz, slope = vec2(0.0);
+    float far = distance(world.xyz, cameraPosition);
+    vec3 moved = vec3(0.0);
+    ${swellGlsl}
+    float calm = 1.0;
+    for (int i = 0; i < SHIPS; i++) {
+      vec2 ahead = uPlaces[i].zw;
+      vec2 o = abs(mat2(ahead.x, -ahead.y, ahead.y, ahead.x) * (p - uPlaces[i].xy)) - uSizes[i].xy;
+      float reach = min(60.0, 3.0 * uSizes[i].z + 6.0);
+      calm = min(calm, smoothstep(-2.0, reach, length(max(o, 0.0))));
+    }
+    calm = 0.12 + 0.88 * calm;
+    world.xyz += moved * calm;
+    vWorld = world.xyz;
+    vSwell = vec3(slope * (0.4 + 0.6 * calm), moved.y * calm);
+    gl_Position = projectionMatrix * viewMatrix * world;
+  }`;
+
+const fragmentShader = (count, isPlain) => /* glsl */ `
+  precision highp float;
+  uniform float uTime, uHaze, uShine;
+  uniform vec3 uDeep, uScatter, uFoam, uDisc;
+  varying vec3 vWorld;
+  varying vec3 vSwell;
+  ${SKY_GLSL}
+  ${RIPPLES_GLSL}
+  ${FIELD_GLSL}
+  ${isPlain ? "" : shipsGlsl(count)}
+  ${isPlain ? "" : /* glsl */ `
+  // How much of a ship, taken for a box, a mirrored ray meets, and its colour.
+  vec4 mirroredShip(vec3 from, vec3 direction) {
+    float nearest = 1e9;
+    vec4 found = vec4(0.0);
+    for (int i = 0; i < SHIPS; i++) {
+      vec2 ahead = uPlaces[i].zw;
+      mat2 toShip = mat2(ahead.x, -ahead.y, ahead.y, ahead.x);
+      vec2 o = toShip * (from.xz - uPlaces[i].xy), d = toShip * direction.xz;
+      vec3 origin = vec3(o, from.y), ray = vec3(d, direction.y) + 1e-6; // never 0
+      vec3 size = uSizes[i];
+      vec3 low = (vec3(-size.xy, 0.0) - origin) / ray, high = (size - origin) / ray;
+      vec3 enter = min(low, high), leave = max(low, high);
+      float t = max(max(enter.x, enter.y), enter.z), end = min(min(leave.x, leave.y), leave.z);
+      if (t < end && end > 0.0 && t < nearest) {
+        nearest = t;
+        vec3 at = abs(origin + t * ray) / size; // fainter towards ends and top, where hulls are not boxes
+        found = vec4(uColours[i], 0.8 * smoothstep(1.02, 0.75, at.x) * smoothstep(1.05, 0.55, at.z));
       }
-      // Foam and shade where the sea meets the hulls: x foam, y shade.
-      vec2 alongHulls(vec2 p) {
-        vec2 found = vec2(0.0);
-        for (int i = 0; i < SHIPS; i++) {
-          vec2 ahead = uPlaces[i].zw;
-          vec2 o = abs(mat2(ahead.x, -ahead.y, ahead.y, ahead.x) * (p - uPlaces[i].xy));
-          vec2 half_ = uSizes[i].xy;
-          float out_ = max(o.y - half_.y * (1.0 - pow(min(o.x / half_.x, 1.0), 5.0) * 0.9), o.x - half_.x);
-          found = max(found, vec2(smoothstep(3.0, 0.0, out_), smoothstep(22.0, 0.0, out_)));
-        }
-        return found;
-      }
-      // Long-crested waves of many lengths, each a train of exp(sin): flat troughs, sharper crests.
-      vec2 slopes(vec2 p, float distance_) {
-        vec2 slope = vec2(0.0);
-        float length_ = 88.0, steepness = 0.052, turn = 0.4;
-        for (int i = 0; i < 15; i++) {
-          if (distance_ > 240.0 * length_) break; // faded to nothing, as are all shorter ones
-          float k = 6.2831853 / length_;
-          vec2 direction = vec2(cos(turn), sin(turn));
-          float phase = k * dot(direction, p) + sqrt(9.81 * k) * uTime + float(i) * 1.7;
-          float crest = exp(sin(phase) - 1.0);
-          float fade = exp(-distance_ / (length_ * 50.0));
-          slope += direction * crest * cos(phase) * steepness * fade;
-          p += direction * crest * cos(phase) * length_ * 0.018;
-          length_ *= 0.76;
-          steepness *= 1.03;
-          turn += 1.27 + 0.61 * sin(float(i) * 2.3);
-        }
-        return slope;
-      }
-      void main() {
-        vec3 away = vWorld - cameraPosition;
-        float distance_ = length(away);
-        vec3 view = away / distance_;
-        vec2 slope = slopes(vWorld.xz, distance_);
-        vec3 normal = normalize(vec3(-slope.x, 1.0, -slope.y));
-        float facing = max(dot(-view, normal), 0.0);
-        float fresnel = 0.02 + 0.98 * pow(1.0 - facing, 5.0);
-        fresnel = mix(fresnel, min(fresnel, 0.55), exp(-distance_ / 4000.0));
-        vec3 mirrored = reflect(view, normal);
-        mirrored.y = abs(mirrored.y) + 0.02;
-        mirrored = normalize(mirrored);
-        vec3 deep = mix(vec3(0.008, 0.055, 0.085), vec3(0.02, 0.13, 0.16), clamp(0.4 + 2.0 * (slope.x + slope.y), 0.0, 1.0));
-        vec3 colour = mix(deep, mirroredColour(vWorld, mirrored, slope), fresnel);
-        vec2 hulls = alongHulls(vWorld.xz + 5.0 * slope);
-        colour = mix(colour, deep * 0.5, 0.3 * hulls.y);
-        colour = mix(colour, vec3(0.72, 0.82, 0.86), 0.45 * hulls.x * smoothstep(-0.03, 0.10, slope.x + slope.y));
-        float glint = pow(max(dot(mirrored, uSun), 0.0), 260.0);
-        colour += vec3(1.0, 0.9, 0.75) * glint * 1.1;
-        colour = mix(colour, HAZE, 1.0 - exp(-pow(distance_ / uHaze, 1.4)));
-        gl_FragColor = vec4(colour, 1.0);
-        #include <tonemapping_fragment>
-        #include <colorspace_fragment>
-      }`,
-  });
-  const plain = new THREE.MeshBasicMaterial({ color: new THREE.Color(0.05, 0.16, 0.22) });
-  const mesh = new THREE.Mesh(new THREE.CircleGeometry(RADIUS, 96).rotateX(-Math.PI / 2), material);
+    }
+    return found;
+  }`}
+  void main() {
+    vec3 away = vWorld - cameraPosition;
+    float distance_ = length(away);
+    vec3 view = away / distance_;
+    vec2 p = vWorld.xz;
+    vec2 drift = vec2(0.94, 0.34) * uTime;
+    vec3 fine = ripple((p - 1.9 * drift) / 23.0), middle = ripple((mat2(0.8, 0.6, -0.6, 0.8) * p - 4.1 * drift) / 89.0);
+    middle.xy = mat2(0.8, -0.6, 0.6, 0.8) * middle.xy;
+    vec2 slope = vSwell.xy + 0.055 * fine.xy + 0.050 * middle.xy;
+    float height = vSwell.z + 0.18 * middle.z;
+    ${isPlain ? "" : /* glsl */ `
+    vec3 finest = ripple((mat2(0.6, -0.8, 0.8, 0.6) * p - 0.8 * drift) / 5.3), broad = ripple((p - 7.0 * drift) / 410.0);
+    finest.xy = mat2(0.6, 0.8, -0.8, 0.6) * finest.xy;
+    slope += 0.045 * finest.xy + 0.022 * broad.xy;
+    float gusts = 0.72 + 0.5 * broad.z + 0.28; // wind is not the same everywhere
+    slope *= clamp(gusts, 0.6, 1.35);`}
+    vec4 field = fieldAt(p);
+    slope += fieldSlope(p, field);
+    float rough = mix(0.05, 0.145, 1.0 - exp(-distance_ / 900.0)); // slopes that are too small to be seen from here
+    vec3 normal = normalize(vec3(-slope.x, 1.0, -slope.y));
+    float facing = max(dot(-view, normal), 0.02);
+    float fresnel = 0.02 + 0.98 * pow(1.0 - facing, 5.0 * exp(-2.7 * rough)) / (1.0 + 22.7 * rough * sqrt(rough));
+    vec3 mirrored = reflect(view, normal);
+    mirrored.y = abs(mirrored.y) + 0.6 * rough;
+    mirrored = normalize(mirrored);
+    vec3 reflection = skyAt(mirrored, ${isPlain ? "3.0" : "2.2 + 8.0 * rough"});
+    ${isPlain ? "" : /* glsl */ `
+    vec4 ship = mirroredShip(vWorld, normalize(mirrored + vec3(-0.6 * slope.x, 0.0, -0.6 * slope.y)));
+    reflection = mix(reflection, ship.rgb * uFoam, ship.a);`}
+    float crest = clamp(0.32 + 0.55 * height + field.g * 0.5, 0.0, 1.3);
+    float through = pow(max(dot(view, normalize(vec3(uSun.x, 0.0, uSun.z))), 0.0), 3.0); // light through the crests
+    vec3 deep = uDeep + uScatter * (0.32 * crest + 0.9 * crest * crest * through + 0.35 * (1.0 - facing) * max(height, 0.0));
+    deep += uScatter * 1.6 * field.a;
+    vec3 colour = mix(deep, reflection, fresnel);
+    // Sun or moon in the slopes that are seen and in those that are not (Beckmann's distribution of slopes).
+    vec3 middle_ = normalize(uSun - view);
+    vec2 off = -middle_.xz / middle_.y - slope;
+    float spread = rough * rough * 0.5 + 0.0009;
+    float glitter = exp(-dot(off, off) / (2.0 * spread)) / (6.2832 * spread);
+    float grazing = 0.02 + 0.98 * pow(1.0 - max(dot(-view, middle_), 0.0), 5.0);
+    colour += uDisc * uShine * min(0.03 * glitter * grazing / max(middle_.y * 4.0 * facing, 0.25), 2.4) * smoothstep(-0.02, 0.06, uSun.y);
+    colour *= 1.0 - 0.55 * field.b;
+    // Foam breaks up into a lace as it fades; a few crests break by themselves.
+    float net = 0.5 * lace(p / 9.0 + 0.02 * slope) + 0.32 * lace(p.yx / 3.1 + 0.37) + 0.18 * lace(p / 31.0);
+    float foam = field.r * (1.0 - 0.25 * field.b);
+    ${isPlain ? "" : `foam += 0.42 * smoothstep(0.62, 1.0, height * 0.55 + 0.45 * fine.z + 0.35 * broad.z) * exp(-distance_ / 1500.0);`}
+    foam = smoothstep(0.0, 0.42, foam - 0.62 + 0.62 * net) * min(1.0, 2.2 * foam);
+    colour = mix(colour, uFoam * (0.78 + 0.3 * clamp(dot(normal, uSun), 0.0, 1.0) + 0.15 * net), clamp(foam, 0.0, 0.94));
+    vec3 horizon = skyAt(normalize(vec3(view.x, 0.012, view.z)), 3.0);
+    colour = mix(colour, horizon, 1.0 - exp(-pow(distance_ / (0.75 * uHaze), 1.2)));
+    gl_FragColor = vec4(colour, 1.0);
+    #include <tonemapping_fragment>
+    #include <colorspace_fragment>
+  }`;
+
+const flatVertexShader = /* glsl */ `
+  varying vec3 vWorld;
+  varying vec3 vSwell;
+  void main() {
+    vec4 world = modelMatrix * vec4(position, 1.0);
+    vWorld = world.xyz;
+    vSwell = vec3(0.0);
+    gl_Position = projectionMatrix * viewMatrix * world;
+  }`;
+
+/**
+ * `ships`: of each, half length, half breadth and height of the deck above the waterline [m], and its colour; `sky`:
+ * its uniforms; `field`: the uniforms of foam and ships' waves.
+ */
+export function makeSea(ships, sky, field) {
+  const places = ships.map(() => new THREE.Vector4()); // x, z, and where ahead is in them
+  const uniforms = {
+    ...LIGHT, ...sky, ...field,
+    uRipples: { value: makeRipples() },
+    uTime: { value: 0 },
+    uHaze: { value: 9000 },
+    uPlaces: { value: places },
+    uSizes: { value: ships.map(({ halfLength, halfBreadth, height }) => new THREE.Vector3(halfLength, halfBreadth, height)) },
+    uColours: { value: ships.map(({ colour }) => new THREE.Color(colour).multiplyScalar(0.6)) },
+  };
+  const material = new THREE.ShaderMaterial({ uniforms, vertexShader: vertexShader(ships.length), fragmentShader: fragmentShader(ships.length, false) });
+  const plain = new THREE.ShaderMaterial({ uniforms, vertexShader: flatVertexShader, fragmentShader: fragmentShader(ships.length, true) });
+  const rings = makeRings(), disc = new THREE.CircleGeometry(RADIUS, 96).rotateX(-Math.PI / 2);
+  const mesh = new THREE.Mesh(rings, material);
   mesh.renderOrder = -5;
   mesh.frustumCulled = false;
   return {
     mesh,
+    uniforms,
     setPlain(isPlain) {
       mesh.material = isPlain ? plain : material;
+      mesh.geometry = isPlain ? disc : rings;
     },
     /** `poses`: of each ship, where midship is and where ahead is, in the page's world; `haze`: how far one sees [m]. */
     update(time, camera, poses, haze) {
-      material.uniforms.uHaze.value = haze;
+      uniforms.uHaze.value = haze;
       poses.forEach(({ position, ahead }, i) => {
         const length = Math.hypot(ahead.x, ahead.z) || 1;
         places[i].set(position.x, position.z, ahead.x / length, ahead.z / length);
       });
-      material.uniforms.uTime.value = time;
+      uniforms.uTime.value = time;
       mesh.position.set(camera.position.x, 0, camera.position.z);
     },
-    haze: HAZE,
   };
 }

@@ -2,21 +2,21 @@
 import * as THREE from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { Cameras } from "./cameras.js";
+import { LIGHT } from "./daylight.js";
 import { addEffects } from "./effects.js";
+import { makeFoam } from "./foam.js";
 import { makeLabels } from "./labels.js";
 import { growScratches } from "./scratches.js";
 import { makeSea } from "./sea.js";
 import { makeSky, SUN } from "./sky.js";
 import { playClip, toWorld } from "./tracks.js";
-import { makeWake } from "./wake.js";
 
 const SHADOW_REACH = 420; // around what the camera looks at [m]
 
-/** Puts the sun behind the shoulder of whoever looks first, so that the sides that are seen are lit. */
-function setSun({ camera, controls }) {
+/** The bearing [rad] from which the picture is seen first; sun and moon stand where they suit it. */
+function bearingOf({ camera, controls }) {
   const from = camera.position.clone().sub(controls.target);
-  const azimuth = Math.atan2(from.z, from.x) + 0.6;
-  SUN.set(Math.cos(azimuth), 0.62, Math.sin(azimuth)).normalize();
+  return Math.atan2(from.z, from.x);
 }
 
 /** The ships in the order of the scene: node, what is known of them, track. */
@@ -57,12 +57,13 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
   world.add(gltf.scene);
   const motion = makeMotion(gltf);
   const ships = shipsOf(gltf, data, motion);
-  const sky = makeSky();
+  const sky = makeSky(renderer);
+  const foam = makeFoam(ships, renderer);
   const sea = makeSea(ships.map(({ info }) => ({
     halfLength: 0.48 * info.L_oa, halfBreadth: 0.47 * info.B, height: info.height, colour: info.colour,
-  })));
-  world.fog = new THREE.Fog(sea.haze, 4000, 22000);
-  world.add(sky.dome, sky.sun, sky.sun.target, sky.ambient, sea.mesh);
+  })), sky.uniforms, foam.uniforms);
+  world.fog = new THREE.Fog(0xffffff, 4000, 22000);
+  world.add(...sky.nodes, sea.mesh);
   const { shadow } = sky.sun;
   shadow.mapSize.set(2048, 2048);
   shadow.bias = -0.0005;
@@ -77,8 +78,6 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
     }
   });
   const nodeOf = (name) => ships.find(({ info }) => info.name === name).node;
-  const wakes = ships.map(({ track, info }) => makeWake(track, info));
-  world.add(...wakes.map(({ mesh }) => mesh));
   const labels = makeLabels(ships, canvas);
   canvas.after(labels.node);
   const showScratches = growScratches(gltf.scene);
@@ -102,7 +101,7 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
     pose();
     cameras.follow(time);
     const { camera, controls } = cameras;
-    for (const wake of wakes) if (wake.mesh.visible) wake.update(time - data.start);
+    foam.draw(time - data.start, controls.target, camera.position.distanceTo(controls.target));
     const haze = Math.max(9000, 4 * camera.position.distanceTo(controls.target)); // it must not hide what is looked at
     sea.update(time, camera, ships.map(({ node }) => ({
       position: node.getWorldPosition(new THREE.Vector3()),
@@ -117,6 +116,13 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
     renderer.render(world, camera);
     labels.update(camera);
     shown.frames++;
+  }
+
+  function setSky(name) {
+    sky.setSky(name, bearing);
+    world.fog.color.copy(LIGHT.uHorizon.value);
+    shadowOf = "";
+    want();
   }
 
   function want() {
@@ -136,7 +142,8 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
   pose();
   resize();
   cameras.choose("all", time);
-  setSun(cameras);
+  const bearing = bearingOf(cameras);
+  setSky("day");
   new ResizeObserver(resize).observe(canvas);
 
   return {
@@ -156,10 +163,11 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
     },
     /** Adds effects of a collision that has happened since. */
     addEffects: (more) => effects.push(addEffects(more, nodeOf)),
-    /** Plain: no waves, no wake, no shadows, and no more pixels than the screen's own. For weak computers. */
+    setSky,
+    /** Plain: a flat sea with smaller waves in its light, no shadows, and no more pixels than the screen's own. For weak computers. */
     setPlain(isPlain) {
       sea.setPlain(isPlain);
-      for (const wake of wakes) wake.mesh.visible = !isPlain;
+      foam.setPlain(isPlain);
       sky.sun.castShadow = !isPlain;
       shadowOf = "";
       renderer.setPixelRatio(isPlain ? 1 : Math.min(window.devicePixelRatio, 2));

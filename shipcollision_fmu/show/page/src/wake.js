@@ -1,97 +1,195 @@
-// The wake: a strip of foam on the sea along where the stern has been, a function of time like everything else.
+// What a ship does to the water, drawn into foam.js's texture: the waves that Kelvin found behind a ship on her real
+// track, the churned water behind her stern, and bow wave, foam and shade along her waterline. All are functions of the
+// track up to the time that is shown.
 import * as THREE from "three";
 import { toWorld } from "./tracks.js";
+import { findWaterline } from "./waterline.js";
 
-const SECTIONS = 48;
-const SECONDS = 70;
-const ACROSS = [-1, 0, 1];
+const SECTIONS = 72;
+const SECONDS = 260; // how old the oldest wake is
 
-export function makeWake(track, ship) {
+const ADDING = {
+  blending: THREE.CustomBlending, blendSrc: THREE.OneFactor, blendDst: THREE.OneFactor, blendSrcAlpha: THREE.OneFactor, blendDstAlpha: THREE.OneFactor,
+  depthTest: false, depthWrite: false, side: THREE.DoubleSide, transparent: true,
+};
+const TO_FIELD = "gl_Position = vec4((place - uCover.xy) / uCover.z, 0.0, 1.0);";
+
+/** A strip along the track: Kelvin's waves and the wake of the stern. */
+export function makeWake({ track, info }, cover) {
+  const places = new Float32Array(SECTIONS * 2 * 3), water = new Float32Array(SECTIONS * 2 * 4);
   const geometry = new THREE.BufferGeometry();
-  const places = new Float32Array(SECTIONS * ACROSS.length * 3);
-  const foam = new Float32Array(SECTIONS * ACROSS.length * 2); // opacity, distance across
   geometry.setAttribute("position", new THREE.BufferAttribute(places, 3));
-  geometry.setAttribute("aFoam", new THREE.BufferAttribute(foam, 2));
+  geometry.setAttribute("aWater", new THREE.BufferAttribute(water, 4)); // from the bow [m], across [m], age [s], speed [m/s]
   const index = [];
-  for (let i = 0; i + 1 < SECTIONS; i++) {
-    for (let j = 0; j < 2; j++) {
-      const a = 3 * i + j;
-      index.push(a, a + 3, a + 1, a + 1, a + 3, a + 4);
-    }
-  }
+  for (let i = 0; i + 1 < SECTIONS; i++) index.push(2 * i, 2 * i + 2, 2 * i + 1, 2 * i + 1, 2 * i + 2, 2 * i + 3);
   geometry.setIndex(index);
   const material = new THREE.ShaderMaterial({
-    transparent: true,
-    depthWrite: false,
-    side: THREE.DoubleSide,
+    ...ADDING,
+    uniforms: { uCover: cover, uSize: { value: new THREE.Vector2(info.L_oa, info.B) } },
     vertexShader: /* glsl */ `
-      attribute vec2 aFoam;
-      varying vec2 vFoam;
-      varying vec2 vPlace;
+      attribute vec4 aWater;
+      uniform vec4 uCover;
+      varying vec4 vWater;
       void main() {
-        vFoam = aFoam;
-        vPlace = position.xz;
-        gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+        vWater = aWater;
+        vec2 place = position.xz;
+        ${TO_FIELD}
       }`,
     fragmentShader: /* glsl */ `
-      varying vec2 vFoam;
-      varying vec2 vPlace;
-      float hash(vec2 p) {
-        p = fract(p * vec2(0.1031, 0.1030));
-        p += dot(p, p.yx + 33.33);
-        return fract((p.x + p.y) * p.x);
-      }
-      float noise(vec2 p) {
-        vec2 i = floor(p), f = fract(p);
-        f = f * f * (3.0 - 2.0 * f);
-        return mix(mix(hash(i), hash(i + vec2(1, 0)), f.x), mix(hash(i + vec2(0, 1)), hash(i + vec2(1, 1)), f.x), f.y);
-      }
+      uniform vec4 uCover;
+      uniform vec2 uSize;
+      varying vec4 vWater;
       void main() {
-        float n = 0.6 * noise(vPlace / 4.0) + 0.4 * noise(vPlace / 1.5);
-        float edge = smoothstep(1.0, 0.35, abs(vFoam.y));
-        float opacity = vFoam.x * edge * (0.25 + 0.9 * smoothstep(0.35, 0.75, n));
-        gl_FragColor = vec4(vec3(0.82, 0.90, 0.93), min(opacity, 0.8));
-        #include <tonemapping_fragment>
-        #include <colorspace_fragment>
-      }`,
+        float x = max(vWater.x, 0.1), y = abs(vWater.y), age = vWater.z, speed = vWater.w;
+        float L = uSize.x, B = uSize.y;
+        float old = age / ${SECONDS.toFixed(1)};
+        // Kelvin (1887): of all waves that keep pace with the ship, those in phase at x, y have tan(theta) = t.
+        float k = 9.81 / max(speed * speed, 1.0), edge = 8.0 * y * y / (x * x), height = 0.0;
+        if (edge < 1.0 && speed > 0.8) {
+          float root = sqrt(1.0 - edge);
+          float inside = smoothstep(1.0, 0.80, edge);
+          float amplitude = 0.075 * speed * speed / 9.81 * min(1.0, B / 12.0) * inverse_sqrt_(1.0 + k * x * 0.25);
+          amplitude *= smoothstep(0.8, 3.0, speed) * (1.0 - old) * inside * smoothstep(0.0, 0.12 * L, x);
+          float t1 = x * (1.0 + root) / (4.0 * max(y, 0.5)), t2 = x * (1.0 - root) / (4.0 * max(y, 0.5));
+          float length1 = 6.2832 / (k * (1.0 + t1 * t1));
+          float drawn = smoothstep(3.0 * uCover.w, 7.0 * uCover.w, length1) * smoothstep(0.08 * B, 0.4 * B, length1);
+          height += amplitude * (0.9 + 0.9 * smoothstep(0.45, 0.95, edge)) * drawn * cos(k * sqrt(1.0 + t1 * t1) * (x - y * t1));
+          height += amplitude * 0.55 * cos(k * sqrt(1.0 + t2 * t2) * (x - y * t2));
+        }
+        // Foam of the breaking bow wave, thrown aside, and of the water behind the stern.
+        float arm = 0.5 * B * (1.0 - exp(-x / (0.10 * L))) + 0.17 * x;
+        float thick = 1.2 + 0.10 * B * min(1.0, x / (0.5 * L)) + 0.015 * x;
+        float bow = exp(-pow((y - arm) / thick, 2.0)) * exp(-x / (0.55 * L)) * smoothstep(2.0, 8.0, speed) * smoothstep(0.0, 0.04 * L, x);
+        float behind = x - 0.96 * L;
+        float wide = 0.40 * B + 0.6 * sqrt(max(behind, 0.0)) + 0.004 * max(behind, 0.0);
+        float across = y / wide;
+        float stern = smoothstep(1.0, 0.55, across) * (0.62 + 0.5 * smoothstep(0.35, 0.85, across)) * smoothstep(0.0, 6.0, behind);
+        float fresh = exp(-max(behind, 0.0) / max(speed, 0.5) / 38.0);
+        float strength = smoothstep(0.5, 7.0, speed) * (1.0 - old);
+        float foam = 0.80 * bow + 0.92 * stern * strength * fresh;
+        float churned = stern * strength * exp(-max(behind, 0.0) / max(speed, 0.5) / 110.0);
+        height *= 1.0 - 0.8 * stern * strength;
+        gl_FragColor = vec4(foam, height, 0.0, churned);
+      }`.replace("inverse_sqrt_", "inversesqrt"),
   });
   const mesh = new THREE.Mesh(geometry, material);
   mesh.frustumCulled = false;
-  mesh.renderOrder = -4;
+  const middle = new THREE.Vector3(), before = new THREE.Vector3(), side = new THREE.Vector3(), ahead = new THREE.Vector3(), q = new THREE.Quaternion();
 
-  const stern = new THREE.Vector3();
-  const astern = new THREE.Vector3();
-  const quaternion = new THREE.Quaternion();
-  const before = new THREE.Vector3();
-  const side = new THREE.Vector3();
+  function section(i, distance, age, speed) {
+    const half = Math.min(0.37 * distance + 0.7 * info.B, 460);
+    for (const [j, across] of [-half, half].entries()) {
+      const k = 2 * i + j;
+      places.set([middle.x + across * side.x, 0, middle.z + across * side.z], 3 * k);
+      water.set([distance, across, age, speed], 4 * k);
+    }
+  }
 
   return {
     mesh,
     update(time) {
-      for (let i = 0; i < SECTIONS; i++) {
-        const age = SECONDS * (i / (SECTIONS - 1)) ** 1.5;
-        track.at(time - age, stern, quaternion);
-        astern.set(i === 0 ? -0.4 * ship.L_oa : -0.48 * ship.L_oa, 0, 0).applyQuaternion(quaternion);
-        toWorld(stern.add(astern));
-        track.at(time - age - 0.5, before, quaternion);
-        astern.set(-0.48 * ship.L_oa, 0, 0).applyQuaternion(quaternion);
-        toWorld(before.add(astern));
-        side.subVectors(stern, before);
+      let distance = 0.5 * info.L_oa;
+      const last = new THREE.Vector3();
+      for (let i = 1; i < SECTIONS; i++) {
+        const age = SECONDS * ((i - 1) / (SECTIONS - 2)) ** 1.6;
+        track.at(time - age, middle, q);
+        ahead.set(1, 0, 0).applyQuaternion(q);
+        toWorld(ahead).setY(0).normalize();
+        toWorld(middle).setY(0);
+        track.at(time - age - 0.5, before, q);
+        toWorld(before).setY(0);
+        side.subVectors(middle, before);
         const speed = side.length() / 0.5;
+        if (speed < 0.4 || side.dot(ahead) < 0) side.copy(ahead); // where she is pushed aside or astern, no wake of her own
         side.set(-side.z, 0, side.x).normalize();
-        const half = 0.4 * ship.B + 0.12 * age * Math.min(speed, 8);
-        const opacity = Math.min(1, speed / 7) * (1 - age / SECONDS) ** 1.6 * 0.75;
-        ACROSS.forEach((across, j) => {
-          const k = 3 * i + j;
-          places[3 * k] = stern.x + across * half * side.x;
-          places[3 * k + 1] = 0.05;
-          places[3 * k + 2] = stern.z + across * half * side.z;
-          foam[2 * k] = opacity;
-          foam[2 * k + 1] = across;
-        });
+        if (i > 1) distance += middle.distanceTo(last);
+        last.copy(middle);
+        section(i, distance, age, speed);
+        if (i === 1) {
+          middle.addScaledVector(ahead, 0.5 * info.L_oa);
+          section(0, 0, 0, speed);
+        }
       }
       geometry.attributes.position.needsUpdate = true;
-      geometry.attributes.aFoam.needsUpdate = true;
+      geometry.attributes.aWater.needsUpdate = true;
+    },
+  };
+}
+
+const OFFSETS = [-1, 0, 0.18, 0.45, 1]; // of the reach of the foam beside a hull
+
+/** A band around the waterline: bow wave, foam and shade, from how fast the plating moves against the water. */
+export function makeHullFoam(ship, cover) {
+  const { track, info } = ship;
+  const { x, port, starboard } = findWaterline(ship);
+  const loop = [...x.map((at, i) => [at, starboard[i]]), ...x.map((at, i) => [at, -port[i]]).reverse()];
+  const reach = Math.min(9, Math.max(1.5, 0.2 * info.B));
+  const places = [], normals = [], outs = [], index = [];
+  loop.forEach(([px, py], i) => {
+    const [ax, ay] = loop[(i + loop.length - 1) % loop.length], [bx, by] = loop[(i + 1) % loop.length];
+    const length = Math.hypot(bx - ax, by - ay) || 1;
+    const nx = -(ay - by) / length, ny = (ax - bx) / length; // outwards, for the loop runs forward on starboard
+    for (const out of OFFSETS) {
+      places.push(px + nx * out * reach, py + ny * out * reach, 0);
+      normals.push(nx, ny, 0);
+      outs.push(out);
+    }
+    const n = OFFSETS.length, next = ((i + 1) % loop.length) * n;
+    for (let k = 0; k + 1 < n; k++) index.push(i * n + k, next + k, i * n + k + 1, i * n + k + 1, next + k, next + k + 1);
+  });
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.Float32BufferAttribute(places, 3));
+  geometry.setAttribute("normal", new THREE.Float32BufferAttribute(normals, 3));
+  geometry.setAttribute("aOut", new THREE.Float32BufferAttribute(outs, 1));
+  geometry.setIndex(index);
+  const pose = new THREE.Vector4(), flow = new THREE.Vector3();
+  const mesh = new THREE.Mesh(geometry, new THREE.ShaderMaterial({
+    ...ADDING,
+    uniforms: { uCover: cover, uPose: { value: pose }, uFlow: { value: flow }, uEnds: { value: new THREE.Vector2(x[0], x.at(-1)) } },
+    vertexShader: /* glsl */ `
+      attribute float aOut;
+      uniform vec4 uCover, uPose;
+      uniform vec3 uFlow;
+      uniform vec2 uEnds;
+      varying vec4 vHull; // out, speed of the plating against the water, speed, share of the length from the bow
+      void main() {
+        vec2 p = position.xy;
+        vec2 place = uPose.xy + uPose.zw * p.x + vec2(-uPose.w, uPose.z) * p.y;
+        vec2 velocity = vec2(uFlow.x - uFlow.z * p.y, uFlow.y + uFlow.z * p.x);
+        vHull = vec4(aOut, dot(velocity, normal.xy), length(velocity), (uEnds.y - p.x) / (uEnds.y - uEnds.x));
+        ${TO_FIELD}
+      }`,
+    fragmentShader: /* glsl */ `
+      varying vec4 vHull;
+      void main() {
+        float out_ = max(vHull.x, 0.0), push = vHull.y, speed = vHull.z, from = vHull.w;
+        float near = (1.0 - out_) * (1.0 - out_);
+        float height = 0.45 * push * abs(push) / 19.62 * exp(-2.5 * out_) * (1.0 - out_);
+        float foam = 1.1 * smoothstep(0.4, 3.2, push) * near;
+        foam += 0.55 * smoothstep(1.0, 8.0, speed) * exp(-2.2 * from) * near;
+        foam += 0.30 * smoothstep(0.3, 6.0, speed) * smoothstep(0.4, 0.0, out_);
+        foam += 0.14 * smoothstep(0.3, 0.0, out_); // the swell laps at the plating
+        gl_FragColor = vec4(foam, clamp(height, -0.8, 1.6), vHull.x < 0.0 ? 1.0 : near, 0.35 * foam);
+      }`,
+  }));
+  mesh.frustumCulled = false;
+  const now = new THREE.Vector3(), before = new THREE.Vector3(), q = new THREE.Quaternion(), ahead = new THREE.Vector3();
+  const bearing = (quaternion) => {
+    ahead.set(1, 0, 0).applyQuaternion(quaternion);
+    return Math.atan2(ahead.y, ahead.x);
+  };
+  return {
+    mesh,
+    update(time) {
+      track.at(time - 0.25, before, q);
+      const was = bearing(q);
+      track.at(time, now, q);
+      const heading = bearing(q), c = Math.cos(heading), s = Math.sin(heading);
+      const north = (now.x - before.x) / 0.25, east = (now.y - before.y) / 0.25;
+      const turned = Math.atan2(Math.sin(heading - was), Math.cos(heading - was));
+      flow.set(north * c + east * s, east * c - north * s, turned / 0.25);
+      toWorld(now);
+      pose.set(now.x, now.z, c, s);
     },
   };
 }

@@ -1,0 +1,47 @@
+// Foam and ships' waves, drawn from above into a texture around what the camera looks at, which the sea reads. Red is
+// foam, green the height of the water [m], blue the shade beside hulls, alpha water that has been churned up.
+import * as THREE from "three";
+import { makeHullFoam, makeWake } from "./wake.js";
+
+export const FIELD_GLSL = /* glsl */ `
+  uniform sampler2D uField;
+  uniform vec4 uCover; // middle x, z, half the width [m], and the size of a texel [m]
+  vec4 fieldAt(vec2 p) {
+    vec2 q = (p - uCover.xy) / uCover.z;
+    float inside = smoothstep(1.0, 0.9, max(abs(q.x), abs(q.y)));
+    return inside * textureLod(uField, 0.5 + 0.5 * q, 0.0);
+  }
+  vec2 fieldSlope(vec2 p, vec4 here) {
+    return vec2(fieldAt(p + vec2(uCover.w, 0.0)).g - here.g, fieldAt(p + vec2(0.0, uCover.w)).g - here.g) / uCover.w;
+  }
+`;
+
+const LEAST = 260, MOST = 4500; // half the width of the texture [m]
+
+/** `ships`: [{node, info, track}]; returns the uniforms for the sea and what draws the texture. */
+export function makeFoam(ships, renderer) {
+  const target = new THREE.WebGLRenderTarget(1024, 1024, { type: THREE.HalfFloatType, depthBuffer: false });
+  const cover = { value: new THREE.Vector4(0, 0, 1000, 2) };
+  const parts = ships.flatMap((ship) => [makeWake(ship, cover), makeHullFoam(ship, cover)]);
+  const scene = new THREE.Scene().add(...parts.map(({ mesh }) => mesh));
+  const camera = new THREE.Camera();
+  const black = new THREE.Color(0, 0, 0);
+  return {
+    uniforms: { uField: { value: target.texture }, uCover: cover },
+    setPlain: (isPlain) => target.setSize(...(isPlain ? [512, 512] : [1024, 1024])),
+    /** At a time since the start, around a point in the page's world seen from a distance [m]. */
+    draw(time, middle, distance) {
+      const half = Math.min(MOST, Math.max(LEAST, 1.5 * distance));
+      const texel = (2 * half) / target.width;
+      cover.value.set(Math.round(middle.x / texel) * texel, Math.round(middle.z / texel) * texel, half, texel);
+      for (const part of parts) part.update(time);
+      const before = renderer.getClearColor(new THREE.Color()), alpha = renderer.getClearAlpha();
+      renderer.setRenderTarget(target);
+      renderer.setClearColor(black, 0);
+      renderer.clear();
+      renderer.render(scene, camera);
+      renderer.setRenderTarget(null);
+      renderer.setClearColor(before, alpha);
+    },
+  };
+}
