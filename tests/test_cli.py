@@ -363,15 +363,15 @@ def test_bad_usage_is_one_line(folder: Path, arguments: list[str], status: int, 
 
 
 def test_a_nan_in_mid_run_is_one_line_and_writes_nothing(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from shipcollision_fmu.cosim import simulate
+    from shipcollision_fmu.cosim import master
 
-    advance = simulate.ALGORITHMS["gauss-seidel"]
+    advance = master.ALGORITHMS["gauss-seidel"]
 
     def broken(system: object, t: float, h: float) -> None:
         system.states[1].outputs.values[0] = float("nan")  # type: ignore[attr-defined]  # a system of any master
         advance(system, t, h)  # type: ignore[arg-type]  # a system of any master
 
-    monkeypatch.setitem(simulate.ALGORITHMS, "gauss-seidel", broken)
+    monkeypatch.setitem(master.ALGORITHMS, "gauss-seidel", broken)
     result = called("run", "encounter.toml")
     assert result.exit_code == 1
     assert result.stderr.startswith("error: collision: target.position = [nan, 0.0, 0.0] at t = 0.0 s is not finite")
@@ -380,12 +380,12 @@ def test_a_nan_in_mid_run_is_one_line_and_writes_nothing(folder: Path, monkeypat
 
 
 def test_an_interrupted_run_writes_nothing(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from shipcollision_fmu.cosim import simulate
+    from shipcollision_fmu.cosim import master
 
     def interrupted(system: object, t: float, h: float) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setitem(simulate.ALGORITHMS, "gauss-seidel", interrupted)
+    monkeypatch.setitem(master.ALGORITHMS, "gauss-seidel", interrupted)
     result = called("run", "encounter.toml", "--in-process")
     assert result.exit_code == 130
     assert result.stderr.lstrip() == "error: interrupted; nothing is written\n"
@@ -395,15 +395,15 @@ def test_an_interrupted_run_writes_nothing(folder: Path, monkeypatch: pytest.Mon
 SIGNALLED = """
 import os, signal
 from pathlib import Path
-from shipcollision_fmu.cosim import fmu_files, simulate
+from shipcollision_fmu.cosim import fmu_files, master
 fmu_files.fmu_directory = lambda ships=(): Path({fmus!r})
 signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell that starts the tests may have it ignored
-advance = simulate.ALGORITHMS["gauss-seidel"]
+advance = master.ALGORITHMS["gauss-seidel"]
 def struck(system, t, h):
     if t > 0.2:
         os.kill(os.getpid(), signal.{signal})
     advance(system, t, h)
-simulate.ALGORITHMS["gauss-seidel"] = struck
+master.ALGORITHMS["gauss-seidel"] = struck
 """
 
 

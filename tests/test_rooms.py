@@ -26,7 +26,7 @@ NAME = PACKAGE.name
 
 FLOORS = (
     {"cli"},
-    {"study"},
+    {"live", "study"},
     {"packaging", "batch"},
     {"cosim"},
     {"encounters", "results", "compliance", "show"},

@@ -53,6 +53,11 @@ def make_case(scenario: Scenario, files: PreparedShips, separation: float | None
             f"{scenario.name}: [ships.{next(iter(scenario.tracks))}] follows a track, which encounters in one call "
             "cannot: take simulate()"
         )
+    if scenario.environment.changes:
+        raise ScenarioError(
+            f"{scenario.name}: [environment] has {len(scenario.environment.changes)} changes, but encounters in one "
+            "call keep their current and wind: remove changes, or take simulate()"
+        )
     numbers = _collision_numbers(scenario)
     ships = scenario.load_ships()
     order = {name: i for i, name in enumerate(ships)}
@@ -126,6 +131,11 @@ def _make_helm(table: ShipStart, L_pp: float, order: dict[str, int], step: float
         points = as_array(Point, (Point(*place) for place in (route.start, *route.waypoints)))
         helm.route = pointer(Route(points, len(route.waypoints), 0, route.lookahead, route.acceptance))
     if evasion is not None:
+        if table.evasion is not None and table.evasion.until is not None:
+            raise ScenarioError(
+                f"evasion: until = {table.evasion.until:g} s, but in one call an evasion has no end: remove until, or "
+                "take simulate()"
+            )
         revolutions = evasion.revolutions
         helm.evasion = pointer(
             Evasion(

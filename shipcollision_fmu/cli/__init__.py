@@ -2,7 +2,7 @@
 
 Exit status: 0 done, 1 the run or the check failed, 2 bad usage or input, 130 interrupted, 143 ended by SIGTERM.
 
-    runs.py, fmus.py, encounters.py, trials.py, studies.py, lists.py   the commands, grouped by subject
+    runs.py, live.py, fmus.py, encounters.py, trials.py, studies.py, lists.py  the commands, grouped by subject
     run_table.py      what `run` prints                    trial_table.py   what `trial` prints
     table.py          the form of all tables               console.py       stdout, and progress on stderr
     mistakes.py       one line for every mistake           options.py       options of several commands
@@ -19,6 +19,7 @@ from .. import __version__
 from .encounters import encounter, import_
 from .fmus import build, package, prepare, validate
 from .lists import scenarios, ships
+from .live import live
 from .mistakes import Commands
 from .runs import run, show
 from .studies import study
@@ -36,5 +37,5 @@ def main(ctx: click.Context) -> None:
         click.echo(ctx.get_help())
 
 
-for command in (build, encounter, import_, package, prepare, run, scenarios, ships, show, study, trial, validate):
+for command in (build, encounter, import_, live, package, prepare, run, scenarios, ships, show, study, trial, validate):
     main.add_command(command)

@@ -1,6 +1,7 @@
 """Scenarios run in time: a master, its components, the helms of the ships, and the finished run.
 
-    simulate.py         simulate(): a Scenario becomes a Run; the loop over the communication steps
+    simulate.py         simulate(): a Scenario becomes a Run
+    stepper.py          the instances of a scenario, advanced from communication point to point
     master.py           the two algorithms, gauss-seidel and jacobi; System and Wire
     wiring.py           a scenario becomes a System of connected instances; parameters.py has their parameters
     component.py        what a master asks of an instance, and a model in process that answers it
@@ -12,6 +13,7 @@
     helm.py             timed orders and steering of one ship; scenario_helm.py reads them from a scenario
       autopilot.py, route.py, evasion.py      the laws of steering
     recorder.py         writes down states and contacts at communication points: the Record of results/
+      row_log.py        rows of a growing table, in memory or in a temporary file
     interrupt.py        Ctrl-C waits for the end of the step
     run.py              Run: tables, events and files of a finished run
       run_repr.py, run_frames.py, run_page.py     as text and HTML, as data frames, as a page in a notebook

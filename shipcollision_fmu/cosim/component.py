@@ -102,6 +102,14 @@ class InProcessComponent:
         except ShipCollisionError as error:
             raise StepError(f"{self.name}: {error}") from None  # the model's message has the time
 
+    def save(self) -> dict[str, Any]:
+        """The whole state, as VariableAccess.save() gives it."""
+        return self._access.save()
+
+    def restore(self, state: Mapping[str, Any]) -> None:
+        """Back to a state that save() gave, exact to the bit."""
+        self._access.restore(state)
+
     def close(self) -> None:
         """See Component."""
         close_model = getattr(self._access.model, "close", None)  # the collision model holds a world of Bullet's

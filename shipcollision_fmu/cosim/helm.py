@@ -4,6 +4,7 @@
     heading     an ordered heading is held by the autopilot (autopilot.py)
     route       headings follow the waypoints (route.py) until a heading or a rudder is ordered
     evasion     goes before everything else, once it has begun (evasion.py)
+    changes     current and wind around the ship that change at given times go the same way
 
 `steer` is a pure function. The state from one communication point to the next is the HelmState that goes in and comes
 out, so a run can be repeated to the bit. SI units, radians; n is north, east.
@@ -11,7 +12,7 @@ out, so a run can be repeated to the bit. SI units, radians; n is north, east.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 from ..fmi.names import STATE
@@ -52,7 +53,8 @@ class Helm:
     """The helm of one ship, which writes its orders into `group`.
 
     `orders` (those to come) and `headings` by communication point; `own` and `other` are the buffers of the two ships'
-    states.
+    states. From point `evades_until` on there is no evasion. `changes` are the surroundings by the communication point
+    from which they act, written into `around`.
     """
 
     group: Group
@@ -63,30 +65,44 @@ class Helm:
     state: HelmState = field(default_factory=HelmState)
     own: Buffer | None = None
     other: Buffer | None = None
-    _last_order: Orders = (0.0, 0.0)
+    evades_until: int | None = None
+    around: Group | None = None
+    changes: dict[int, list[float]] = field(default_factory=dict)
+    last_order: Orders = (0.0, 0.0)
 
     def send(self, k: int) -> None:
         """Send the orders of communication point k to the ship; without steering only those that are new."""
+        change = self.changes.pop(k, None)
+        if change is not None and self.around is not None:
+            self.around.values[:] = change
+            self.around.write()
         is_new = self.load(k)
         if self.steering is None:
             if is_new:
                 self.group.write()
             return
+        if k == self.evades_until:
+            self.end_evasion()
         if k in self.headings:
             self.state = self.state._replace(heading=self.headings[k], on_route=False, integral=0.0)
         assert self.own is not None
         own = ShipState(*self.own[: len(STATE)])
         other = None if self.other is None else ShipState(*self.other[: len(STATE)])
-        orders, self.state = steer(self.steering, self.state, self._last_order, own, other, self.step)
+        orders, self.state = steer(self.steering, self.state, self.last_order, own, other, self.step)
         self.group.values[:] = list(orders)
         self.group.write()
+
+    def end_evasion(self) -> None:
+        """Steer as ordered from here on, without an evasion."""
+        if self.steering is not None:
+            self.steering, self.state = replace(self.steering, evasion=None), self.state._replace(evading=False)
 
     def load(self, k: int) -> bool:
         """Put the timed order of communication point k into the group's buffer; False when there is none."""
         order = self.orders.pop(k, None)
         if order is None:
             return False
-        self._last_order = order[0], order[1]
+        self.last_order = order[0], order[1]
         self.group.values[:] = order
         return True
 

@@ -7,18 +7,41 @@ from math import radians
 from ..collision.feedback import PRESCRIBED
 from ..collision.obstacles import format_obstacles
 from ..fmi.names import STATE
+from ..scenario.order_schedule import find_point
 from ..scenario.scenario import Scenario
+from ..scenario.tables.environment import EnvironmentChange, WindTable
 from ..scenario.tables.ship_start import ShipStart
 from .component import Value
 
-__all__ = ["collision_parameters", "ship_parameters", "surroundings"]
+__all__ = [
+    "change_surroundings", "changed_surroundings", "collision_parameters", "ship_parameters", "surroundings",
+]  # fmt: skip
 
 
 def surroundings(scenario: Scenario) -> list[float]:
     """Current and wind around every ship, in the order of SURROUNDINGS."""
-    wind = scenario.environment.wind
-    speed, comes_from = (0.0, 0.0) if wind is None else (wind.speed, radians(wind.from_deg))
-    return [*map(float, scenario.environment.current), float(speed), comes_from]
+    around = scenario.environment
+    return [*map(float, around.current), *_wind_values(around.wind)]
+
+
+def changed_surroundings(scenario: Scenario) -> dict[int, list[float]]:
+    """The same by communication point from which they act, for the changes of [environment]. Of changes that fall on
+    one point the last counts."""
+    values, changes = surroundings(scenario), dict[int, list[float]]()
+    for change in scenario.environment.changes:
+        values = change_surroundings(values, change)
+        changes[find_point(change.time, scenario.step)] = values
+    return changes
+
+
+def change_surroundings(values: list[float], change: EnvironmentChange) -> list[float]:
+    """The surroundings after a change of the surroundings `values`."""
+    current = values[:2] if change.current is None else list(map(float, change.current))
+    return [*current, *(values[2:] if change.wind is None else _wind_values(change.wind))]
+
+
+def _wind_values(wind: WindTable | None) -> list[float]:
+    return [0.0, 0.0] if wind is None else [float(wind.speed), radians(wind.from_deg)]
 
 
 def ship_parameters(scenario: Scenario, name: str, ship: ShipStart) -> dict[str, Value]:

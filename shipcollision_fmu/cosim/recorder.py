@@ -7,8 +7,8 @@ and contact points only while there are any: reading all of them at every step w
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
-from typing import Any
+from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -19,26 +19,59 @@ from ..results.record import CONTACT_COLUMNS, SIGNALS, CollisionStart, Record
 from ..ship.frames import Array
 from .component import Group
 from .master import System
+from .row_log import RowLog
 
-__all__ = ["Recorder"]
+__all__ = ["CollisionSoFar", "EndValues", "Recorder", "RecorderMark"]
+
+ENERGY = CONTACT_COLUMNS.index("energy")
+CONTACT_ROOM = 64
+"""Rows for contact points at first; they double when they are full."""
 
 
-@dataclass
-class _ContactLog:
-    rows: list[tuple[Any, ...]] = field(default_factory=list)
-    issued: dict[int, Array] = field(default_factory=dict)
-    starts: dict[int, CollisionStart] = field(default_factory=dict)
+class EndValues(NamedTuple):
+    """What a record has of its last communication point alone."""
+
+    issued: Array
+    applied: Array
+    fender: tuple[float, float]
+    solver: tuple[int, int]
+
+
+class CollisionSoFar(NamedTuple):
+    """A collision while a run goes on: its ships, the energy dissipated so far [J], and when they last touched [s]."""
+
+    ship_a: str
+    ship_b: str
+    energy: float
+    last: float
+
+
+class RecorderMark(NamedTuple):
+    """What a recorder had recorded at a communication point: lengths of its tables, starts, and least clearance."""
+
+    rows: int
+    contacts: int
+    issued: int
+    starts: dict[int, CollisionStart]
+    collisions: dict[int, CollisionSoFar]
+    least: float
+    nearest: list[int]
 
 
 class Recorder:
-    """Records `steps` steps of `step` [s] of a system: its ships by name, and the obstacles that they meet."""
+    """Records a system at steps of `step` [s]: its ships by name, and the obstacles that they meet.
+
+    There is room for `steps` steps at first; more may come. With `spool`, a folder, tables are in temporary files.
+    `starts` and `collisions` have the collisions so far by their number.
+    """
 
     def __init__(
-        self, system: System, names: list[str], step: float, steps: int, obstacles: Sequence[str] = ()
-    ) -> None:
+        self, system: System, names: list[str], step: float, steps: int, obstacles: Sequence[str] = (),
+        spool: Path | None = None,
+    ) -> None:  # fmt: skip
         self._names, self._step = names, step
         self._bodies = [*names, *obstacles]  # as the collision FMU counts them
-        self._state_rows = np.zeros((steps + 1, 1 + len(names) * len(STATE)))
+        self._state_rows = RowLog(np.float64, 1 + len(names) * len(STATE), steps + 1, spool)
         self._buffers = [np.ctypeslib.as_array(wire.outputs.values) for wire in system.states]
         collision = system.collision
         slots = [contact_point(i) for i in range(1, contact_point_count(len(names)) + 1)]
@@ -50,19 +83,29 @@ class Recorder:
         self._signal_group = collision.reals(SIGNALS)
         self._fender = collision.reals(named("fender", ("stored", "dissipated")))
         self._solver = collision.integers(["solver.unconverged", "solver.scaled"])
-        self._signal_rows = np.zeros((steps + 1, 1 + len(SIGNALS)))
-        self._log = _ContactLog()
+        self._signal_rows = RowLog(np.float64, 1 + len(SIGNALS), steps + 1, spool)
+        text = f"U{max(map(len, self._bodies))}"
+        contact_type = [
+            ("time", np.float64), ("ship_a", text), ("ship_b", text), ("impact", np.int64), ("scratch", np.int64),
+            *((column, np.float64) for column in CONTACT_COLUMNS),
+        ]  # fmt: skip
+        self._contact_rows = RowLog(contact_type, room=CONTACT_ROOM, spool=spool)
+        self._issued_rows = RowLog(np.float64, 1 + 6 * len(names), CONTACT_ROOM, spool)
+        self._row = np.zeros(1 + len(names) * len(STATE))
+        self.starts: dict[int, CollisionStart] = {}
+        self.collisions: dict[int, CollisionSoFar] = {}
         self._least, self._nearest = float("inf"), list[int]()
 
     def record(self, k: int) -> None:
-        """Record communication point k, whose values are in the wires."""
-        row = self._state_rows[k]
+        """Record communication point k, the next one, whose values are in the wires."""
+        row = self._row
         row[0] = round(k * self._step, 9)  # 27.15, not 27.150000000000002
         width = len(STATE)
         for i, buffer in enumerate(self._buffers):
             row[1 + i * width : 1 + (i + 1) * width] = buffer[:width]
+        self._state_rows.append(row)
         self._signal_group.read()
-        self._signal_rows[k] = (row[0], *self._signal_group.values)
+        self._signal_rows.append((row[0], *self._signal_group.values))
         self._counts.read()
         count, *nearest = self._counts.values
         if (clearance := self._signal_group.values[0]) < self._least:
@@ -70,32 +113,78 @@ class Recorder:
         if count > 0:
             self._record_contacts(k, count)
 
-    def build_record(self) -> Record:
-        """The record of the whole run, at its end."""
-        states = _table(self._state_rows, [f"{name}.{variable}" for name in self._names for variable in STATE])
-        signals = _table(self._signal_rows, SIGNALS)
-        text = f"U{max(map(len, self._bodies))}"
-        contact_type = [
-            ("time", np.float64), ("ship_a", text), ("ship_b", text), ("impact", np.int64), ("scratch", np.int64),
-            *((column, np.float64) for column in CONTACT_COLUMNS),
-        ]  # fmt: skip
-        dissipated, normal, tangential = (float(signals[column][-1]) for column in SIGNALS[1:])
+    @property
+    def clearance(self) -> float:
+        """The clearance at the last point that was recorded [m], capped."""
+        return float(self._signal_group.values[0])
+
+    @property
+    def dissipated(self) -> float:
+        """The energy dissipated in contact up to that point [J]."""
+        return float(self._signal_group.values[1])
+
+    @property
+    def contact_count(self) -> int:
+        """The number of contact points at that point."""
+        return int(self._counts.values[0])
+
+    @property
+    def nearest(self) -> tuple[str, ...]:
+        """The names of the pair with that clearance; empty beyond the cap."""
+        return tuple(self._bodies[ship - 1] for ship in self._counts.values[1:] if ship > 0)
+
+    def mark(self) -> RecorderMark:
+        """What is recorded so far, for go_back()."""
+        return RecorderMark(
+            len(self._state_rows), len(self._contact_rows), len(self._issued_rows), dict(self.starts),
+            dict(self.collisions),            self._least, list(self._nearest),
+        )  # fmt: skip
+
+    def go_back(self, mark: RecorderMark) -> None:
+        """Forget what was recorded after a mark. The components are to be at the mark already."""
+        self._state_rows.truncate(mark.rows)
+        self._signal_rows.truncate(mark.rows)
+        self._contact_rows.truncate(mark.contacts)
+        self._issued_rows.truncate(mark.issued)
+        self.starts, self.collisions = dict(mark.starts), dict(mark.collisions)
+        self._least, self._nearest = mark.least, list(mark.nearest)
+        self._signal_group.read()
+        self._counts.read()
+
+    def read_end(self) -> EndValues:
+        """What a record that ended at the last point would have of this point."""
         stored, lost = _read(self._fender)
         unconverged, scaled = _read(self._solver)
+        return EndValues(
+            np.array(_read(self._issued)).reshape(-1, 6), np.array([buffer[len(STATE) :] for buffer in self._buffers]),
+            (stored, lost), (unconverged, scaled),
+        )  # fmt: skip
+
+    def build_record(self, end: EndValues | None = None) -> Record:
+        """The record of the whole run, at its end; `end` where components have gone beyond the last point recorded."""
+        end = end or self.read_end()
+        state_columns = [f"{name}.{variable}" for name in self._names for variable in STATE]
+        signals = _table(self._signal_rows.build_array(), SIGNALS)
+        dissipated, normal, tangential = (float(signals[column][-1]) for column in SIGNALS[1:])
         return Record(
-            states=states,
+            states=_table(self._state_rows.build_array(), state_columns),
             signals=signals,
-            contacts=np.array(self._log.rows, dtype=contact_type),
-            issued=self._log.issued,
-            starts=self._log.starts,
+            contacts=self._contact_rows.build_array(),
+            issued={int(row[0]): row[1:].reshape(-1, 6) for row in self._issued_rows.build_array()},
+            starts=self.starts,
             energy=(dissipated, normal, tangential),
-            fender=(stored, lost),
-            solver=(unconverged, scaled),
-            issued_at_end=np.array(_read(self._issued)).reshape(-1, 6),
-            applied=np.array([buffer[len(STATE) :] for buffer in self._buffers]),
+            fender=end.fender,
+            solver=end.solver,
+            issued_at_end=end.issued,
+            applied=end.applied,
             clearance=self._least,
             nearest=tuple(self._bodies[ship - 1] for ship in self._nearest if ship > 0),
         )
+
+    def close(self) -> None:
+        """Remove the temporary files. The record stays valid."""
+        for log in (self._state_rows, self._signal_rows, self._contact_rows, self._issued_rows):
+            log.close()
 
     def _record_contacts(self, k: int, count: int) -> None:
         time, width, ids = round(k * self._step, 9), len(CONTACT_COLUMNS), len(CONTACT_INTEGERS)
@@ -104,10 +193,14 @@ class Recorder:
         for i in range(count):
             a, b, impact, scratch = self._numbers.values[i * ids : (i + 1) * ids]
             values = self._reals.values[i * width : (i + 1) * width]
-            if impact > 0 and impact not in self._log.starts:
-                self._log.starts[impact] = self._read_start(i)
-            self._log.rows.append((time, self._bodies[a - 1], self._bodies[b - 1], impact, scratch, *values))
-        self._log.issued[k] = np.array(_read(self._issued)).reshape(-1, 6)
+            if impact > 0:
+                if impact not in self.starts:
+                    self.starts[impact] = self._read_start(i)
+                before = self.collisions.get(impact)
+                energy = values[ENERGY] + (before.energy if before else 0.0)
+                self.collisions[impact] = CollisionSoFar(self._bodies[a - 1], self._bodies[b - 1], energy, time)
+            self._contact_rows.append((time, self._bodies[a - 1], self._bodies[b - 1], impact, scratch, *values))
+        self._issued_rows.append((k, *_read(self._issued)))
 
     def _read_start(self, i: int) -> CollisionStart:
         """How the collision of contact point i, from 0, began."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import hypot, radians
 
 from ..fmi.names import ORDERS
-from ..scenario.order_schedule import schedule_headings, schedule_orders
+from ..scenario.order_schedule import find_point, schedule_headings, schedule_orders
 from ..scenario.tables.autopilot import AutopilotTable, RouteTable
 from ..scenario.tables.evasion import EvasionTable
 from ..scenario.tables.ship_start import ShipStart
@@ -15,7 +15,7 @@ from .evasion import Evasion
 from .helm import Helm, HelmState, Steering
 from .route import Route
 
-__all__ = ["build_helm", "build_steering"]
+__all__ = ["build_autopilot", "build_helm", "build_steering"]
 
 RATE_GAIN = 2.0
 """Default K_d / K_p, in lengths sailed: about what a tanker takes to answer its helm. Less, and it overshoots."""
@@ -32,6 +32,8 @@ def build_helm(start: ShipStart, L_pp: float, ship: Component, step: float) -> H
     steering = build_steering(start, L_pp)
     if steering is None:
         return helm
+    if start.evasion is not None and start.evasion.until is not None:
+        helm.evades_until = find_point(start.evasion.until, step)
     helm.headings = dict(schedule_headings(start, step))
     helm.state, helm.steering = HelmState(on_route=steering.route is not None), steering
     return helm
@@ -42,10 +44,11 @@ def build_steering(start: ShipStart, L_pp: float) -> Steering | None:
     if start.route is None and start.evasion is None and all(order.heading_deg is None for order in start.orders):
         return None
     route = None if start.route is None else _route(start.route, start, L_pp)
-    return Steering(_autopilot(start, L_pp), route, None if start.evasion is None else _evasion(start.evasion))
+    return Steering(build_autopilot(start, L_pp), route, None if start.evasion is None else _evasion(start.evasion))
 
 
-def _autopilot(start: ShipStart, L_pp: float) -> Autopilot:
+def build_autopilot(start: ShipStart, L_pp: float) -> Autopilot:
+    """The autopilot of a ship of length L_pp [m]; gains that its table leaves out follow from length and speed."""
     table = start.autopilot or AutopilotTable()
     rate_gain = table.rate_gain
     if rate_gain is None:

@@ -29,14 +29,12 @@ from .earlier_run import refuse_foreign_files
 from .factories import Factories, fmu_factories, model_factories
 from .fmu_files import ready_fmus
 from .interrupt import delay_interrupts
-from .master import ALGORITHMS
 from .native_fmu_files import write_native_fmus
 from .prepared_files import PreparedFiles, prepare_files
-from .recorder import Recorder
 from .run import RUN_FILES, Run
-from .wiring import connect
+from .stepper import Stepper
 
-__all__ = ["ENGINES", "Progress", "run_steps", "simulate"]
+__all__ = ["ENGINES", "Progress", "build_run", "run_steps", "simulate"]
 
 ENGINES = ("python", "native")
 """What the FMUs of a run have inside."""
@@ -89,7 +87,7 @@ def simulate(
         else:
             factories = fmu_factories(ready_fmus(names, fmi), stack, names, fmi)
         record, wall_time = run_steps(scenario, ships, factories, progress, prepared)
-    run = _run(scenario, ships, record, _name_mode(engine, fmi, in_process), wall_time, engine)
+    run = build_run(scenario, ships, record, _name_mode(engine, fmi, in_process), wall_time, engine)
     if out is not None:
         run.write(out)
     return run
@@ -119,7 +117,7 @@ def _name_mode(engine: str, fmi: int, in_process: bool) -> str:
     return kind if fmi == 2 else f"{kind}, FMI {fmi}.0"
 
 
-def _run(
+def build_run(
     scenario: Scenario,
     ships: Mapping[str, Ship],
     record: Record,
@@ -127,6 +125,7 @@ def _run(
     wall_time: float,
     engine: str = "python",
 ) -> Run:
+    """The run of a record; `mode` says in words what ran, `wall_time` how long [s]."""
     free = {name: start.free for name, start in scenario.ships.items()}
     headings = {name: radians(table.heading_deg) for name, table in scenario.obstacles.items()}
     events = build_events(record, ships, free, scenario.collision.damage, headings, scenario.tracks)
@@ -154,18 +153,12 @@ def run_steps(
 ) -> tuple[Record, float]:
     """The record of a run with components from `factories`, and the wall time of the step loop [s]; prepared: files of
     native FMUs."""
-    system, helms = connect(scenario, ships, *factories, prepared)
-    recorder = Recorder(system, list(scenario.ships), scenario.step, scenario.steps, list(scenario.obstacles))
-    advance, step, steps = ALGORITHMS[scenario.algorithm], scenario.step, scenario.steps
-    recorder.record(0)
+    stepper, steps = Stepper(scenario, ships, factories, prepared), scenario.steps
     begin = perf_counter()
     with delay_interrupts() as raise_if_interrupted:
-        for k in range(steps):
-            for helm in helms:
-                helm.send(k)
-            advance(system, k * step, step)
-            recorder.record(k + 1)
+        for _ in range(steps):
+            stepper.advance()
             if progress is not None:
-                progress(k + 1, steps)
+                progress(stepper.k, steps)
             raise_if_interrupted()
-    return recorder.build_record(), perf_counter() - begin
+    return stepper.recorder.build_record(), perf_counter() - begin

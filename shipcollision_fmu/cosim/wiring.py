@@ -20,7 +20,7 @@ from .component import Component
 from .factories import MakeCollision, MakeShip
 from .helm import Helm
 from .master import System, Wire
-from .parameters import collision_parameters, ship_parameters, surroundings
+from .parameters import changed_surroundings, collision_parameters, ship_parameters, surroundings
 from .prepared_files import PreparedFiles
 from .scenario_helm import build_helm
 from .track_component import TrackComponent
@@ -43,6 +43,7 @@ def connect(
     end = scenario.step * scenario.steps
     instances: dict[str, Component] = {}
     helms: list[Helm] = []
+    changes = changed_surroundings(scenario)
     for name, start in scenario.ships.items():
         if start.recorded is not None:
             instances[name] = TrackComponent(name, start.recorded)
@@ -50,7 +51,8 @@ def connect(
         instances[name] = make_ship(name)
         helm = build_helm(start, ships[name].L_pp, instances[name], scenario.step)
         around = instances[name].reals(SURROUNDINGS)
-        around.values[:] = surroundings(scenario)
+        around.values[:] = changes.get(0, surroundings(scenario))
+        helm.around, helm.changes = around, dict(changes)
         inputs = [around, helm.group] if helm.load(0) else [around]
         instead = prepared.list_ship_values(name) if prepared is not None else {}
         instances[name].initialise({**ship_parameters(scenario, name, start), **instead}, end, inputs)

@@ -14,12 +14,12 @@ the format cannot hold. The host chooses the algorithm that steps the instances.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import isclose
 
 from ..cosim.component import Value
-from ..cosim.parameters import collision_parameters, ship_parameters, surroundings
+from ..cosim.parameters import changed_surroundings, collision_parameters, ship_parameters, surroundings
 from ..cosim.prepared_files import PreparedFiles, prepare_files
 from ..errors import ScenarioError
 from ..fmi.names import ANSWERS, APPLIED, ORDERS, STATE, SURROUNDINGS, named
@@ -154,7 +154,7 @@ def _build_ship(
     at_start = next((ordered for k, ordered in schedule_orders(ship, scenario.step) if k == 0), [0.0, 0.0])
     inputs: dict[str, Value] = {
         **dict(zip(ORDERS, at_start, strict=True)),
-        **dict(zip(SURROUNDINGS, surroundings(scenario), strict=True)),
+        **dict(zip(SURROUNDINGS, changed_surroundings(scenario).get(0, surroundings(scenario)), strict=True)),
     }
     start = {**parameters, **inputs}
     files = packed.of_ships[name]
@@ -187,19 +187,26 @@ def _list_connections(scenario: Scenario, name: str) -> list[Connection]:
 
 
 def _list_orders(scenario: Scenario) -> tuple[TimedOrder, ...]:
-    """Rudder and propeller orders after time 0, only where they change."""
+    """Rudder and propeller orders, current and wind after time 0, only where they change."""
     found: list[TimedOrder] = []
+    changes = list(changed_surroundings(scenario).items())
     for name, start in scenario.ships.items():
-        now = [0.0, 0.0]
-        for k, ordered in schedule_orders(start, scenario.step):
-            if k > 0:
-                found += [
-                    TimedOrder(round(k * scenario.step, 9), name, variable, value)
-                    for variable, value, before in zip(ORDERS, ordered, now, strict=True)
-                    if not isclose(value, before, rel_tol=0.0, abs_tol=0.0)
-                ]
-            now = ordered
+        orders = schedule_orders(start, scenario.step)
+        found += _list_changes(name, ORDERS, orders, [0.0, 0.0], scenario.step)
+        found += _list_changes(name, SURROUNDINGS, changes, surroundings(scenario), scenario.step)
     return tuple(sorted(found, key=lambda order: order.time))
+
+
+def _list_changes(
+    ship: str, variables: Sequence[str], schedule: Sequence[tuple[int, list[float]]], now: list[float], step: float
+) -> Iterator[TimedOrder]:
+    """Values of inputs of a ship after time 0, which are `now` before the first, by communication point."""
+    for k, values in schedule:
+        if k > 0:
+            for variable, value, before in zip(variables, values, now, strict=True):
+                if not isclose(value, before, rel_tol=0.0, abs_tol=0.0):
+                    yield TimedOrder(round(k * step, 9), ship, variable, value)
+        now = values
 
 
 def _describe_helm(name: str, start: ShipStart) -> list[str]:

@@ -10,7 +10,7 @@ from math import ceil, radians
 
 from .tables.ship_start import ShipStart
 
-__all__ = ["schedule_headings", "schedule_orders"]
+__all__ = ["find_point", "schedule_headings", "schedule_orders"]
 
 FORGIVEN = 1e-9
 """Fraction of a step by which an order may come late, so that 0.3 s is 6 steps of 0.05 s in floating point."""
@@ -26,7 +26,7 @@ def schedule_orders(start: ShipStart, step: float) -> list[tuple[int, list[float
     for order in start.orders:
         rudder = rudder if order.rudder_deg is None else radians(order.rudder_deg)
         revolutions = revolutions if order.rev_per_s is None else float(order.rev_per_s)
-        schedule[_point(order.time, step)] = [rudder, revolutions]
+        schedule[find_point(order.time, step)] = [rudder, revolutions]
     return list(schedule.items())
 
 
@@ -36,9 +36,10 @@ def schedule_headings(start: ShipStart, step: float) -> list[tuple[int, float | 
     for order in start.orders:
         if order.heading_deg is not None or order.rudder_deg is not None:
             heading = None if order.heading_deg is None else radians(order.heading_deg)
-            schedule[_point(order.time, step)] = heading
+            schedule[find_point(order.time, step)] = heading
     return list(schedule.items())
 
 
-def _point(time: float, step: float) -> int:
+def find_point(time: float, step: float) -> int:
+    """The communication point at which an order or a change of that time [s] acts: the first at or after it."""
     return ceil(time / step - FORGIVEN)

@@ -39,9 +39,11 @@ def follow_tracks(
                 recordings[ship.track.file] = read_recording(directory / ship.track.file)
             recording = recordings[ship.track.file]
             at = _require_place(place, recording, ship.track.mmsi)
-            begin = at.start.timestamp()
+            begin, until = at.start.timestamp(), ship.track.until or duration
+            if until < duration:
+                raise ScenarioError(f"until = {until:g} s is before the end: must be >= duration = {duration:g} s")
             track = build_track(
-                recording, ship.track.mmsi, TangentPlane(at.latitude, at.longitude), Period(begin, begin + duration)
+                recording, ship.track.mmsi, TangentPlane(at.latitude, at.longitude), Period(begin, begin + until)
             )
             ship.follow(track)
             if ship.ship is None:

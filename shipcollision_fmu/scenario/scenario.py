@@ -78,6 +78,12 @@ class Scenario(Table):
         ship = self.ships[name].ship
         return self._estimated_ships[name] if ship is None else _resolve(ship, self._directory)
 
+    def track_file(self, name: str) -> str:
+        """The absolute path of the recording that ship `name` follows, which has a track."""
+        track = self.ships[name].track
+        assert track is not None
+        return str((self._directory / track.file).resolve())
+
     @property
     def tracks(self) -> dict[str, Track]:
         """The tracks of the ships that have one, by name."""
@@ -197,7 +203,15 @@ class Scenario(Table):
             if ship.evasion is not None and ship.evasion.of not in set(self.ships) - {name}:
                 of, others = ship.evasion.of, ", ".join(other for other in self.ships if other != name)
                 raise ValueError(f"[ships.{name}] evasion: of = {of!r} is no other ship here: take {others}")
-        acting = {"current": any(self.environment.current), "wind": self.environment.wind is not None}
+        changes = self.environment.changes
+        if changes and changes[-1].time > end:
+            raise ValueError(
+                f"[environment] changes: time {changes[-1].time:g} s is after the end: must be <= {end:g} s"
+            )
+        acting = {
+            "current": any(self.environment.current), "wind": self.environment.wind is not None,
+            "changes": bool(changes),
+        }  # fmt: skip
         for name, acts in acting.items():
             if acts and not any(ship.hydrodynamics for ship in self.ships.values()):
                 raise ValueError(

@@ -8,7 +8,7 @@ from typing import Any
 
 from shipcollision_fmu.cosim.component import Component, InProcessComponent
 from shipcollision_fmu.cosim.factories import Factories, fmu_factories
-from shipcollision_fmu.cosim.simulate import _run, run_steps
+from shipcollision_fmu.cosim.simulate import build_run, run_steps
 from shipcollision_fmu.fmi.framed_collision import Frames
 from shipcollision_fmu.fmi.ship_collision import INTERFACE as COLLISION
 from shipcollision_fmu.fmi.ship_manoeuvring import INTERFACE as MANOEUVRING
@@ -47,4 +47,4 @@ def simulate_native_fmus(scenario: Scenario, ship: Path, collision: Path) -> Any
 def _finish(scenario: Scenario, factories: Factories) -> Any:
     ships = scenario.load_ships()
     record, _ = run_steps(scenario, ships, factories)
-    return _run(scenario, ships, record, "native", 1.0)
+    return build_run(scenario, ships, record, "native", 1.0)

@@ -15,7 +15,7 @@ from jsonschema import validate
 
 from shipcollision_fmu import load_scenario, load_ship, simulate
 from shipcollision_fmu.collision.geometry import adapter
-from shipcollision_fmu.cosim import simulate as module
+from shipcollision_fmu.cosim import master
 from shipcollision_fmu.cosim.run import Run
 from shipcollision_fmu.errors import HostError, ScenarioError, StepError
 from shipcollision_fmu.ship.degrees_of_freedom import free_inverse
@@ -248,14 +248,14 @@ def test_a_run_that_fails_writes_nothing_and_leaves_nothing(
     temporary = tmp_path / "temporary"
     temporary.mkdir()
     monkeypatch.setattr("tempfile.tempdir", str(temporary))
-    advance = module.ALGORITHMS["gauss-seidel"]
+    advance = master.ALGORITHMS["gauss-seidel"]
 
     def broken(system: object, t: float, h: float) -> None:
         if t > 0.5:
             system.states[0].outputs.values[0] = float("nan")  # type: ignore[attr-defined]  # a system of any master
         advance(system, t, h)  # type: ignore[arg-type]  # a system of any master
 
-    monkeypatch.setitem(module.ALGORITHMS, "gauss-seidel", broken)
+    monkeypatch.setitem(master.ALGORITHMS, "gauss-seidel", broken)
     with pytest.raises(StepError, match=r"collision: own.position = \[nan, .*\] at t = 0.55.* s is not finite"):
         ran(scenario_file(), in_process=in_process, out=tmp_path / "out")
     assert not (tmp_path / "out").exists()

@@ -22,6 +22,9 @@ class TrackTable(Table):
     mmsi: int | None = Field(
         default=None, ge=0, le=LARGEST_MMSI, description="the MMSI of the ship; needed where the file has several"
     )
+    until: float | None = Field(
+        default=None, gt=0, description="the time [s] to which the file is read; default: the duration of the scenario"
+    )
 
 
 class AisTable(Table):

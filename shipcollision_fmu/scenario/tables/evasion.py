@@ -24,6 +24,11 @@ class EvasionTable(Table):
         ge=-90, le=90, description="the ordered rudder angle, positive to starboard [deg], e.g. 35.0"
     )
     rev_per_s: float | None = revolutions()
+    until: float | None = Field(
+        default=None,
+        ge=0,
+        description="the time [s] at which it ends, or from which it no longer begins; default never",
+    )
 
     @model_validator(mode="after")
     def _check_trigger(self) -> EvasionTable:

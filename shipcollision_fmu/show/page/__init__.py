@@ -24,7 +24,7 @@ from ..scene.palette import choose_topsides
 from ..scene.scene import Scene, Ship, load_scene
 from ..scene.signals import Signals
 
-__all__ = ["PAGE", "build_page", "write_page"]
+__all__ = ["PAGE", "build_page", "describe_ship", "write_page"]
 
 PAGE = "replay.html"
 
@@ -85,7 +85,7 @@ def _collect_data(scene: Scene) -> dict[str, Any]:
         "name": scene.name,
         "version": __version__,
         "is_native": scene.is_native,
-        "ships": [_describe_ship(i, ship) for i, ship in enumerate(scene.ships)],
+        "ships": [describe_ship(i, ship) for i, ship in enumerate(scene.ships)],
         "scratches": [
             {"id": s.id, "ship": s.ship, "other": s.other, "times": s.times.tolist()} for s in scene.scratches
         ],
@@ -94,7 +94,7 @@ def _collect_data(scene: Scene) -> dict[str, Any]:
     }
 
 
-def _describe_ship(index: int, ship: Ship) -> dict[str, Any]:
+def describe_ship(index: int, ship: Ship) -> dict[str, Any]:
     """Names, colour and sizes of a ship; `height` of the deck above the waterline [m]."""
     return {
         "name": ship.name,

@@ -1,0 +1,9 @@
+"""Live runs: a scenario on the wall clock, steered by people and programs.
+
+    session/     the simulation in a thread of its own: commands in, snapshots out
+    server/      pages and WebSocket on localhost
+
+Data flow: clients -> commands -> Session -> Snapshot -> clients; at the end an ordinary run folder and scenario.toml.
+Needs the extra `live`, but for session/. Imports from: cosim, results and show (pages, the scene), scenario, fmi
+(names), ship. Used by: cli.
+"""

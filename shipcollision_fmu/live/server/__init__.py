@@ -1,0 +1,1 @@
+"""Pages and WebSocket of a live run."""

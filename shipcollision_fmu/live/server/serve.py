@@ -1,0 +1,125 @@
+"""Serves a live run until it has ended and its pages have had the replay.
+
+Ctrl-C ends the run; a second Ctrl-C does not wait for the pages.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import signal
+import socket
+from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
+
+import uvicorn
+
+from ...errors import HostError
+from ..session.commands import End
+from .app import LiveApp
+
+__all__ = ["MOST_MESSAGE", "bind", "make_server", "serve"]
+
+MOST_MESSAGE = 16_384
+"""Bytes in a message of a client. An order has some hundred."""
+MOST_CONNECTIONS = 200
+"""Connections at a time, of browsers that fetch and of clients."""
+LINGER = 60.0
+"""[s] for which pages may still fetch the replay after the end of the run."""
+GOODBYE = 1.0
+"""[s] for the last messages."""
+
+
+def bind(host: str, port: int) -> socket.socket:
+    """A socket that listens at that address. Raises HostError when it is in use or not this machine's."""
+    try:
+        family = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0][0]
+        listening = socket.socket(family, socket.SOCK_STREAM)
+    except OSError as error:
+        raise HostError(f"--host {host}: {error.strerror or error}; give an address of this machine") from None
+    listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    try:
+        listening.bind((host, port))
+        listening.listen(128)
+    except OSError as error:
+        listening.close()
+        remedy = "give another with --port, or --port 0 for any that is free"
+        raise HostError(f"--port {port} at {host}: {error.strerror or error}; {remedy}") from None
+    return listening
+
+
+class _Server(uvicorn.Server):
+    """uvicorn's server, which leaves signals to us."""
+
+    def capture_signals(self) -> AbstractContextManager[None]:  # type: ignore[override]  # a generator there
+        return nullcontext()
+
+
+def make_server(app: LiveApp) -> uvicorn.Server:
+    """The server of the application, with its limits; it writes no log."""
+    return _Server(
+        uvicorn.Config(
+            app.asgi, log_config=None, log_level="critical", access_log=False, lifespan="off", server_header=False,
+            ws="websockets-sansio", ws_max_size=MOST_MESSAGE, ws_per_message_deflate=False, ws_ping_interval=10.0,
+            ws_ping_timeout=10.0, limit_concurrency=MOST_CONNECTIONS, timeout_keep_alive=5,
+            timeout_graceful_shutdown=2,
+        )
+    )  # fmt: skip
+
+
+def serve(app: LiveApp, listening: socket.socket, ready: Callable[[], None] | None = None) -> None:
+    """Run session and server to the end. `ready` is called when pages can be asked for."""
+    asyncio.run(_serve(app, listening, ready))
+
+
+async def _serve(app: LiveApp, listening: socket.socket, ready: Callable[[], None] | None) -> None:
+    server, interrupted = make_server(app), asyncio.Event()
+    loop = asyncio.get_running_loop()
+
+    def interrupt() -> None:
+        interrupted.set()
+        app.session.submit(End("interrupted"))
+
+    restore = _answer_signals(loop, interrupt)
+    app.hub.connect()
+    app.session.start()
+    serving = asyncio.create_task(server.serve(sockets=[listening]))
+    try:
+        if ready is not None:
+            ready()
+        await app.hub.has_ended.wait()
+        await _linger(app, interrupted)
+    finally:
+        server.should_exit = True
+        await serving
+        restore()
+
+
+async def _linger(app: LiveApp, interrupted: asyncio.Event) -> None:
+    """Wait until the pages have gone to the replay, or until Ctrl-C."""
+    loop = asyncio.get_running_loop()
+    end = loop.time() + LINGER
+    await asyncio.sleep(GOODBYE)
+    while app.hub.clients and loop.time() < end and not interrupted.is_set():
+        await asyncio.sleep(0.1)
+    if not interrupted.is_set():
+        await asyncio.sleep(GOODBYE)
+
+
+def _answer_signals(loop: asyncio.AbstractEventLoop, interrupt: Callable[[], None]) -> Callable[[], None]:
+    """Let SIGINT and SIGTERM end the run; the function that puts back what was."""
+    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    taken = [number for number, handler in before.items() if handler not in (signal.SIG_IGN, None)]
+    for number in taken:
+        try:
+            loop.add_signal_handler(number, interrupt)
+        except (NotImplementedError, RuntimeError, ValueError):  # Windows; a thread that is not the main one
+            try:
+                signal.signal(number, lambda *_: loop.call_soon_threadsafe(interrupt))
+            except ValueError:
+                return lambda: None
+
+    def restore() -> None:
+        for number in taken:
+            signal.signal(number, before[number])
+
+    return restore

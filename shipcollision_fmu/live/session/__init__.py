@@ -1,0 +1,9 @@
+"""The simulation of a live run, in a thread that owns the models.
+
+session.py         Session: the thread; takes commands, publishes snapshots and events, ends with a run folder
+live_run.py        LiveRun: the same without clock and thread
+bridge.py          orders, failures and their log for one ship; ship_limits.py checks them
+scenario_text.py   the scenario file that gives the run again
+pacer.py           when the next step is due
+commands.py        what clients may ask for;   snapshot.py   what they see
+"""

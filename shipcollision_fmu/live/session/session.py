@@ -1,0 +1,410 @@
+"""Session: a live run in a thread of its own, which alone touches the models.
+
+    submit      a command goes in; its answer is a Future: a result, or the InputError of the refusal
+    snapshot    the latest Snapshot; readers take it at their own rates, and none is kept for them
+    listen      a function that is given every event, in the session's thread: it must return at once
+
+    thread:  take commands -> step when due (pacer.py) -> publish a snapshot -> ...  -> write the run's folder
+
+A command is done between two steps. Orders take effect at the next communication point. An event is a dict with "kind",
+"time" [s] and what belongs to it:
+
+    collision begins | collision ends     id, ship_a, ship_b, point in n, energy
+    command        ship, client (None: nobody)
+    failure        ship, what, on         mark, back      name        environment    current, wind
+    horn           ship, on               rate            rate        pause          paused
+    log            message
+    end            folder, message, error (None: all well)
+"""
+
+from __future__ import annotations
+
+import queue
+import threading
+from collections.abc import Callable
+from concurrent.futures import Future
+from pathlib import Path
+from time import monotonic
+from typing import Any, Protocol
+
+from ...errors import HostError, InputError, ShipCollisionError, StepError
+from ...scenario.scenario import Scenario
+from .commands import (
+    FAILURES,
+    Back,
+    ChangeEnvironment,
+    Command,
+    Fail,
+    Horn,
+    Leave,
+    Mark,
+    Order,
+    Pause,
+    Rate,
+    Step,
+    TakeCommand,
+)
+from .live_run import LiveRun
+from .pacer import FASTEST, SLOWEST, Pacer
+from .run_folder import write_run
+from .snapshot import Snapshot
+
+__all__ = ["MOST_WAITING", "Clock", "Session", "WallClock"]
+
+Event = dict[str, Any]
+Waiting = tuple[Command, "Future[Any]"]
+
+MOST_WAITING = 1000
+"""Commands that wait at a time; more are refused. The thread takes thousands in a second."""
+IN_A_ROW = 50
+"""Commands that are done before the next step; more wait, so that a flood does not stop the simulation."""
+PUBLISHED = 0.01
+"""[s] of wall time between two snapshots at least. Pages ask twenty times a second, protocols less."""
+LONGEST_WAIT = 0.25
+"""[s] without a command after which a paused session publishes again."""
+LONGEST_NAME = 60
+"""Characters in the name of a mark."""
+
+
+class Clock(Protocol):
+    """The wall clock of a session."""
+
+    def now(self) -> float:
+        """The time [s] from any start."""
+
+    def wait(self, waiting: queue.Queue[Waiting], timeout: float) -> Waiting | None:
+        """The next command, or None when none came within `timeout` [s]; 0: at once."""
+
+
+class WallClock:
+    """The clock of this machine."""
+
+    def now(self) -> float:
+        """See Clock."""
+        return monotonic()
+
+    def wait(self, waiting: queue.Queue[Waiting], timeout: float) -> Waiting | None:
+        """See Clock."""
+        try:
+            return waiting.get(timeout=timeout) if timeout > 0.0 else waiting.get_nowait()
+        except queue.Empty:
+            return None
+
+
+class Session:
+    """A live run of a scenario; start() it. It ends with End, at `duration` [s] of simulated time, or by an error of a
+    model, and then writes its run into the folder `out` (None: nowhere).
+
+    Raises ScenarioError for ships that cannot be loaded.
+    """
+
+    def __init__(
+        self, scenario: Scenario, *, out: Path | None = None, spool: Path | None = None, rate: float = 1.0,
+        duration: float | None = None, paused: bool = False, clock: Clock | None = None,
+    ) -> None:  # fmt: skip
+        self._run = LiveRun(scenario, spool)
+        self._run.mark("start")
+        ends = [end for end in (duration, self._run.latest_end) if end is not None]
+        self._out, self._duration, self._clock = out, min(ends, default=None), clock or WallClock()
+        self._waiting: queue.Queue[Waiting] = queue.Queue(MOST_WAITING)
+        self._pacer = Pacer(check_rate(rate), self._clock.now(), self._run.time)
+        self._paused, self._reason = paused, ""
+        self._command: dict[str, str] = {}
+        self._listeners: list[Callable[[Event], None]] = []
+        self._touching: dict[int, bool] = {}
+        self._separation = scenario.collision.minimum_separation_time or 10.0
+        self._refused = 0
+        self._failed: ShipCollisionError | None = None
+        self._thread = threading.Thread(target=self._work, name="live session", daemon=True)
+        self._published = -PUBLISHED
+        self._snapshot = self._observe(running=True)
+
+    # -- for other threads --------------------------------------------------------------------------------------------
+
+    @property
+    def scenario(self) -> Scenario:
+        """The scenario."""
+        return self._run.scenario
+
+    @property
+    def run(self) -> LiveRun:
+        """The run. Other threads read from it only what does not change: ships and limits."""
+        return self._run
+
+    @property
+    def snapshot(self) -> Snapshot:
+        """The latest snapshot."""
+        return self._snapshot
+
+    @property
+    def marks(self) -> dict[str, float]:
+        """Times [s] of the marks by name."""
+        return self._run.marks
+
+    @property
+    def folder(self) -> Path | None:
+        """The folder of the run's files; None when none are written."""
+        return self._out
+
+    @property
+    def error(self) -> ShipCollisionError | None:
+        """What ended the run against the will of all; None otherwise."""
+        return self._failed
+
+    def start(self) -> None:
+        """Begin."""
+        self._pacer.restart(self._clock.now(), self._run.time)
+        self._thread.start()
+
+    def join(self, timeout: float | None = None) -> bool:
+        """Wait for the end, files written, at most `timeout` [s]; whether it has come."""
+        self._thread.join(timeout)
+        return not self._thread.is_alive()
+
+    def submit(self, command: Command) -> Future[Any]:
+        """Hand in a command. The Future has its result (for most None), or the InputError that refuses it."""
+        answer: Future[Any] = Future()
+        if not self._snapshot.running:
+            answer.set_exception(InputError("the run has ended: start another one"))
+            return answer
+        try:
+            self._waiting.put_nowait((command, answer))
+        except queue.Full:
+            answer.set_exception(InputError(f"{MOST_WAITING} commands wait already: send fewer"))
+        return answer
+
+    def listen(self, listener: Callable[[Event], None]) -> Callable[[], None]:
+        """Give every event to `listener` from now on; the function that stops this."""
+        self._listeners = [*self._listeners, listener]
+
+        def stop() -> None:
+            self._listeners = [other for other in self._listeners if other is not listener]
+
+        return stop
+
+    def count_refused(self) -> None:
+        """Count a malformed message of a client."""
+        self._refused += 1
+
+    # -- the thread ---------------------------------------------------------------------------------------------------
+
+    def _work(self) -> None:
+        try:
+            while not self._reason:
+                self._obey()
+                if not self._reason and self._is_due():
+                    self._advance()
+        except ShipCollisionError as error:
+            self._failed = error
+            self._reason = str(error)
+        except BaseException as error:  # a fault of ours; people are to hear of it
+            self._failed = HostError(f"the live session failed: {type(error).__name__}: {error}")
+            self._reason = str(self._failed)
+        self._finish()
+
+    def _obey(self) -> None:
+        """Do the commands that wait, or wait for one until the next step is due."""
+        for i in range(IN_A_ROW):
+            found = self._clock.wait(self._waiting, self._time_to_wait() if i == 0 else 0.0)
+            if found is None:
+                break
+            self._do(*found)
+        if self._clock.now() - self._published >= LONGEST_WAIT:
+            self._publish()
+
+    def _time_to_wait(self) -> float:
+        if self._paused:
+            return LONGEST_WAIT
+        return min(LONGEST_WAIT, max(0.0, self._pacer.due(self._run.time + self._run.step) - self._clock.now()))
+
+    def _is_due(self) -> bool:
+        return not self._paused and self._clock.now() >= self._pacer.due(self._run.time + self._run.step)
+
+    def _advance(self) -> None:
+        self._run.advance()
+        self._pacer.note(self._clock.now(), self._run.time)
+        self._tell_of_collisions()
+        if self._duration is not None and self._run.time >= self._duration - 1e-9:
+            self._reason = "the duration is over"
+        if self._clock.now() - self._published >= PUBLISHED:
+            self._publish()
+
+    def _do(self, command: Command, answer: Future[Any]) -> None:
+        if not answer.set_running_or_notify_cancel():
+            return
+        try:
+            result = self._execute(command)
+        except InputError as error:
+            answer.set_exception(error)
+        except StepError as error:
+            answer.set_exception(error)
+            raise
+        else:
+            self._publish()
+            answer.set_result(result)
+
+    def _execute(self, command: Command) -> Any:  # noqa: C901  # one line for each kind of command
+        if isinstance(command, Order):
+            self._require_command(command.client, command.ship)
+            self._run.bridges[command.ship].order(
+                command.rudder_deg, command.heading_deg, command.rev_per_s, command.telegraph
+            )
+        elif isinstance(command, TakeCommand):
+            self._take(command)
+        elif isinstance(command, Leave):
+            for ship in [ship for ship, client in self._command.items() if client == command.client]:
+                self._give_up(ship)
+        elif isinstance(command, Horn):
+            self._require_command(command.client, command.ship)
+            self._run.bridges[command.ship].horn = command.on
+            self._tell("horn", ship=command.ship, on=command.on)
+        elif isinstance(command, Fail):
+            self._fail(command)
+        elif isinstance(command, ChangeEnvironment):
+            self._change(command)
+        elif isinstance(command, Mark):
+            self._mark(command.name)
+        elif isinstance(command, Back):
+            self._go_back(command.name)
+        elif isinstance(command, Rate):
+            self._pacer.restart(self._clock.now(), self._run.time, check_rate(command.rate))
+            self._tell("rate", rate=self._pacer.rate)
+        elif isinstance(command, Pause):
+            self._paused = command.paused
+            self._pacer.restart(self._clock.now(), self._run.time)
+            self._tell("pause", paused=command.paused)
+        elif isinstance(command, Step):
+            self._step()
+        else:
+            self._reason = command.reason
+        return None
+
+    def _require_ship(self, ship: str) -> None:
+        if ship not in self._run.bridges:
+            raise InputError(f"there is no ship {ship!r}: the ships are {', '.join(self._run.bridges)}")
+
+    def _require_command(self, client: str, ship: str) -> None:
+        self._require_ship(ship)
+        self._run.bridges[ship].require_limits()
+        in_command = self._command.get(ship)
+        if in_command != client:
+            who = f"{in_command} is in command of {ship}" if in_command else f"nobody is in command of {ship}"
+            raise InputError(f"{who}: take command first")
+
+    def _take(self, command: TakeCommand) -> None:
+        ship = command.ship
+        self._require_ship(ship)
+        self._run.bridges[ship].require_limits()
+        in_command = self._command.get(ship)
+        if not command.take:
+            if in_command == command.client:
+                self._give_up(ship)
+            return
+        if in_command not in (None, command.client) and not command.force:
+            raise InputError(f"{in_command} is in command of {ship}: ask for it, or let the instructor take it")
+        self._command[ship] = command.client
+        self._tell("command", ship=ship, client=command.client)
+
+    def _give_up(self, ship: str) -> None:
+        del self._command[ship]
+        self._tell("command", ship=ship, client=None)
+
+    def _fail(self, command: Fail) -> None:
+        self._require_ship(command.ship)
+        if command.what not in FAILURES:
+            raise InputError(f"failure {command.what!r} is unknown: give {' or '.join(FAILURES)}")
+        self._run.bridges[command.ship].fail(command.what, command.on)
+        self._tell("failure", ship=command.ship, what=command.what, on=command.on)
+
+    def _change(self, command: ChangeEnvironment) -> None:
+        self._run.change(command.current, command.wind)
+        environment = self._run.observe_environment()
+        self._tell(
+            "environment", current=list(environment.current),
+            wind={"speed": environment.wind.speed, "from_deg": environment.wind.from_deg},
+        )  # fmt: skip
+
+    def _mark(self, name: str) -> None:
+        if not name.strip() or len(name) > LONGEST_NAME or not name.isprintable():
+            raise InputError(f"mark {name[:LONGEST_NAME]!r}: give a name of 1 to {LONGEST_NAME} printable characters")
+        self._run.mark(name)
+        self._tell("mark", name=name)
+
+    def _go_back(self, name: str) -> None:
+        self._run.go_back(name)
+        self._pacer.restart(self._clock.now(), self._run.time)
+        self._touching = {number: on for number, on in self._touching.items() if number in self._run.list_touches()}
+        self._tell("back", name=name)
+
+    def _step(self) -> None:
+        if not self._paused:
+            raise InputError("a single step needs a pause: pause first")
+        self._advance()
+        self._pacer.restart(self._clock.now(), self._run.time)
+
+    # -- what is told -------------------------------------------------------------------------------------------------
+
+    def _observe(self, running: bool) -> Snapshot:
+        now, run = self._clock.now(), self._run
+        return Snapshot(
+            time=run.time, step_count=run.k, rate=self._pacer.rate, paced=self._pacer.is_paced(now),
+            real_rate=0.0 if self._paused else self._pacer.measure(now, run.time), paused=self._paused,
+            running=running, ships=run.observe_ships(), environment=run.observe_environment(),
+            contact=run.observe_contact(), command=dict(self._command), refused=self._refused,
+        )  # fmt: skip
+
+    def _publish(self) -> None:
+        self._snapshot = self._observe(running=True)
+        self._published = self._clock.now()
+
+    def _tell(self, kind: str, **what: Any) -> None:
+        event = {"kind": kind, "time": self._run.time, **what}
+        for listener in self._listeners:
+            listener(event)
+
+    def _tell_of_collisions(self) -> None:
+        touches = self._run.list_touches()
+        if not touches:
+            return
+        for number, last in touches.items():
+            touching = self._run.time - last < self._separation
+            before = self._touching.get(number)
+            if before is None or before != touching:
+                self._touching[number] = touching
+                (collision,) = [c for c in self._run.observe_contact().collisions if c.id == number]
+                self._tell(
+                    "collision begins" if touching else "collision ends", id=number, ship_a=collision.ship_a,
+                    ship_b=collision.ship_b, point=list(collision.point), start=collision.time, energy=collision.energy,
+                )  # fmt: skip
+                if touching:
+                    self._publish()
+
+    def _finish(self) -> None:
+        """Write the run, tell of the end, refuse what still waits."""
+        error = None if self._failed is None else str(self._failed)
+        folder: str | None = None
+        try:
+            if self._out is not None:
+                self._tell("log", message="writing the run")
+                lines = write_run(self._run, self._out)
+                folder = str(self._out)
+                for line in lines:
+                    self._tell("log", message=line)
+        except Exception as fault:  # a full disk, say; the pages are to hear of it
+            self._failed = (
+                fault if isinstance(fault, ShipCollisionError) else HostError(f"cannot write the run: {fault}")
+            )
+            error = str(self._failed)
+        self._snapshot = self._observe(running=False)
+        self._tell("end", folder=folder, message=self._reason, error=error)
+        while (left := WallClock().wait(self._waiting, 0.0)) is not None:
+            if left[1].set_running_or_notify_cancel():
+                left[1].set_exception(InputError("the run has ended: start another one"))
+        self._run.close()
+
+
+def check_rate(rate: float) -> float:
+    """The rate. Raises InputError outside its limits."""
+    if isinstance(rate, bool) or not isinstance(rate, int | float) or not SLOWEST <= rate <= FASTEST:
+        raise InputError(f"rate = {rate!r} must be from {SLOWEST:g} to {FASTEST:g}: give one such as 1")
+    return float(rate)
