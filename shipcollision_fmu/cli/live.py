@@ -26,7 +26,7 @@ PORT = 8750
 @click.option(
     "--host", default="127.0.0.1", show_default=True, metavar="ADDRESS", help="Address to listen at; 0.0.0.0: all."
 )
-@click.option("--out", type=PATH, help="Folder of the results.  [default: runs/NAME-live-DATE-TIME]")
+@click.option("--out", type=PATH, help="Folder of the results.  [default: runs/NAME-live-TIME]")
 @click.option("--overwrite", is_flag=True, help="Replace files of other origin in that folder, too.")
 @click.option(
     "--duration", type=NUMBER, metavar="S", help="Simulated seconds after which the run ends.  [default: none]"
@@ -49,7 +49,7 @@ def live(
     \b
     Examples:
       shipcollision live
-      shipcollision live kvlcc2_crossing --ship target --rate 4
+      shipcollision live mine.toml --ship own --rate 4
       shipcollision live mine.toml --host 0.0.0.0 --no-browser
     """
     from ..cosim.earlier_run import refuse_foreign_files
