@@ -53,6 +53,8 @@ class Empty:
 
     rows: int
     text: str = ""
+    folder: str = "."
+    inputs: tuple[()] = ()
     fingerprint: str = "empty"
     level: str = "sailed"
 

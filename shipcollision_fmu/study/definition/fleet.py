@@ -27,7 +27,7 @@ from .empirical import EmpiricalTable
 from .fleet_tables import FleetTable, PoolTable
 from .partial_loading import load_partially
 
-__all__ = ["Fleet", "NamedShip", "Pool", "digest_fleet", "make_fleet"]
+__all__ = ["Fleet", "NamedShip", "Pool", "digest_ships", "make_fleet"]
 
 
 @dataclass(frozen=True)
@@ -186,16 +186,16 @@ def _find_source(name: str, folder: Path) -> str | dict[str, Any]:
     return read_ship_tables(folder / name if is_file(folder / name) else name)
 
 
-def digest_fleet(fleet: Fleet) -> str:
-    """A digest of all that determines the ships."""
-    parts: list[Any] = []
+def digest_ships(role: str, fleet: Fleet) -> dict[str, str]:
+    """SHA-256 of the content of each ship by name. Weights and pools are in the study file."""
+    digests = {}
     for choice in fleet.choices:
         if isinstance(choice, Pool):
-            parts.append(["pool", choice.key])  # its numbers are in the study's text
             continue
         tables = read_ship_tables(choice.source) if isinstance(choice.source, str) else choice.source
         hull, mesh = dict(tables.get("hull", {})), choice.mesh or _read_mesh(tables)
         if mesh is not None:  # its content counts, not its place on this machine
             hull["file"] = sha256(mesh[1]).hexdigest()
-        parts.append([choice.label, choice.weight, {**tables, "hull": hull}])
-    return sha256(json.dumps(parts, sort_keys=True, default=repr).encode()).hexdigest()
+        content = json.dumps({**tables, "hull": hull}, sort_keys=True, default=repr)
+        digests[f"ship {choice.label} of [{role}]"] = sha256(content.encode()).hexdigest()
+    return digests

@@ -2,12 +2,13 @@
 
     file  ->  StudyFile (keys, limits)  ->  tables and ships are read  ->  checks between tables  ->  Study
 
-A Study holds no path: what it needs of other files is in it, so that it can be sent to another machine.
+A Study opens no file: what it needs of others is in it, so that it can be sent to another machine.
 """
 
 from __future__ import annotations
 
 import json
+from contextlib import suppress
 from dataclasses import dataclass
 from hashlib import sha256
 from math import prod
@@ -24,7 +25,7 @@ from ...ship.loading.toml import parse_toml
 from .dimensions import list_dimensions
 from .distributions import Distribution
 from .empirical import EmpiricalTable, read_empirical_table
-from .fleet import Fleet, digest_fleet, make_fleet
+from .fleet import Fleet, digest_ships, make_fleet
 from .level_checks import check_level
 from .situations import read_situations
 from .study_file import Header, RunTable, StudyFile
@@ -46,7 +47,9 @@ class Study:
 
     text          the study file as given
     source        its name in messages
-    fingerprint   sha256 of all that determines the rows: text, ships, tables, version of the package
+    folder        that of its file, in which paths in it begin
+    inputs        sha256 of each ship, table and folder that it names, by a name for messages
+    fingerprint   sha256 of all that determines the rows: keys of the file, inputs, version of the package
     variables     distributions by name
     grid          values by name, all combined; the first name varies slowest
     tables        empirical tables by name
@@ -56,6 +59,8 @@ class Study:
 
     text: str
     source: str
+    folder: str
+    inputs: dict[str, str]
     fingerprint: str
     header: Header
     rows: int
@@ -101,8 +106,9 @@ def list_study_names() -> list[str]:
 def read_study(name_or_path: str | Path) -> Study:
     """The study of a shipped name (`quick`) or of a file (`my/study.toml`).
 
-    An argument with the suffix .toml or a path separator is a file. Raises StudyError, in one line, for a file that is
-    missing or refused, and for ships or tables that it names and that cannot be read.
+    An argument with the suffix .toml or a path separator is a file. In study.toml of the folder of a study, paths begin
+    where they began in the original. Raises StudyError, in one line, for a file that is missing or refused, and for
+    ships or tables that it names and that cannot be read.
     """
     path = _locate(name_or_path)
     try:
@@ -111,7 +117,17 @@ def read_study(name_or_path: str | Path) -> Study:
         raise StudyError(f"{path} cannot be read: {error.strerror}: give the path of a study file") from None
     except UnicodeDecodeError as error:
         raise StudyError(f"{path.name} is not UTF-8 text (byte {error.start}): save it as UTF-8") from None
-    return parse_study(text, path.name, path.parent)
+    return parse_study(text, path.name, _find_home(path))
+
+
+def _find_home(path: Path) -> Path:
+    """The folder in which paths of a study file begin: for the copy beside the tables of a study, the original's."""
+    if path.name == "study.toml":
+        with suppress(OSError, ValueError, KeyError, TypeError):
+            home = Path(json.loads((path.parent / "study.json").read_bytes())["folder"])
+            if home.is_dir():
+                return home
+    return path.parent
 
 
 def parse_study(text: str, source: str = "study", folder: str | Path = ".") -> Study:
@@ -139,8 +155,9 @@ def parse_study(text: str, source: str = "study", folder: str | Path = ".") -> S
     target = own
     if file.target is not None or situations:
         target = make_fleet("target", file.target, tables, folder, source, sails)
+    inputs = _digest_inputs(file, own, target, tables, situations)
     study = Study(
-        text, source, _digest(text, own, target, tables, situations), file.study,
+        text, source, str(folder.resolve()), inputs, _digest(data, file, inputs), file.study,
         _count_rows(file, len(situations), source), file.run, variables,
         {"situation": list(situations), **file.grid} if situations else file.grid, tables, own, target, situations,
         None if file.situations is None else file.situations.duration,
@@ -182,18 +199,27 @@ def _count_rows(file: StudyFile, situations: int, source: str) -> int:
     return rows
 
 
-def _digest(
-    text: str, own: Fleet, target: Fleet, tables: dict[str, EmpiricalTable], situations: dict[str, bytes]
-) -> str:  # fmt: skip
+def _digest_inputs(
+    file: StudyFile, own: Fleet, target: Fleet, tables: dict[str, EmpiricalTable], situations: dict[str, bytes]
+) -> dict[str, str]:
+    inputs = digest_ships("own", own) | (digest_ships("target", target) if target is not own else {})
+    for name, table in tables.items():
+        columns = [[column, sha256(values.tobytes()).hexdigest()] for column, values in sorted(table.columns.items())]
+        inputs[f"file {file.tables[name].file} of [tables.{name}]"] = sha256(json.dumps(columns).encode()).hexdigest()
+    if situations and file.situations is not None:
+        files = [[name, sha256(content).hexdigest()] for name, content in situations.items()]
+        inputs[f"folder {file.situations.folder} of [situations]"] = sha256(json.dumps(files).encode()).hexdigest()
+    return inputs
+
+
+def _digest(data: dict[str, Any], file: StudyFile, inputs: dict[str, str]) -> str:
+    """Rows of a Latin hypercube depend on how many there are. Those of other samplers do not: the study can grow."""
     from ... import __version__
 
-    digests = {
-        name: [[column, sha256(values.tobytes()).hexdigest()] for column, values in sorted(table.columns.items())]
-        for name, table in tables.items()
-    }
-    files = [[name, sha256(content).hexdigest()] for name, content in situations.items()]
-    parts = [FORMAT, __version__, text, digest_fleet(own), digest_fleet(target), digests, files]
-    return sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()
+    if file.study.sampler != "latin-hypercube":
+        data = {**data, "study": {key: value for key, value in data["study"].items() if key != "rows"}}
+    parts = [FORMAT, __version__, data, inputs]
+    return sha256(json.dumps(parts, sort_keys=True, default=repr).encode()).hexdigest()
 
 
 def _locate(name_or_path: str | Path) -> Path:

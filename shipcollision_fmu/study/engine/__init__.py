@@ -15,6 +15,7 @@
         local_worker.py    what each worker of a local cluster loads
         versions.py        members of a cluster with another version of this package
     interface.py     what the engine asks of a study
+    changes.py       what has changed in a study since its folder was begun
     folder.py        StudyFolder: what is there, what is missing, what is of other origin
     csv_tables.py    both tables as CSV
 

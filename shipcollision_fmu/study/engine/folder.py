@@ -23,10 +23,11 @@ from typing import Any
 from ... import __version__
 from ...errors import HostError, StudyError
 from ...files import check_writable, describe_failure, write_files
+from .changes import describe_changes
 from .interface import Study
 from .part_file import Mark, PartBytes, read_mark
 from .part_files import ROOM, PartFiles
-from .parts import Part, count_parts, list_parts
+from .parts import Part, count_parts, get_part, list_parts
 
 __all__ = ["TABLES", "StudyFolder"]
 
@@ -64,7 +65,18 @@ class StudyFolder:
     def open(self) -> None:
         """Makes the folder, or takes up what is there. Raises HostError."""
         self.close()
+        found = self._read_json()
+        if found is not None and found["rows"] != self._study.rows:
+            self._make_room_for_more(int(found["rows"]))
         write_files(self.path, {"study.toml": self._study.text, "study.json": self._describe("running", {})}, ROOM)
+
+    def _make_room_for_more(self, rows: int) -> None:
+        """Removes what would be wrong with more rows than before: a last part that was not full, and CSV files."""
+        last = get_part(count_parts(rows, self._study.level) - 1, rows, self._study.level)
+        for table in reversed(TABLES):
+            (self.path / f"{table}.csv").unlink(missing_ok=True)
+            if last != get_part(last.number, self._study.rows, self._study.level):
+                (self.path / table / last.file).unlink(missing_ok=True)
 
     def close(self) -> None:
         """Removes what was being written, by workers that were ended as well."""
@@ -123,7 +135,7 @@ class StudyFolder:
             content = json.loads((self.path / "study.json").read_bytes())
         except (OSError, ValueError):
             return None
-        return content if isinstance(content, dict) and "fingerprint" in content else None
+        return content if isinstance(content, dict) and {"fingerprint", "rows"} <= content.keys() else None
 
     def _refuse_foreign(self) -> None:
         if self.path.is_dir() and (names := sorted(entry.name for entry in self.path.iterdir())):
@@ -134,20 +146,21 @@ class StudyFolder:
 
     def _refuse_other(self, found: dict[str, Any]) -> None:
         """Raises StudyError unless the study of the folder is this one."""
-        if found["fingerprint"] == self._study.fingerprint:
-            return
-        versions = found.get("versions")
-        there = versions.get("shipcollision_fmu") if isinstance(versions, dict) else None
-        if there != __version__:
-            reason = f"it was begun by version {there} of shipcollision-fmu, this is {__version__}"
-        else:
-            reason = "the study file, a ship or a table that it names has changed since"
-        raise StudyError(f"{self.path} holds another study: {reason}; give a new folder with --out")
+        if found["fingerprint"] != self._study.fingerprint:
+            reason = describe_changes(self._study, found, self.path)
+            raise StudyError(f"{self.path} holds another study: {reason}; give a new folder with --out")
+        if found["rows"] > self._study.rows:
+            raise StudyError(
+                f"{self.path} holds a study of {found['rows']} rows, more than rows = {self._study.rows}: give rows = "
+                f"{found['rows']} or more, or a new folder with --out"
+            )
 
     def _describe(self, status: str, counts: dict[str, int]) -> str:
         study = self._study
         content = {
             "fingerprint": study.fingerprint,
+            "inputs": dict(study.inputs),
+            "folder": study.folder,
             "level": study.level,
             "engine": self.engine,
             "rows": study.rows,

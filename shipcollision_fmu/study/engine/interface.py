@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, Protocol
 
 import pyarrow as pa
@@ -19,6 +20,14 @@ class Study(Protocol):
     @property
     def fingerprint(self) -> str:
         """SHA-256 of all that determines the rows."""
+
+    @property
+    def folder(self) -> str:
+        """Folder of the study file, in which paths in it begin."""
+
+    @property
+    def inputs(self) -> Mapping[str, str]:
+        """SHA-256 of each ship, table and folder that the study file names, by a name for messages."""
 
     @property
     def rows(self) -> int:

@@ -56,6 +56,16 @@ class StandIn:
         return f"rows = {self.rows}\nseed = {self.seed}\n"
 
     @property
+    def folder(self) -> str:
+        """Of its file, which is none."""
+        return "."
+
+    @property
+    def inputs(self) -> dict[str, str]:
+        """It names no other files."""
+        return {}
+
+    @property
     def fingerprint(self) -> str:
         """That of what determines the rows."""
         return hashlib.sha256(f"{self.rows} {self.level} {self.seed}".encode()).hexdigest()
