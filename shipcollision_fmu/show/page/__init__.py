@@ -23,6 +23,7 @@ from ..gltf.gltf import build_glb, collect_extras
 from ..scene.palette import choose_topsides
 from ..scene.scene import Scene, Ship, load_scene
 from ..scene.signals import Signals
+from ..scene.wheelhouse import find_wheelhouse
 
 __all__ = ["PAGE", "build_page", "describe_ship", "write_page"]
 
@@ -95,7 +96,7 @@ def _collect_data(scene: Scene) -> dict[str, Any]:
 
 
 def describe_ship(index: int, ship: Ship) -> dict[str, Any]:
-    """Names, colour and sizes of a ship; `height` of the deck above the waterline [m]."""
+    """Names, colour and sizes of a ship; `height` of the deck above the waterline, `bridge`: eye and wing in b [m]."""
     return {
         "name": ship.name,
         "model": ship.model,
@@ -103,6 +104,7 @@ def describe_ship(index: int, ship: Ship) -> dict[str, Any]:
         "L_oa": ship.L_oa,
         "colour": choose_topsides(index).colour,
         "height": -float(ship.hull.vertices[:, 2].min()),
+        "bridge": find_wheelhouse(ship),
     }
 
 

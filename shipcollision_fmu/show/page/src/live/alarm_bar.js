@@ -1,0 +1,35 @@
+// The alarms as a list over the picture, with a button that acknowledges all.
+import { element } from "../dom.js";
+import { inWords } from "../texts.js";
+
+export function makeAlarmBar({ alarms, sound }, acknowledge) {
+  const silent = inWords(element("small", { class: "silent", hidden: true }), { text: "sound_waits" });
+  const list = element("ul", { id: "alarms", role: "alert", "aria-live": "assertive" });
+  const button = inWords(element("button", { type: "button", id: "acknowledge", onclick: acknowledge }), { text: "acknowledge" });
+  const node = inWords(element("section", { class: "alarm-bar", hidden: true }, list, silent, button), { "aria-label": "alarms" });
+  const shown = new Map();
+  return {
+    node,
+    show() {
+      const { sorted } = alarms;
+      for (const [key, item] of shown) {
+        if (alarms.list.has(key)) continue;
+        item.remove();
+        shown.delete(key);
+      }
+      for (const { key, priority, state, words } of sorted) {
+        const item = shown.get(key) ?? element("li", { "data-alarm": key });
+        if (!shown.has(key)) {
+          shown.set(key, item);
+          list.append(item);
+        }
+        const text = words();
+        if (item.textContent !== text) item.textContent = text;
+        item.className = `${priority} ${state}`;
+      }
+      silent.hidden = sound.isAllowed || alarms.sounding === null;
+      node.hidden = sorted.length === 0;
+      button.hidden = !sorted.some(({ state, priority }) => state !== "silent" && (priority !== "caution" || state === "over"));
+    },
+  };
+}

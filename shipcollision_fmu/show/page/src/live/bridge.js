@@ -1,0 +1,247 @@
+// The bridge: what is seen from the ship, instruments, steering and engine, chart, other ships, alarms.
+import { element } from "../dom.js";
+import { toggleTheme } from "../theme.js";
+import { inWords, onLanguage, say } from "../texts.js";
+import { drawsInSoftware, makeViewer } from "../viewer.js";
+import { makeAlarmBar } from "./alarm_bar.js";
+import { Chart } from "./chart.js";
+import { Conning } from "./conning.js";
+import { effectsOf } from "./effects_live.js";
+import { makeInstruments } from "./instruments.js";
+import { LiveCameras, MODES } from "./live_cameras.js";
+import { listenToBridgeKeys, makeLiveHelp } from "./live_keys.js";
+import { followHistories } from "./motion.js";
+import { makeLimits, makeMessages, makeSwitches, makeTimeTools, textButton, describeEnd } from "./page_tools.js";
+import { Session } from "./session.js";
+import { makeTargets } from "./targets.js";
+
+const NUMBERS = 150; // between two readings of the instruments [ms]
+const CHART = 250; // between two pictures of the chart [ms]
+const SETTLED = 0.3; // [s] after which a collision's energy tells how strong its effects are
+
+export async function startBridge() {
+  const session = new Session("bridge", (type, message) => hear(type, message));
+  const messages = makeMessages();
+  const ask = (type, fields) => session.connection.ask(type, fields).catch((error) => {
+    messages.tell(say("refused", { message: error.message }));
+    return null;
+  });
+  const onShip = (type, fields) => ask(type, { ship: session.own, ...fields });
+  const conning = new Conning((fields) => onShip("order", fields), (on) => onShip("horn", { on }));
+  const instruments = makeInstruments();
+  const targets = makeTargets();
+  const alarmBar = makeAlarmBar(session, () => acknowledge());
+  const help = makeLiveHelp();
+  const time = makeTimeTools(ask);
+  const canvas = inWords(element("canvas", { id: "picture", tabindex: "0" }), { "aria-label": "picture" });
+  const title = element("h1", {});
+  const said = inWords(element("p", { id: "command-said" }), { text: "connecting" });
+  const command = element("button", { type: "button", id: "command", onclick: () => onShip("command", { take: !isInCommand() }) });
+  const camera = inWords(element("select", { id: "camera", onchange: () => chooseCamera(camera.value) },
+    ...MODES.map((mode) => inWords(element("option", { value: mode }), { text: `camera_${mode}` }))), { "aria-label": "camera" });
+  const binoculars = textButton("binoculars", () => toggleBinoculars(), { id: "binoculars", "aria-pressed": "false" });
+  const swap = inWords(textButton("chart", () => swapChart(), { id: "chart-large", "aria-pressed": "false" }), { title: "chart_large" });
+  const over = element("div", { class: "over", hidden: true });
+  const stage = element("main", { class: "stage" }, canvas,
+    element("div", { class: "stage-top" }, alarmBar.node, messages.node, over),
+    element("div", { class: "stage-tools" }, camera, binoculars, swap));
+  const chartPlace = element("div", { class: "chart-place" });
+  const isNarrow = matchMedia("(max-width: 900px)");
+  document.body.append(stage,
+    element("aside", { class: "side" },
+      element("header", { class: "command-bar" }, element("div", {}, title, said), command),
+      time.node, instruments.node, conning.node, chartPlace, targets.node, makeLimits(session), makeSwitches(help.toggle)), help.card);
+
+  let viewer = null;
+  let chart = null;
+  let shown = null;
+  const effects = new Map(); // collision -> what takes its effects away
+  const numbers = { next: 0, chart: 0 };
+
+  const isInCommand = () => session.state?.command[session.own] === session.hello?.client;
+  const acknowledge = () => (session.acknowledge(), alarmBar.show());
+  const isChartLarge = () => document.body.classList.contains("chart-large");
+
+  function hear(type) {
+    if (type === "hello") greet();
+    else if (type === "back") forgetEffects();
+    else if (type === "end") showEnd();
+    if (type === "state" || type === "lost" || type === "hello") alarmBar.show();
+    document.body.classList.toggle("lost", !session.connection.isOpen && !session.ended);
+  }
+
+  function greet() {
+    const info = session.infoOf(session.own);
+    document.title = say("bridge_title", { ship: session.own });
+    conning.setLimits(info.limits ?? null);
+    time.setAllowed(session.hello.sets_pace !== false);
+    if (chart === null) {
+      chart = new Chart(session.hello, session.histories, session.own);
+      placeChart();
+      isNarrow.addEventListener("change", placeChart);
+      makePicture();
+    }
+    firstState().then((state) => state.command[session.own] == null && info.limits && onShip("command", { take: true }));
+  }
+
+  async function firstState() {
+    while (session.snapshots.newest === null) await new Promise((resolve) => setTimeout(resolve, 20));
+    return session.snapshots.newest.state;
+  }
+
+  async function makePicture() {
+    try {
+      const [answer] = await Promise.all([fetch(session.address("/scene.glb")), firstState()]);
+      if (!answer.ok) throw new Error(`/scene.glb: ${answer.status}`);
+      session.present(performance.now());
+      const ships = session.hello.ships;
+      const data = { start: 0, end: Infinity, origin: [0, 0, 0], events: [], effects: [], scratches: [], ships };
+      const isPlain = drawsInSoftware();
+      const followed = followHistories(session.histories);
+      const made = await makeViewer(canvas, data, await answer.arrayBuffer(), !isPlain, (gltf) => {
+        data.origin = gltf.scene.userData.origin;
+        return followed(gltf);
+      }, LiveCameras);
+      made.cameras.own = made.ships.findIndex(({ info }) => info.name === session.own);
+      if (isPlain) made.setPlain(true);
+      document.body.classList.toggle("plain", isPlain);
+      viewer = made;
+      chooseCamera(session.infoOf(session.own).bridge ? "bridge" : "chase");
+    } catch (error) {
+      messages.tell(say("no_picture", { message: error.message }));
+    }
+    document.body.dataset.ready = "true";
+  }
+
+  function chooseCamera(mode) {
+    camera.value = mode;
+    viewer?.chooseCamera(mode);
+    showBinoculars();
+  }
+
+  function toggleBinoculars() {
+    viewer?.cameras.toggleBinoculars();
+    showBinoculars();
+  }
+
+  function showBinoculars() {
+    const isOn = viewer?.cameras.hasBinoculars ?? false;
+    binoculars.setAttribute("aria-pressed", String(isOn));
+    document.body.classList.toggle("binoculars", isOn);
+  }
+
+  function swapChart() {
+    const isLarge = document.body.classList.toggle("chart-large");
+    swap.setAttribute("aria-pressed", String(isLarge));
+    if (chart) placeChart();
+  }
+
+  /** In a corner of the picture, in its place, or on a narrow screen below the controls. */
+  function placeChart() {
+    isNarrow.matches && !isChartLarge() ? chartPlace.append(chart.node) : canvas.after(chart.node);
+    chart.draw();
+  }
+
+  function addNewEffects(state) {
+    for (const collision of state.contact.collisions) {
+      const key = `${collision.id} ${collision.time}`;
+      if (effects.has(key) || state.time < collision.time + SETTLED) continue;
+      const ships = viewer.ships.map(({ info }) => ({ info, eta: state.ships[info.name].eta }));
+      effects.set(key, viewer.addEffects(effectsOf(collision, ships)));
+    }
+  }
+
+  /** Time has gone back: effects of collisions that have not happened go. */
+  function forgetEffects() {
+    const kept = new Set(session.state.contact.collisions.map(({ id, time: at }) => `${id} ${at}`));
+    for (const [key, remove] of effects) {
+      if (kept.has(key)) continue;
+      remove();
+      effects.delete(key);
+    }
+  }
+
+  function showEnd() {
+    over.hidden = false;
+    over.replaceChildren(...describeEnd(session));
+  }
+
+  function showCommand() {
+    const client = session.state.command[session.own];
+    title.textContent = session.own;
+    said.textContent = client == null ? say("nobody_in_command") : isInCommand() ? say("in_command") : say("other_in_command", { client });
+    command.textContent = say(isInCommand() ? "release_command" : "take_command");
+    command.setAttribute("aria-pressed", String(isInCommand()));
+  }
+
+  function frame(now) {
+    requestAnimationFrame(frame);
+    const state = session.present(now);
+    if (!state || !session.hello) return;
+    shown = state;
+    if (viewer && !isChartLarge()) {
+      addNewEffects(state);
+      viewer.show(state.time);
+    }
+    if (now >= numbers.next) {
+      numbers.next = now + NUMBERS;
+      const own = state.ships[session.own];
+      instruments.show(own, state.environment.current);
+      conning.show(session.state.ships[session.own], isInCommand());
+      targets.show(state, session.own, session.dangers);
+      time.show(session.state);
+      showCommand();
+    }
+    if (chart && now >= numbers.chart) {
+      numbers.chart = now + CHART;
+      chart.show(state, session.dangers);
+    }
+  }
+
+  listenToBridgeKeys({
+    turn: (by) => conning.turn(by),
+    rudder: (degrees) => conning.setRudder(degrees),
+    telegraph: (by) => conning.changeTelegraph(by),
+    stop: () => conning.setTelegraph(0),
+    autopilot: () => conning.toggleAutopilot(),
+    heading: (by) => conning.changeHeading(by),
+    horn: (on) => conning.isBlowing !== undefined || on ? conning.blow(on) : null,
+    acknowledge,
+    camera: (index) => chooseCamera(MODES[index ?? (MODES.indexOf(camera.value) + 1) % MODES.length]),
+    look: (degrees) => viewer?.cameras.isAboard && viewer.cameras.turn((degrees * Math.PI) / 180, 0),
+    binoculars: toggleBinoculars,
+    chart: swapChart,
+    orientation: () => chart?.toggleOrientation(),
+    range: (by) => chart?.zoom(by),
+    pause: time.toggle,
+    theme: toggleTheme,
+    help: help.toggle,
+  });
+  onLanguage(() => shown && session.hello && (showCommand(), (document.title = say("bridge_title", { ship: session.own })), alarmBar.show()));
+  requestAnimationFrame(frame);
+
+  window.live = {
+    session,
+    get state() {
+      return session.state;
+    },
+    get client() {
+      return session.hello?.client;
+    },
+    get firstContact() {
+      return session.firstContact;
+    },
+    order: (fields) => session.connection.ask("order", { ship: session.own, ...fields }),
+    ask: (type, fields) => session.connection.ask(type, fields),
+    camera: chooseCamera,
+    /** Draws now and says what is in the picture. */
+    drawn() {
+      shown = session.present(performance.now());
+      viewer.show(shown.time);
+      viewer.draw();
+      const { camera: eye, mode, zoom } = viewer.cameras;
+      return { time: shown.time, poses: viewer.poses(), effects: viewer.shown.effects, frames: viewer.shown.frames, mode, zoom, eye: eye.position.toArray(), fov: eye.fov };
+    },
+    project: (point) => viewer.project(point),
+  };
+}

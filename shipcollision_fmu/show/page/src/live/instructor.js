@@ -1,0 +1,257 @@
+// The instructor's page: the chart of all ships, taking over, failures, wind and current, marks, time, end.
+import { element } from "../dom.js";
+import { clockTime, number } from "../format.js";
+import { toggleTheme } from "../theme.js";
+import { inWords, onLanguage, say, TEXTS } from "../texts.js";
+import { makeAlarmBar } from "./alarm_bar.js";
+import { Chart } from "./chart.js";
+import { Conning, threeDigits } from "./conning.js";
+import { listenToBridgeKeys, makeLiveHelp } from "./live_keys.js";
+import { instruments, KNOT, toDegrees, toRadians, wholeTurn } from "./navigation.js";
+import { labelled, makeMessages, makeSwitches, makeTimeTools, textButton, describeEnd } from "./page_tools.js";
+import { Session } from "./session.js";
+
+const NUMBERS = 200; // between two readings [ms]
+const LINES = 60; // of the log book
+
+export async function startInstructor() {
+  const session = new Session("instructor", (type, message) => hear(type, message));
+  const messages = makeMessages();
+  const ask = (type, fields) => session.connection.ask(type, fields).catch((error) => {
+    messages.tell(say("refused", { message: error.message }));
+    return null;
+  });
+  let conned = null; // the ship whose controls are shown
+  const conning = new Conning((fields) => ask("order", { ship: conned, ...fields }), (on) => ask("horn", { ship: conned, on }));
+  const conningHead = element("h2", {});
+  const conningPlace = element("section", { class: "conn-place", hidden: true }, conningHead, conning.node);
+  const help = makeLiveHelp();
+  const time = makeTimeTools(ask);
+  const acknowledge = () => (session.acknowledge(), alarmBar.show());
+  const alarmBar = makeAlarmBar(session, acknowledge);
+  const over = element("div", { class: "over", hidden: true });
+  const centre = inWords(element("select", { id: "centre", onchange: () => centreOn(centre.value || null) }), { "aria-label": "chart" });
+  const stage = element("main", { class: "stage" },
+    element("div", { class: "stage-top" }, alarmBar.node, messages.node, over), element("div", { class: "stage-tools" }, centre));
+  const title = inWords(element("h1", {}), { text: "instructor_title" });
+  const ships = makeShips(ask, (name) => conn(name));
+  const marks = makeMarks(ask);
+  const environment = makeEnvironment(ask);
+  const book = element("ol", { class: "book", id: "book" });
+  let sure = null;
+  const end = textButton("end_run", () => {
+    if (sure) return clearTimeout(sure), ask("end");
+    end.textContent = say("end_sure");
+    end.classList.add("sure");
+    sure = setTimeout(() => ((sure = null), (end.textContent = say("end_run")), end.classList.remove("sure")), 4000);
+  }, { id: "end", class: "end" });
+  document.body.append(stage, element("aside", { class: "side" }, element("header", { class: "command-bar" }, element("div", {}, title), time.node),
+    ships.node, conningPlace, environment.node, marks.node,
+    element("section", {}, inWords(element("h2", {}), { text: "log_book" }), book), end, makeSwitches(help.toggle)), help.card);
+  onLanguage(() => (document.title = say("instructor_title")));
+  let chart = null;
+  let next = 0;
+
+  function hear(type, message) {
+    if (type === "hello") greet(message);
+    else if (type === "event") note(message);
+    else if (type === "end") showEnd();
+    if (["state", "lost", "hello"].includes(type)) alarmBar.show();
+    document.body.classList.toggle("lost", !session.connection.isOpen && !session.ended);
+  }
+
+  function greet(hello) {
+    marks.show(hello.marks ?? []);
+    ships.greet(hello);
+    if (chart === null) {
+      chart = new Chart(hello, session.histories, null);
+      stage.prepend(chart.node);
+      centre.append(inWords(element("option", { value: "" }), { text: "centre_all" }),
+        ...hello.ships.map(({ name }) => inWords(element("option", { value: name }), { text: "follow" }, { ship: name })));
+    }
+    document.body.dataset.ready = "true";
+  }
+
+  function centreOn(name) {
+    chart.own = name;
+    chart.fit();
+    chart.draw();
+  }
+
+  async function conn(name) {
+    conned = name;
+    conningPlace.hidden = false;
+    conningHead.textContent = name;
+    conning.setLimits(session.infoOf(name).limits ?? null);
+    if (session.state.command[name] !== session.hello.client) await ask("command", { ship: name, take: true });
+  }
+
+  /** A line of the log; a new mark is listed. */
+  function note(event) {
+    if (event.kind === "mark") marks.add(event);
+    const text = describeEvent(event);
+    if (text === null) return;
+    book.prepend(element("li", {}, element("time", { text: clockTime(event.time, 0) }), ` ${text}`));
+    while (book.children.length > LINES) book.lastChild.remove();
+  }
+
+  function showEnd() {
+    over.hidden = false;
+    over.replaceChildren(...describeEnd(session));
+  }
+
+  function frame(now) {
+    requestAnimationFrame(frame);
+    const state = session.present(now);
+    if (!state || !session.hello || now < next) return;
+    next = now + NUMBERS;
+    chart.show(state, session.dangers);
+    ships.show(session.state, session.hello.client);
+    environment.show(session.state.environment);
+    time.show(session.state);
+    if (conned !== null) conning.show(session.state.ships[conned], session.state.command[conned] === session.hello.client);
+  }
+
+  const whenConned = (action) => (value) => conned !== null && action(value);
+  const nothing = () => {};
+  listenToBridgeKeys({
+    turn: whenConned((by) => conning.turn(by)), rudder: whenConned((degrees) => conning.setRudder(degrees)),
+    telegraph: whenConned((by) => conning.changeTelegraph(by)), stop: whenConned(() => conning.setTelegraph(0)),
+    autopilot: whenConned(() => conning.toggleAutopilot()), heading: whenConned((by) => conning.changeHeading(by)),
+    horn: whenConned((on) => (conning.isBlowing !== undefined || on) && conning.blow(on)),
+    acknowledge, camera: nothing, look: nothing, binoculars: nothing, chart: nothing, orientation: () => chart?.toggleOrientation(),
+    range: (by) => chart?.zoom(by), pause: time.toggle, theme: toggleTheme, help: help.toggle,
+  });
+  requestAnimationFrame(frame);
+  window.live = {
+    session,
+    get state() {
+      return session.state;
+    },
+    get client() {
+      return session.hello?.client;
+    },
+    ask: (type, fields) => session.connection.ask(type, fields),
+    order: (fields) => session.connection.ask("order", fields),
+  };
+}
+
+/** The ships: who is in command, course and speed, taking over, failures. */
+function makeShips(ask, conn) {
+  const list = element("div", { class: "ship-cards" });
+  const cards = new Map();
+  return {
+    node: element("section", {}, inWords(element("h2", {}), { text: "ships" }), list),
+    greet(hello) {
+      for (const info of hello.ships) {
+        if (cards.has(info.name)) continue;
+        const dot = element("i");
+        dot.style.background = info.colour;
+        const figures = element("p", { class: "figures" });
+        const said = element("p", { class: "said" });
+        const take = textButton("conn", () => conn(info.name), { "data-conn": info.name });
+        const fails = ["rudder", "blackout"].map((what) => textButton(`fail_${what}`,
+          () => ask("fail", { ship: info.name, what, on: buttonOf(what).getAttribute("aria-pressed") !== "true" }),
+          { "data-fail": what, "aria-pressed": "false" }));
+        const buttonOf = (what) => fails.find((button) => button.dataset.fail === what);
+        const size = `${info.model}, ${info.kind}, ${Math.round(info.L_oa)} m`;
+        const tools = element("div", { class: "row three", hidden: !info.limits }, take, ...fails);
+        const node = element("article", { "data-ship": info.name }, element("h3", {}, dot, info.name), element("p", { class: "said", text: size }), figures, said, tools);
+        cards.set(info.name, { node, figures, said, fails, take });
+        list.append(node);
+      }
+    },
+    show(state, client) {
+      for (const [name, { figures, said, fails, take }] of cards) {
+        const ship = state.ships[name];
+        const { heading, sog } = instruments(ship);
+        figures.textContent = `${threeDigits(toDegrees(heading))}°  ${number(sog / KNOT, 1)} ${say("knots")}`;
+        const holder = state.command[name];
+        said.textContent = holder == null ? say("nobody_in_command") : holder === client ? say("in_command") : say("other_in_command", { client: holder });
+        take.setAttribute("aria-pressed", String(holder === client));
+        for (const button of fails) button.setAttribute("aria-pressed", String(ship.failures.includes(button.dataset.fail)));
+      }
+    },
+  };
+}
+
+/** A line for an event of the server; null for what is no news. */
+function describeEvent({ kind, message, ...event }) {
+  if (kind === "log") return message;
+  if (kind === "command") return say(event.client === null ? "log_command_none" : "log_command", event);
+  if (kind === "failure") return say(event.on ? "log_failure_on" : "log_failure_off", { ship: event.ship, what: say(`fail_${event.what}`) });
+  if (kind === "horn") return event.on ? say("log_horn", event) : null;
+  if (kind === "pause") return say(event.paused ? "log_pause" : "log_go_on");
+  if (kind === "environment") {
+    const { wind, current } = event;
+    return say("log_environment", { wind: number(wind.speed / KNOT, 1), from: threeDigits(wind.from_deg), current: number(Math.hypot(...current) / KNOT, 1) });
+  }
+  const key = `log_${kind.replace(" ", "_")}`;
+  return key in TEXTS ? say(key, { ...event, energy: number((event.energy ?? 0) / 1e6, 1) }) : kind;
+}
+
+function makeMarks(ask) {
+  const name = inWords(element("input", { type: "text", id: "mark-name", maxlength: 40 }), { "aria-label": "mark_name", placeholder: "mark_name" });
+  const list = element("ul", { class: "mark-list" });
+  const none = inWords(element("p", { class: "none" }), { text: "no_marks" });
+  const set = async () => {
+    const answer = await ask("mark", { name: name.value.trim() || String(list.children.length + 1) });
+    if (answer) name.value = "";
+  };
+  name.addEventListener("keydown", (event) => {
+    event.stopPropagation();
+    if (event.key === "Enter") set();
+  });
+  return {
+    node: element("section", {}, inWords(element("h2", {}), { text: "marks" }), list, none, element("div", { class: "row wide-first" }, name, textButton("set_mark", set, { id: "set-mark" }))),
+    add({ name: called, time }) {
+      this.show([...this.known.filter((mark) => mark.name !== called), { name: called, time }]);
+    },
+    /** `known`: [{name, time}]. */
+    show(known) {
+      this.known = known;
+      none.hidden = known.length > 0;
+      list.replaceChildren(...known.map((mark) => {
+        const back = textButton("go_back", () => ask("back", { name: mark.name }), { "data-mark": mark.name });
+        return element("li", {}, inWords(back, { text: "go_back" }, { name: mark.name, time: clockTime(mark.time, 0) }));
+      }));
+    },
+  };
+}
+
+function makeEnvironment(ask) {
+  const fields = {
+    wind_speed: labelled("wind_speed", { min: 0, max: 100, step: 0.5, id: "wind-speed" }), wind_from: labelled("wind_from", { min: 0, max: 360, step: 1, id: "wind-from" }),
+    current_speed: labelled("current_speed", { min: 0, max: 10, step: 0.1, id: "current-speed" }), current_towards: labelled("current_towards", { min: 0, max: 360, step: 1, id: "current-towards" }),
+  };
+  const value = (key) => Number(fields[key].input.value);
+  const sets = {
+    wind: () => ask("environment", { wind: { speed: value("wind_speed") * KNOT, from_deg: value("wind_from") } }),
+    current: () => {
+      const [speed, towards] = [value("current_speed") * KNOT, toRadians(value("current_towards"))];
+      return ask("environment", { current: [speed * Math.cos(towards), speed * Math.sin(towards)] });
+    },
+  };
+  const touched = new Set();
+  for (const [key, { input }] of Object.entries(fields)) input.addEventListener("input", () => touched.add(key));
+  const send = (what) => async () => {
+    await sets[what]();
+    for (const key of Object.keys(fields)) if (key.startsWith(what)) touched.delete(key);
+  };
+  return {
+    node: element("section", {}, inWords(element("h2", {}), { text: "environment" }),
+      element("div", { class: "row set-row" }, fields.wind_speed.node, fields.wind_from.node, textButton("set", send("wind"), { id: "set-wind" })),
+      element("div", { class: "row set-row" }, fields.current_speed.node, fields.current_towards.node, textButton("set", send("current"), { id: "set-current" }))),
+    show({ wind, current }) {
+      const [north, east] = current;
+      const now = {
+        wind_speed: wind.speed / KNOT, wind_from: wind.from_deg, current_speed: Math.hypot(north, east) / KNOT,
+        current_towards: toDegrees(wholeTurn(Math.atan2(east, north))),
+      };
+      for (const [key, { input }] of Object.entries(fields)) {
+        if (touched.has(key) || document.activeElement === input) continue;
+        input.value = String(Number(now[key].toFixed(key.endsWith("speed") ? 1 : 0)));
+      }
+    },
+  };
+}

@@ -1,0 +1,89 @@
+// What both live pages have: language, theme, messages of refusals, time and rate, alarm limits.
+import { element } from "../dom.js";
+import { clockTime, number } from "../format.js";
+import { inWords, language, LANGUAGES, onLanguage, say, setLanguage } from "../texts.js";
+import { toggleTheme } from "../theme.js";
+import { MILE } from "./navigation.js";
+
+export const RATES = [0.25, 0.5, 1, 2, 5, 10, 20];
+
+/** A button with a text that follows the language. */
+export const textButton = (key, onclick, more = {}) => inWords(element("button", { type: "button", onclick, ...more }), { text: key });
+
+/** An <input type="number"> with a label above it. */
+export function labelled(key, attributes) {
+  const input = element("input", { type: "number", inputmode: "decimal", ...attributes });
+  input.addEventListener("keydown", (event) => event.stopPropagation());
+  return { input, node: element("label", {}, inWords(element("span", {}), { text: key }), input) };
+}
+
+/** Messages that go away by themselves; `tell(text)`. */
+export function makeMessages() {
+  const node = element("div", { class: "messages", role: "status", "aria-live": "polite" });
+  return {
+    node,
+    tell(text) {
+      const line = element("p", { text });
+      node.replaceChildren(line);
+      setTimeout(() => line.remove(), 8000);
+    },
+  };
+}
+
+export function makeSwitches(openHelp) {
+  const chosen = inWords(element("select", { id: "language" }, ...Object.entries(LANGUAGES).map(([value, text]) => element("option", { value, text }))), { "aria-label": "language" });
+  chosen.addEventListener("change", () => setLanguage(chosen.value));
+  onLanguage(() => (chosen.value = language()));
+  return element("div", { class: "switches" }, chosen,
+    inWords(element("button", { type: "button", class: "small", text: "\u25d0", onclick: toggleTheme }), { "aria-label": "theme", title: "theme" }),
+    inWords(element("button", { type: "button", class: "small", text: "?", onclick: openHelp }), { "aria-label": "help", title: "help" }));
+}
+
+/** Simulated time, rate, pause and step. `ask(type, fields)` asks the server. */
+export function makeTimeTools(ask) {
+  const clock = element("output", { id: "time-now" });
+  const real = element("small", {});
+  const rate = inWords(element("select", { id: "rate", onchange: () => ask("rate", { rate: Number(rate.value) }) },
+    ...RATES.map((value) => element("option", { value, text: `${value < 1 ? `1/${1 / value}` : value}\u00d7` }))), { "aria-label": "rate" });
+  const pause = element("button", { type: "button", id: "pause", onclick: () => ask("pause", { paused: !isPaused }) });
+  const step = textButton("step", () => ask("step"), { id: "step", hidden: true });
+  let isPaused = false;
+  return {
+    node: inWords(element("div", { class: "time-tools" }, element("p", {}, clock, real), rate, pause, step), { "aria-label": "time" }),
+    toggle: () => pause.click(),
+    /** Whether this page may set the pace. */
+    setAllowed(isAllowed) {
+      rate.disabled = pause.disabled = step.disabled = !isAllowed;
+    },
+    show(state) {
+      isPaused = state.paused;
+      clock.textContent = clockTime(state.time, 1);
+      real.textContent = isPaused ? say("paused") : Math.abs(state.real_rate / state.rate - 1) > 0.05 ? say("really", { rate: number(state.real_rate, 1) }) : "";
+      if (document.activeElement !== rate) rate.value = String(state.rate);
+      pause.textContent = say(isPaused ? "go_on" : "pause");
+      pause.setAttribute("aria-pressed", String(isPaused));
+      step.hidden = !isPaused;
+    },
+  };
+}
+
+/** What is said at the end: why, and where the debriefing is. */
+export function describeEnd({ ended, token }) {
+  const said = inWords(element("p", {}), { text: "ended" });
+  const error = ended.error ? [element("p", { text: ended.error })] : [];
+  if (!ended.replay) return [said, ...error];
+  const href = `${ended.replay}?token=${encodeURIComponent(token)}`;
+  return [said, ...error, inWords(element("a", { href, id: "debriefing" }), { text: "debriefing" })];
+}
+
+/** Limits of the CPA alarm, kept in `session.limits` in m and s. */
+export function makeLimits(session) {
+  const cpa = labelled("cpa_limit", { min: 0, max: 10, step: 0.05, value: session.limits.cpa / MILE, id: "cpa-limit" });
+  const tcpa = labelled("tcpa_limit", { min: 0, max: 60, step: 1, value: session.limits.tcpa / 60, id: "tcpa-limit" });
+  const read = () => {
+    if (cpa.input.validity.valid && cpa.input.value !== "") session.limits.cpa = Number(cpa.input.value) * MILE;
+    if (tcpa.input.validity.valid && tcpa.input.value !== "") session.limits.tcpa = Number(tcpa.input.value) * 60;
+  };
+  for (const { input } of [cpa, tcpa]) input.addEventListener("input", read);
+  return element("section", { class: "limits" }, inWords(element("h2", {}), { text: "limits" }), element("div", { class: "row two" }, cpa.node, tcpa.node));
+}

@@ -1,0 +1,104 @@
+// A page's view of the simulation that runs: the connection, the newest states, tracks, alarms and what is heard.
+import { clockTime, number } from "../format.js";
+import { say } from "../texts.js";
+import { Alarms } from "./alarms.js";
+import { Connection } from "./connection.js";
+import { closestApproach, isTooClose } from "./cpa.js";
+import { History } from "./history.js";
+import { bearing, MILE, moving } from "./navigation.js";
+import { Snapshots } from "./snapshots.js";
+import { Sound } from "./sound.js";
+import { miles } from "./targets.js";
+
+const JUST = 10; // a collision is news for so long [s]
+
+export class Session {
+  /** `role` is "bridge" or "instructor"; `hear(type, message)` is called after this object is up to date. */
+  constructor(role, hear) {
+    const query = new URLSearchParams(location.search);
+    Object.assign(this, {
+      role, hear, token: query.get("token") ?? "", wantedShip: query.get("ship"), hello: null, state: null, ended: null,
+      snapshots: new Snapshots(), histories: {}, alarms: new Alarms(), sound: new Sound(), dangers: new Set(),
+      limits: { cpa: 0.3 * MILE, tcpa: 360 }, firstContact: null,
+    });
+    this.connection = new Connection(role, this.token, (type, message) => this.listen(type, message));
+    setInterval(() => this.sounds(), 250);
+  }
+
+  /** An address on the server, with the token. */
+  address(path) {
+    return `${path}?token=${encodeURIComponent(this.token)}`;
+  }
+
+  infoOf(name) {
+    return this.hello.ships.find((ship) => ship.name === name);
+  }
+
+  listen(type, message) {
+    if (type === "hello") this.greet(message);
+    else if (type === "state") this.take(message);
+    else if (type === "lost") this.alarms.set("lost", true, "warning", () => say("alarm_lost"));
+    else if (type === "end") Object.assign(this, { ended: message }), this.connection.finish();
+    this.hear(type, message);
+  }
+
+  greet(hello) {
+    this.alarms.clear("lost");
+    this.hello = hello;
+    this.own ??= hello.ships.some(({ name }) => name === this.wantedShip) ? this.wantedShip : hello.own;
+    this.snapshots = new Snapshots();
+    for (const { name } of hello.ships) this.histories[name] ??= new History();
+  }
+
+  take(state) {
+    const isBack = this.snapshots.push(state, performance.now());
+    this.state = state;
+    if (isBack) this.hear("back", state);
+    this.watch(state);
+  }
+
+  /** The state that is to be shown now; the tracks then end with it. */
+  present(wall) {
+    const state = this.snapshots.at(wall);
+    if (state) for (const [name, ship] of Object.entries(state.ships)) this.histories[name]?.push(state.time, ship.eta, ship.nu);
+    return state;
+  }
+
+  /** Raises the alarms of a state. */
+  watch(state) {
+    const { alarms } = this;
+    const last = state.contact.collisions.at(-1);
+    const isNews = last !== undefined && (state.contact.points > 0 || state.time - last.time < JUST);
+    if (isNews && state.contact.points > 0) this.firstContact ??= { wall: Date.now(), time: state.time };
+    alarms.set("contact", isNews, "alarm", () => say("alarm_contact", { a: last.ship_a, b: last.ship_b }));
+    alarms.set("slow", !state.paused && !state.paced, "caution", () => say("alarm_slow", { rate: number(state.real_rate, 1) }));
+    const failing = this.role === "bridge" ? [this.own] : [];
+    for (const what of ["blackout", "rudder"]) {
+      alarms.set(what, failing.some((name) => state.ships[name].failures.includes(what)), "alarm", () => say(`alarm_${what}`));
+    }
+    if (this.role !== "bridge") return;
+    const own = moving(state.ships[this.own]);
+    for (const name of Object.keys(state.ships)) {
+      if (name === this.own) continue;
+      const other = moving(state.ships[name]);
+      const isDanger = isTooClose(own, other, this.limits);
+      isDanger ? this.dangers.add(name) : this.dangers.delete(name);
+      const { cpa, tcpa } = closestApproach(own, other);
+      alarms.set(`cpa ${name}`, isDanger, "alarm", () => say("alarm_cpa", { ship: name, cpa: `${miles(cpa)} ${say("miles")}`, tcpa: clockTime(tcpa, 0) }));
+    }
+  }
+
+  acknowledge() {
+    this.alarms.acknowledge();
+    this.sounds();
+  }
+
+  sounds() {
+    this.sound.alarm(this.alarms.sounding);
+    if (!this.state || !this.hello) return;
+    const { ships } = this.state;
+    const here = ships[this.own];
+    this.sound.blow(Object.keys(ships).filter((name) => ships[name].horn && this.connection.isOpen)
+      .map((name) => ({ name, length: this.infoOf(name).L_oa, distance: here ? bearing(here, ships[name]).range : 0 })));
+  }
+}

@@ -1,0 +1,48 @@
+"""The table of texts: complete in each language, and every text is used."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import pytest
+
+from .javascript import SOURCES, run_javascript
+
+MADE = {"telegraph", "alarm", "camera", "fail", "log", "key"}
+"""Beginnings of keys that the sources put together from a name."""
+
+
+@pytest.fixture(scope="module")
+def texts() -> dict[str, list[str]]:
+    found: dict[str, list[str]] = run_javascript("texts.js", "TEXTS", "return TEXTS;")
+    return found
+
+
+def test_every_text_is_there_in_four_languages_with_the_same_places(texts: dict[str, list[str]]) -> None:
+    assert len(texts) > 100
+    for key, languages in texts.items():
+        assert len(languages) == 4, key
+        assert all(languages), key
+        assert len({tuple(sorted(re.findall(r"\{(\w+)\}", text))) for text in languages}) == 1, key
+
+
+def test_texts_and_sources_name_each_other(texts: dict[str, list[str]]) -> None:
+    source = "\n".join(path.read_text(encoding="utf-8") for path in (SOURCES / "live").glob("*.js"))
+    quoted = set(re.findall(r'["`]([a-z_0-9]+)["`]', source))
+    unused = {key for key in texts if key not in quoted and key.partition("_")[0] not in MADE}
+    assert unused == set()
+    asked = set(re.findall(r'(?:say|textButton|labelled)\("(\w+)"', source))
+    asked |= set(re.findall(r'(?:text|title|placeholder|"aria-label"): "(\w+)"', source))
+    assert asked - set(texts) == set()
+
+
+@pytest.mark.parametrize(("language", "said"), [("en", "Stop"), ("de", "Stopp"), ("nb", "Stopp"), ("zh", "停车")])
+def test_a_language_is_chosen(language: str, said: str) -> None:
+    body = "globalThis.document = { documentElement: {} }; setLanguage(data); return [say('telegraph_0'), language()];"
+    assert run_javascript("texts.js", "say, setLanguage, language", body, language) == [said, language]
+
+
+def test_values_come_into_their_places() -> None:
+    found: Any = run_javascript("texts.js", "say", "return say('go_back', { name: 'A', time: '1:00' });")
+    assert found == "Go back to A, 1:00"
