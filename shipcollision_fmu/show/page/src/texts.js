@@ -114,6 +114,10 @@ export const TEXTS = {
   camera_outside: ["Outside", "Außen", "Utenfra", "外部"],
   camera_all: ["Overview", "Übersicht", "Oversikt", "全景"],
   binoculars: ["Binoculars", "Fernglas", "Kikkert", "望远镜"],
+  sky: ["Time of day", "Tageszeit", "Tid på døgnet", "时段"],
+  sky_day: ["Day", "Tag", "Dag", "白天"],
+  sky_dusk: ["Dusk", "Dämmerung", "Skumring", "黄昏"],
+  sky_night: ["Night", "Nacht", "Natt", "夜间"],
 
   // Time
   time: ["Time", "Zeit", "Tid", "时间"],

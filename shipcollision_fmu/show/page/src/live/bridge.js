@@ -1,12 +1,13 @@
 // The bridge: what is seen from the ship, instruments, steering and engine, chart, other ships, alarms.
 import { element } from "../dom.js";
+import { SKIES } from "../daylight.js";
 import { toggleTheme } from "../theme.js";
 import { inWords, onLanguage, say } from "../texts.js";
 import { drawsInSoftware, makeViewer } from "../viewer.js";
 import { makeAlarmBar } from "./alarm_bar.js";
 import { Chart } from "./chart.js";
 import { Conning } from "./conning.js";
-import { effectsOf } from "./effects_live.js";
+import { effectsOf, ignites } from "./effects_live.js";
 import { makeInstruments } from "./instruments.js";
 import { LiveCameras, MODES } from "./live_cameras.js";
 import { listenToBridgeKeys, makeLiveHelp } from "./live_keys.js";
@@ -17,7 +18,7 @@ import { makeTargets } from "./targets.js";
 
 const NUMBERS = 150; // between two readings of the instruments [ms]
 const CHART = 250; // between two pictures of the chart [ms]
-const SETTLED = 0.3; // [s] after which a collision's energy tells how strong its effects are
+const SETTLED = 0.1; // [s] after which a collision's energy tells how strong its effects are
 
 export async function startBridge() {
   const session = new Session("bridge", (type, message) => hear(type, message));
@@ -39,12 +40,14 @@ export async function startBridge() {
   const command = element("button", { type: "button", id: "command", onclick: () => onShip("command", { take: !isInCommand() }) });
   const camera = inWords(element("select", { id: "camera", onchange: () => chooseCamera(camera.value) },
     ...MODES.map((mode) => inWords(element("option", { value: mode }), { text: `camera_${mode}` }))), { "aria-label": "camera" });
+  const sky = inWords(element("select", { id: "sky", onchange: () => viewer?.setSky(sky.value) },
+    ...SKIES.map(([value]) => inWords(element("option", { value }), { text: `sky_${value}` }))), { "aria-label": "sky" });
   const binoculars = textButton("binoculars", () => toggleBinoculars(), { id: "binoculars", "aria-pressed": "false" });
   const swap = inWords(textButton("chart", () => swapChart(), { id: "chart-large", "aria-pressed": "false" }), { title: "chart_large" });
   const over = element("div", { class: "over", hidden: true });
   const stage = element("main", { class: "stage" }, canvas,
     element("div", { class: "stage-top" }, alarmBar.node, messages.node, over),
-    element("div", { class: "stage-tools" }, camera, binoculars, swap));
+    element("div", { class: "stage-tools" }, camera, sky, binoculars, swap));
   const chartPlace = element("div", { class: "chart-place" });
   const isNarrow = matchMedia("(max-width: 900px)");
   document.body.append(stage,
@@ -143,22 +146,23 @@ export async function startBridge() {
   }
 
   function addNewEffects(state) {
+    const ships = viewer.ships.map(({ info }) => ({ info, eta: state.ships[info.name].eta }));
     for (const collision of state.contact.collisions) {
-      const key = `${collision.id} ${collision.time}`;
-      if (effects.has(key) || state.time < collision.time + SETTLED) continue;
-      const ships = viewer.ships.map(({ info }) => ({ info, eta: state.ships[info.name].eta }));
-      effects.set(key, viewer.addEffects(effectsOf(collision, ships)));
+      const { id, time: start, energy, ship_a, ship_b } = collision;
+      const infos = ships.map(({ info }) => info).filter(({ name }) => name === ship_a || name === ship_b);
+      const due = { hit: state.time >= start + SETTLED, fire: ignites(energy, infos) };
+      for (const [what, isDue] of Object.entries(due)) {
+        const key = `${id} ${start} ${what}`;
+        if (!isDue || effects.has(key)) continue;
+        effects.set(key, viewer.addEffects(effectsOf(collision, ships, what === "hit" ? start : state.time, what === "fire")));
+      }
     }
   }
 
-  /** Time has gone back: effects of collisions that have not happened go. */
+  /** Time has gone back: all effects go, and come again where their collisions have happened. */
   function forgetEffects() {
-    const kept = new Set(session.state.contact.collisions.map(({ id, time: at }) => `${id} ${at}`));
-    for (const [key, remove] of effects) {
-      if (kept.has(key)) continue;
-      remove();
-      effects.delete(key);
-    }
+    for (const remove of effects.values()) remove();
+    effects.clear();
   }
 
   function showEnd() {
@@ -228,9 +232,8 @@ export async function startBridge() {
     get client() {
       return session.hello?.client;
     },
-    get firstContact() {
-      return session.firstContact;
-    },
+    /** Contacts as they came into the page: [{id, time, wall}], wall in ms when the frame that shows one was made. */
+    contacts: session.contacts,
     order: (fields) => session.connection.ask("order", { ship: session.own, ...fields }),
     ask: (type, fields) => session.connection.ask(type, fields),
     camera: chooseCamera,

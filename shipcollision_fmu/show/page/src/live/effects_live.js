@@ -1,20 +1,31 @@
-// The effects of a collision that has just happened, as show/scene/effects.py makes them of a run that is over.
+// The effects of a collision that has just happened, as show/scene/effects.py makes them of a run that is over: dust and
+// splash at once, fire from the moment at which the energy dissipated so far reaches what sets a cargo on fire.
 
 const FULL = 1e8; // energy of an effect at full strength [J]
 const FAINTEST = 0.05;
 const LARGEST = 6; // [m]
-const KINDS = { explosion: [0, 1], debris: [0, 1], fire: [0.4, 25], smoke: [0.8, 60] }; // delay, duration [s]
+const IGNITION = 5e7; // [J], and where a tanker or a gas carrier takes part:
+const IGNITION_OF_OIL_AND_GAS = 3.27e7;
+const HITS = { dust: [0, 1.2], splash: [0, 1] }; // delay, duration [s]
+const FIRES = { explosion: [0, 1], debris: [0, 1], fire: [0.4, 25], smoke: [0.8, 60] };
 
-/** Effects of {id, time, point, energy} on the ship that is struck: that whose contact point is farther aft. */
-export function effectsOf(collision, ships) {
+/** Whether a collision sets something on fire. `infos`: what is known of the ships that take part. */
+export const ignites = (energy, infos) => energy >= (infos.some(({ kind }) => /tanker|gas/i.test(kind)) ? IGNITION_OF_OIL_AND_GAS : IGNITION);
+
+/**
+ * Effects of {id, ship_a, ship_b, point, energy} at a time, on the ship that is struck: that whose contact point is
+ * farther aft. `ships`: [{info, eta}] of all.
+ */
+export function effectsOf(collision, ships, time, isFire) {
   const borne = ships.filter(({ info }) => info.name === collision.ship_a || info.name === collision.ship_b)
     .map(({ info, eta }) => ({ info, point: inShip(eta, collision.point) }));
   if (!borne.length) return [];
   const { info, point } = borne.reduce((a, b) => (b.point[0] / b.info.L_oa < a.point[0] / a.info.L_oa ? b : a));
   const intensity = Math.min(1, Math.max(FAINTEST, Math.cbrt(Math.max(0, collision.energy) / FULL)));
-  return Object.entries(KINDS).map(([kind, [delay, duration]], k) => ({
-    kind, ship: info.name, point, outwards: [0, Math.sign(point[1]) || 1, 0], time: collision.time + delay * intensity,
-    duration: duration * intensity, intensity, size: LARGEST * intensity, seed: 4 * collision.id + k,
+  return Object.entries(isFire ? FIRES : HITS).map(([kind, [delay, duration]], k) => ({
+    kind, ship: info.name, point: kind === "splash" ? [point[0], point[1], 0] : point, outwards: [0, Math.sign(point[1]) || 1, 0],
+    time: time + delay * intensity, duration: duration * intensity, intensity, size: LARGEST * intensity,
+    seed: 6 * collision.id + k + (isFire ? 2 : 0),
   }));
 }
 

@@ -19,7 +19,7 @@ export class Session {
     Object.assign(this, {
       role, hear, token: query.get("token") ?? "", wantedShip: query.get("ship"), hello: null, state: null, ended: null,
       snapshots: new Snapshots(), histories: {}, alarms: new Alarms(), sound: new Sound(), dangers: new Set(),
-      limits: { cpa: 0.3 * MILE, tcpa: 360 }, firstContact: null,
+      limits: { cpa: 0.3 * MILE, tcpa: 360 }, contacts: [], known: new Set(),
     });
     this.connection = new Connection(role, this.token, (type, message) => this.listen(type, message));
     setInterval(() => this.sounds(), 250);
@@ -69,7 +69,12 @@ export class Session {
     const { alarms } = this;
     const last = state.contact.collisions.at(-1);
     const isNews = last !== undefined && (state.contact.points > 0 || state.time - last.time < JUST);
-    if (isNews && state.contact.points > 0) this.firstContact ??= { wall: Date.now(), time: state.time };
+    const before = this.known;
+    this.known = new Set(state.contact.collisions.map(({ id, time }) => `${id} ${time}`));
+    for (const { id, time } of state.contact.collisions) {
+      if (before.has(`${id} ${time}`)) continue;
+      requestAnimationFrame(() => this.contacts.push({ id, time, wall: Date.now() }));
+    }
     alarms.set("contact", isNews, "alarm", () => say("alarm_contact", { a: last.ship_a, b: last.ship_b }));
     alarms.set("slow", !state.paused && !state.paced, "caution", () => say("alarm_slow", { rate: number(state.real_rate, 1) }));
     const failing = this.role === "bridge" ? [this.own] : [];
