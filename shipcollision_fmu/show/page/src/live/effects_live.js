@@ -23,7 +23,7 @@ export function effectsOf(collision, ships, time, isFire) {
   const { info, point } = borne.reduce((a, b) => (b.point[0] / b.info.L_oa < a.point[0] / a.info.L_oa ? b : a));
   const intensity = Math.min(1, Math.max(FAINTEST, Math.cbrt(Math.max(0, collision.energy) / FULL)));
   return Object.entries(isFire ? FIRES : HITS).map(([kind, [delay, duration]], k) => ({
-    kind, ship: info.name, point: kind === "splash" ? [point[0], point[1], 0] : point, outwards: [0, Math.sign(point[1]) || 1, 0],
+    kind, ship: info.name, point, outwards: [0, Math.sign(point[1]) || 1, 0],
     time: time + delay * intensity, duration: duration * intensity, intensity, size: LARGEST * intensity,
     seed: 6 * collision.id + k + (isFire ? 2 : 0),
   }));
