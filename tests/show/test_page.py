@@ -106,7 +106,7 @@ def test_scratches_have_grown_as_far_as_they_have(page: Page, folder: Path, scen
     at = moments(scene, folder)[when]
     drawn = page.slide(at)
     borne = [(scratch, scene.ship(scratch.ship)) for scratch in scene.scratches]
-    ribbons = [lay_ribbon(scratch, ship.hull, ship.L_pp) for scratch, ship in borne]
+    ribbons = [lay_ribbon(scratch, ship.plating, ship.L_pp) for scratch, ship in borne]
     triangles = sum(int((shape.times[shape.triangles].max(axis=1) <= at + 1e-4).sum()) for shape in ribbons)
     assert drawn["scratchPoints"] == sum(int((scratch.times <= at + 1e-6).sum()) for scratch in scene.scratches)
     assert drawn["scratchTriangles"] == triangles

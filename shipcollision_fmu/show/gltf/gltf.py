@@ -2,8 +2,9 @@
 
     n                     turns north, east, down into glTF's world: x north, y up, z east
     ├── SHIP              translation and rotation animated; children are in the ship's own b
-    │   ├── hull          topsides, boot-top, antifouling, deck
-    │   ├── fittings      deckhouse, hatches and masts, for the eye
+    │   ├── hull          topsides, boot-top, antifouling, deck, bulwark, rudder, propeller, marks
+    │   ├── fittings      deckhouse, cargo and masts, for the eye
+    │   ├── light stern   a navigation light: a place without a mesh
     │   └── scratch 1.3   a stretch of a scratch: scale 0 until its time has come, then 1 (STEP)
     └── OBSTACLE
 
@@ -12,7 +13,9 @@ from the scene's start. A viewer that plays no animation shows the end of every 
 time at which they are drawn as attribute _TIME, for viewers that want to draw them point by point.
 
 extras of the scene      start [s], origin [m], events, effects (glTF has no particles), frames in words
-extras of a node         {"ship": name, ...}, {"obstacle": name}, {"scratch": id, "time": s}
+extras of a node         {"ship": name, ...}, {"obstacle": name}, {"scratch": id, "time": s},
+                         {"light": kind, "colour": sRGB, "start", "end", "arc": deg clockwise from ahead,
+                         "direction": the middle of the arc in b, "range": nautical miles}
 """
 
 from __future__ import annotations
@@ -25,8 +28,9 @@ import numpy as np
 from ... import __version__
 from ...ship.frames import Array
 from ...ship.hull.convex import Indices
-from ..scene.palette import Paint, choose_topsides, convert_to_linear, find_paint
-from ..scene.parts import Shape, cut_hull, join_fittings
+from ..scene.lights import Light
+from ..scene.palette import LIVERIES, Paint, choose_topsides, convert_to_linear, find_paint
+from ..scene.parts import Shape, join_fittings, join_shapes
 from ..scene.scene import Obstacle, Scene, Scratch, Ship
 from ..scene.surface import Surface, compute_corner_normals, drop_flat_triangles
 from .glb import Document
@@ -70,9 +74,11 @@ class _Writer:
 
     def _add_ship(self, index: int, ship: Ship) -> int:
         document, track = self._document, ship.track
-        children = [self._add_node("hull", self._add_mesh(cut_hull(ship), {"topsides": choose_topsides(index)}))]
+        paints = dict.fromkeys(LIVERIES, choose_topsides(index))
+        children = [self._add_node("hull", self._add_mesh(join_shapes(ship.shell), paints))]
         if ship.fittings:
-            children.append(self._add_node("fittings", self._add_mesh(join_fittings(ship.fittings), {})))
+            children.append(self._add_node("fittings", self._add_mesh(join_fittings(ship.fittings), paints)))
+        children += [self._add_light(light) for light in ship.lights]
         for scratch in self._scene.scratches:
             if scratch.ship == ship.name:
                 children += self._add_stretches(scratch, ship)
@@ -104,9 +110,22 @@ class _Writer:
             extras={"obstacle": obstacle.name, "kind": obstacle.kind},
         )
 
+    def _add_light(self, light: Light) -> int:
+        return self._document.add(
+            "nodes",
+            {
+                "name": f"light {light.kind}",
+                "translation": [float(x) for x in light.point],
+                "extras": {
+                    "light": light.kind, "colour": light.colour, "arc": light.arc, "start": light.start,
+                    "end": light.end, "direction": light.direction.tolist(), "range": light.range,
+                },
+            },
+        )  # fmt: skip
+
     def _add_stretches(self, scratch: Scratch, ship: Ship) -> list[int]:
         """Nodes of a scratch: runs of its triangles, each of which appears at the time of its first triangle."""
-        shape = lay_ribbon(scratch, ship.hull, ship.L_pp)
+        shape = lay_ribbon(scratch, ship.plating, ship.L_pp)
         count = max(1, min(MOST_STRETCHES, STRETCHES // len(self._scene.scratches)))
         appears = shape.times[shape.triangles].max(axis=1) - self._scene.start
         nodes = []

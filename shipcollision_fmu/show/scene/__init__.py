@@ -3,7 +3,12 @@
     run_folder.py   reads and checks the files of a run        signals.py    curves over time
     scene.py        builds the Scene: ships, tracks, events    resample.py   thins tracks, lines and curves
     scratches.py    lines of contact points on the hulls       effects.py    explosion, debris, fire, smoke
-    surface.py      triangle surfaces                          fittings.py   deckhouses, hatches, masts
+    surface.py      triangle surfaces                          solids.py     boxes, prisms, rods
+    looks.py        all that is drawn of a ship                ship_style.py how ships of a type look
+    hull_shell.py   the hull as drawn                          hull_rings.py, hull_lines.py  its form above and under water
+    lettering.py    names, draught marks                       appendages.py rudders, propellers, anchors
+    fittings.py     arrangement by type of ship                outfit.py, cargo.py  houses, masts, boats; cargo on deck
+    lights.py       navigation lights
     parts.py        surfaces by paint                          palette.py    colours
     camera.py       a camera over time
 

@@ -1,242 +1,323 @@
-"""Fittings on a ship's deck, which distinguish bow from stern and a tanker from a container ship in pictures.
+"""Fittings on a ship's deck, by type of ship. Contact ignores them, and they are no ship's real arrangement.
 
-They follow from main dimensions and type, as far as they fit on the deck. Contact ignores them, and they are no ship's
-real arrangement. Hulls from mesh files, boxes (barges, logs, buoys) and ships shorter than SHORTEST have none.
+They follow from main dimensions and type, as far as they fit on the deck. Hulls from mesh files, boxes (barges, logs,
+buoys) and ships shorter than SHORTEST have none.
 
-    house      of the crew, with a bridge over the full breadth          funnel    behind it
-    mast       on the forecastle and on the house                        hatches   bulk carriers and cargo vessels
-    stacks     containers                                                pipes     along a tanker's deck
-    decks      of ferries, passenger ships and car carriers              gun       of naval ships
-    winch      on the working deck of tugs and supply vessels, whose house stands forward
+    cargo vessel, bulk carrier    hatches, cranes on ships below GEARED, the house aft
+    container ship                bays of containers, the house at two thirds aft, a bay behind it
+    tanker, gas carrier           pipes, manifold and its cranes, or spherical tanks; the house aft
+    ferry, passenger, car carrier decks over most of the length with windows, boats; a bridge forward
+    tug, supply, fishing, tender  the house forward, a working deck with winch and gear aft
+    naval                         a gun, sloping blocks with masts and funnel, a flight deck aft
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from zlib import crc32
 
 import numpy as np
 
-from ...ship.ship_type import find_ship_type
-from .run_folder import ShipBody
-from .surface import Surface
+from .cargo import fit_hatches, fit_tank_deck, stow_containers
+from .hull_shell import WeatherDeck
+from .outfit import TIER, Fitting, Outfit
+from .solids import make_box, make_loft, make_prism, make_rod
 
-__all__ = ["Fitting", "make_fittings"]
+__all__ = ["Fitting", "Outfitted", "make_fittings"]
 
 SHORTEST = 15.0
 """[m] Least length over all of a ship with fittings."""
-_BOX = np.array([
-    (0, 2, 3), (0, 3, 1), (4, 5, 7), (4, 7, 6), (0, 1, 5), (0, 5, 4), (2, 6, 7), (2, 7, 3), (0, 4, 6), (0, 6, 2),
-    (1, 3, 7), (1, 7, 5),
-])  # fmt: skip
+GEARED = 210.0
+"""[m] Length from which bulk carriers have no cranes of their own."""
 
 
 @dataclass(frozen=True, eq=False)
-class Fitting:
-    """A fitting in the ship's b: the name of its part ("house", "funnel", ...) and its surface."""
+class Outfitted:
+    """Fittings, and where lights stand: the station of the main mast and z of its top [m]."""
 
-    part: str
-    surface: Surface
-
-
-def make_fittings(body: ShipBody, hull: Surface) -> tuple[Fitting, ...]:
-    """The fittings of a ship with that hull; none for hulls that are not a ship's."""
-    if body.shape != "parametric" or body.L_oa < SHORTEST:
-        return ()
-    deck = _Deck(hull)
-    L, B = deck.fore - deck.aft, body.B
-    return tuple(_ARRANGEMENTS.get(find_ship_type(body.kind).name, _arrange_cargo_vessel)(deck, L, B))
+    fittings: tuple[Fitting, ...]
+    mast: float
+    top: float
 
 
-def _arrange_cargo_vessel(deck: _Deck, L: float, B: float) -> list[Fitting]:
-    return [
-        *_make_house(deck, deck.aft + 0.06 * L, L, B),
-        *_make_mast(deck, L, B),
-        *_make_hatches(deck, *_hold(deck, L), B),
-    ]
+def make_fittings(deck: WeatherDeck, type_name: str, name: str) -> Outfitted:
+    """The fittings of a ship of a type; cargo is stowed at random, by the ship's name."""
+    outfit = Outfit(deck)
+    random = np.random.default_rng(crc32(name.encode()))
+    mast, top = _ARRANGEMENTS.get(type_name, _arrange_cargo_vessel)(outfit, random)
+    return Outfitted(tuple(outfit.fittings), mast, top)
 
 
-def _arrange_container_ship(deck: _Deck, L: float, B: float) -> list[Fitting]:
-    return [
-        *_make_house(deck, deck.aft + 0.06 * L, L, B),
-        *_make_mast(deck, L, B),
-        *_make_stacks(deck, *_hold(deck, L), B),
-    ]
+Random = np.random.Generator
 
 
-def _arrange_tanker(deck: _Deck, L: float, B: float) -> list[Fitting]:
-    return [
-        *_make_house(deck, deck.aft + 0.06 * L, L, B),
-        *_make_mast(deck, L, B),
-        *_make_pipes(deck, *_hold(deck, L), B),
-    ]
+def _arrange_cargo_vessel(outfit: Outfit, random: Random) -> tuple[float, float]:
+    deck, L = outfit.deck, outfit.deck.length
+    place = _build_house(outfit, deck.aft + 0.045 * L, _tiers(deck, 4, 5))
+    fit_hatches(outfit, deck.aft + 0.165 * L, deck.forecastle - 0.03 * L, has_cranes=GEARED > L > 60.0)
+    _fit_forecastle(outfit)
+    outfit.rails(deck.aft + 0.01 * L, deck.forecastle - 0.02 * L)
+    return place
 
 
-def _arrange_ferry(deck: _Deck, L: float, B: float) -> list[Fitting]:
-    """Decks over most of the length, each shorter than the one below, with windows; a bridge forward, a funnel aft."""
-    found, z, height = [], deck.z, 0.11 * B
-    aft, fore = deck.aft + 0.05 * L, deck.fore - 0.22 * L
-    for tier in range(3):
-        x = (aft + 0.03 * tier * L, fore - 0.04 * tier * L)
-        half = 0.94 * deck.half_breadth(*x)
-        found += [
-            _make_box("house", x, (-half, half), (z - 0.45 * height, z)),
-            _make_box("windows", x, (-0.99 * half, 0.99 * half), (z - 0.7 * height, z - 0.45 * height)),
-            _make_box("house", x, (-half, half), (z - height, z - 0.7 * height)),
-        ]
-        z -= height
-    bridge, wing = (fore - 0.16 * L, fore - 0.09 * L), deck.half_breadth(aft, fore)
-    funnel = (aft + 0.10 * L, aft + 0.16 * L)
-    return [
-        *found,
-        _make_box("house", bridge, (-wing, wing), (z - 0.8 * height, z)),
-        _make_box("windows", bridge, (-0.99 * wing, 0.99 * wing), (z - 1.1 * height, z - 0.8 * height)),
-        _make_box("house", bridge, (-wing, wing), (z - 1.2 * height, z - 1.1 * height)),
-        _make_box("funnel", funnel, (-0.14 * B, 0.14 * B), (z - 2.2 * height, z)),
-        *_make_mast(deck, L, B),
-    ]
+def _arrange_container_ship(outfit: Outfit, random: Random) -> tuple[float, float]:
+    deck, L = outfit.deck, outfit.deck.length
+    tiers = 3 if deck.breadth < 24.0 else 5 if deck.breadth < 40.0 else 7
+    u = min(1.0, deck.breadth / 20.0)
+    house = deck.aft + (0.205 if L > 140.0 else 0.05) * L
+    place = _build_house(outfit, house, _tiers(deck, tiers + 2, tiers + 2), length=0.42 * deck.breadth)
+    fore = house + 0.42 * deck.breadth + 2.5 * u
+    stow_containers(outfit, fore, deck.forecastle - 0.012 * L, tiers, random)
+    stow_containers(outfit, deck.aft + 0.03 * L, house - 0.26 * deck.breadth - 2.0 * u, tiers - 1, random)
+    _fit_forecastle(outfit)
+    outfit.rails(deck.aft + 0.01 * L, deck.forecastle - 0.02 * L)
+    return place
 
 
-def _arrange_tug(deck: _Deck, L: float, B: float) -> list[Fitting]:
-    """A house forward with the bridge on it, a funnel behind it, a working deck with a winch aft."""
-    aft, fore, z = deck.fore - 0.55 * L, deck.fore - 0.22 * L, deck.z
-    half = 0.7 * deck.half_breadth(aft, fore)
-    bridge, funnel, winch = (fore - 0.16 * L, fore - 0.02 * L), (aft, aft + 0.05 * L), (aft - 0.14 * L, aft - 0.05 * L)
-    return [
-        _make_box("house", (aft, fore), (-half, half), (z - 0.28 * B, z)),
-        _make_box("windows", bridge, (-0.7 * half, 0.7 * half), (z - 0.44 * B, z - 0.36 * B)),
-        _make_box("house", bridge, (-0.72 * half, 0.72 * half), (z - 0.46 * B, z - 0.44 * B)),
-        _make_box("house", bridge, (-0.7 * half, 0.7 * half), (z - 0.36 * B, z - 0.28 * B)),
-        _make_box("funnel", funnel, (-0.5 * half, -0.2 * half), (z - 0.50 * B, z - 0.28 * B)),
-        _make_box("funnel", funnel, (0.2 * half, 0.5 * half), (z - 0.50 * B, z - 0.28 * B)),
-        _make_box("mast", (fore - 0.10 * L, fore - 0.08 * L), (-0.02 * B, 0.02 * B), (z - 0.80 * B, z - 0.46 * B)),
-        _make_box("pipe", winch, (-0.3 * half, 0.3 * half), (z - 0.12 * B, z)),
-    ]
+def _arrange_tanker(outfit: Outfit, random: Random) -> tuple[float, float]:
+    deck, L = outfit.deck, outfit.deck.length
+    place = _build_house(outfit, deck.aft + 0.05 * L, _tiers(deck, 5, 6))
+    fit_tank_deck(outfit, deck.aft + 0.17 * L, deck.fore - 0.11 * L)
+    _fit_forecastle(outfit)
+    outfit.rails(deck.aft + 0.01 * L, deck.fore - 0.08 * L)
+    return place
 
 
-def _arrange_naval_ship(deck: _Deck, L: float, B: float) -> list[Fitting]:
-    """A gun, two blocks amidships with masts and funnel, and a free deck aft."""
-    z, middle = deck.z, 0.5 * (deck.aft + deck.fore)
-    front, back = (middle + 0.02 * L, middle + 0.20 * L), (middle - 0.24 * L, middle - 0.04 * L)
-    half = 0.75 * min(deck.half_breadth(*front), deck.half_breadth(*back))
-    gun = middle + 0.28 * L
-    mount = min(0.14 * B, 0.8 * deck.half_breadth(gun, gun + 0.06 * L))
-    return [
-        _make_box("house", (gun, gun + 0.03 * L), (-mount, mount), (z - 0.16 * B, z)),
-        _make_box("mast", (gun + 0.03 * L, gun + 0.07 * L), (-0.012 * B, 0.012 * B), (z - 0.13 * B, z - 0.10 * B)),
-        _make_box("house", front, (-half, half), (z - 0.35 * B, z)),
-        _make_box("windows", (middle + 0.12 * L, front[1] - 0.005 * L), (-half, half), (z - 0.43 * B, z - 0.35 * B)),
-        _make_box("mast", (middle + 0.07 * L, middle + 0.09 * L), (-0.05 * B, 0.05 * B), (z - 1.15 * B, z - 0.35 * B)),
-        _make_box("house", back, (-half, half), (z - 0.30 * B, z)),
-        _make_box(
-            "funnel", (middle - 0.14 * L, middle - 0.08 * L), (-0.16 * B, 0.16 * B), (z - 0.65 * B, z - 0.30 * B)
-        ),
-    ]
-
-
-def _hold(deck: _Deck, L: float) -> tuple[float, float]:
-    """After and fore end of the cargo deck [m], with the house aft."""
-    return deck.aft + 0.16 * L, deck.fore - 0.13 * L
-
-
-class _Deck:
-    """The deck: its height z [m] and its breadth."""
-
-    def __init__(self, hull: Surface) -> None:
-        self.z = float(hull.vertices[:, 2].min())
-        self._edge = hull.vertices[hull.vertices[:, 2] < self.z + 0.01, :2]
-        self._edge = self._edge[self._edge[:, 1] > -1e-9]
-        self._edge = self._edge[np.argsort(self._edge[:, 0])]
-        self.aft, self.fore = float(self._edge[0, 0]), float(self._edge[-1, 0])
-
-    def half_breadth(self, x0: float, x1: float) -> float:
-        """Least half breadth between x0 and x1 [m]: at the ends, for the deck is convex."""
-        return min(float(np.interp(x, *self._edge.T)) for x in (x0, x1))
-
-
-def _make_box(part: str, x: tuple[float, float], y: tuple[float, float], z: tuple[float, float]) -> Fitting:
-    """A box from (x0, y0, z0) to (x1, y1, z1), z0 < z1."""
-    corners = np.array([(a, b, c) for c in z for b in y for a in x])
-    return Fitting(part, Surface(corners, _BOX))
-
-
-def _make_house(deck: _Deck, aft: float, L: float, B: float) -> list[Fitting]:
-    """Deckhouse, bridge, funnel and a mast, on [aft, aft + 0.09 L]."""
-    fore = aft + 0.075 * L
-    half, height, z = 0.82 * deck.half_breadth(aft, fore), 0.42 * B, deck.z
-    wing, inner = min(0.5 * B, 1.15 * half), 0.8 * half
-    bridge, top = (fore - 0.035 * L, fore + 0.005 * L), [z - share * height for share in (1.0, 1.07, 1.13, 1.18)]
-    funnel, mast = (aft + 0.004 * L, aft + 0.02 * L), (fore - 0.02 * L, fore - 0.017 * L)
-    return [
-        _make_box("house", (aft + 0.025 * L, fore), (-half, half), (top[0], z)),
-        _make_box("house", (aft, aft + 0.025 * L), (-0.6 * half, 0.6 * half), (z - 0.5 * height, z)),
-        _make_box("house", bridge, (-wing, wing), (top[1], top[0])),
-        _make_box("windows", bridge, (-inner, inner), (top[2], top[1])),
-        _make_box("house", bridge, (-inner, inner), (top[3], top[2])),
-        _make_box("funnel", funnel, (-0.22 * half, 0.22 * half), (z - 1.2 * height, z - 0.5 * height)),
-        _make_box("mast", mast, (-0.012 * B, 0.012 * B), (z - 1.55 * height, top[3])),
-    ]
-
-
-def _make_mast(deck: _Deck, L: float, B: float) -> list[Fitting]:
-    x, thick = deck.fore - 0.05 * L, 0.012 * B
-    return [_make_box("mast", (x - thick, x + thick), (-thick, thick), (deck.z - 0.35 * B, deck.z))]
-
-
-def _make_hatches(deck: _Deck, aft: float, fore: float, B: float) -> list[Fitting]:
-    count = max(3, round((fore - aft) / B))
+def _arrange_gas_carrier(outfit: Outfit, random: Random) -> tuple[float, float]:
+    """Spherical tanks, of which the upper halves show, with a trunk between them."""
+    deck, L, B = outfit.deck, outfit.deck.length, outfit.deck.breadth
+    place = _build_house(outfit, deck.aft + 0.045 * L, _tiers(deck, 6, 7))
+    aft, fore, count = deck.aft + 0.17 * L, deck.fore - 0.13 * L, 4
     pitch = (fore - aft) / count
-    found = []
     for i in range(count):
-        x = (aft + (i + 0.14) * pitch, aft + (i + 0.86) * pitch)
-        half = min(0.32 * B, 0.8 * deck.half_breadth(*x))
-        found.append(_make_box("hatch", x, (-half, half), (deck.z - 0.045 * B, deck.z)))
-    return found
+        x = aft + (i + 0.5) * pitch
+        radius = min(0.46 * pitch, 0.44 * B, 0.92 * deck.half_breadth(x - 0.4 * pitch, x + 0.4 * pitch))
+        angle = 2.0 * np.pi * np.arange(24) / 24
+        ring = np.column_stack([np.cos(angle), np.sin(angle)])
+        for a, b in zip(np.radians(range(0, 90, 15)), np.radians(range(15, 105, 15)), strict=True):
+            lower, upper = (x, 0.0) + radius * np.cos(a) * ring, (x, 0.0) + radius * max(np.cos(b), 0.02) * ring
+            outfit.add("house", make_loft(lower, deck.z - radius * np.sin(a), upper, deck.z - radius * np.sin(b)))
+    u = outfit.deck.unit
+    outfit.box("trim", (aft, fore - 0.5 * pitch), (-1.2 * u, 1.2 * u), (deck.z - 0.44 * B, deck.z - 0.40 * B))
+    _fit_forecastle(outfit)
+    outfit.rails(deck.aft + 0.01 * L, deck.fore - 0.08 * L)
+    return place
 
 
-def _make_stacks(deck: _Deck, aft: float, fore: float, B: float) -> list[Fitting]:
-    """Bays of blocks of containers, of uneven height."""
-    bay, row, tier = max(0.055 * (fore - aft), 0.4 * B), 0.19 * B, 0.075 * B
-    count = int((fore - aft) / bay)
-    found = []
+def _arrange_ferry(outfit: Outfit, random: Random) -> tuple[float, float]:
+    """White decks over most of the length with windows and boats, a bridge forward, a funnel aft."""
+    deck, L, B = outfit.deck, outfit.deck.length, outfit.deck.breadth
+    u, t = deck.unit, TIER * deck.unit
+    z, aft, fore = deck.z, deck.aft + 0.03 * L, deck.fore - 0.13 * L
+    count = max(2, min(6 if B > 24.0 else 4, round(0.5 * B / t)))
     for i in range(count):
-        x = (aft + i * bay, aft + (i + 0.92) * bay)
-        half = min(0.48 * B, 0.95 * deck.half_breadth(*x))
-        rows = int(2 * half / row)
-        for j in range(rows):
-            y = (-0.5 * rows + j) * row
-            tiers = 2 + (3 * i + 5 * j + i * j) % 3 - (i == count - 1)
-            for k in range(tiers):
-                z = deck.z - k * tier
-                colour = "abcd"[(7 * i + 3 * j + 5 * k + i * k) % 4]
-                found.append(_make_box(f"container-{colour}", x, (y, y + 0.97 * row), (z - 0.97 * tier, z)))
-    return found
+        plan = deck.plan(aft + 0.018 * i * L, fore - 0.022 * i * L, inset=0.25 * u)
+        if i == 1 and B > 9.0:
+            plan = deck.plan(aft + 0.018 * L, fore - 0.022 * L, inset=2.6 * u)
+        z = outfit.tier(plan, z, t, pitch=2.2)
+        if i == 0:
+            z_boats = z
+    if B > 9.0:
+        for x in np.linspace(deck.aft + 0.25 * L, deck.aft + 0.60 * L, max(2, round(0.35 * L / (13.0 * u)))):
+            outfit.boat(float(x), deck.half_breadth(float(x), float(x)) - 1.35 * u, z_boats - 0.4 * u, 8.0 * u)
+    front = fore - 0.022 * count * L
+    wing = (front - 0.045 * L, front - 0.045 * L + 4.0 * u)
+    half = deck.half_breadth(*wing)
+    outfit.box("house", wing, (-half, half), (z - 0.95 * u, z))
+    top = outfit.band(deck.plan(front - 0.10 * L, front, inset=2.2 * u), z, 1.05 * t)
+    outfit.pair(
+        "windows",
+        (wing[0] + 0.3 * u, wing[1] + 0.03 * u),
+        (half - 2.4 * u, half - 0.1 * u),
+        (z - 2.0 * u, z - 0.95 * u),
+    )
+    outfit.pair("house", wing, (half - 2.5 * u, half), (z - 2.3 * u, z - 2.0 * u))
+    funnel = (aft + 0.16 * L, aft + 0.16 * L + 0.45 * B)
+    outfit.box("house", (funnel[0] - 0.04 * L, funnel[1] + 0.10 * L), (-0.26 * B, 0.26 * B), (z - 0.8 * t, z))
+    outfit.funnel(funnel, 0.15 * B, z - 0.8 * t, 2.9 * t)
+    mast = front - 0.06 * L
+    outfit.mast(mast, top, 9.0 * u, is_radar=True)
+    outfit.mast(funnel[1] + 0.06 * L, z - 0.8 * t, 12.0 * u)
+    _fit_forecastle(outfit)
+    return (funnel[1] + 0.06 * L, z - 0.8 * t - 12.0 * u) if L >= 50.0 else (mast, top - 9.0 * u)
 
 
-def _make_pipes(deck: _Deck, aft: float, fore: float, B: float) -> list[Fitting]:
-    """Pipes along the middle, the manifold across it, and the edge of the tank deck."""
-    thick, z, middle = 0.02 * B, deck.z, 0.5 * (aft + fore)
-    along = [
-        _make_box("pipe", (aft, fore), (y * B - 0.5 * thick, y * B + 0.5 * thick), (z - 3 * thick, z - 2 * thick))
-        for y in (-0.07, -0.035, 0.0, 0.035, 0.07)
-    ]
-    across = [
-        _make_box("pipe", (x, x + thick), (-0.4 * B, 0.4 * B), (z - 2 * thick, z - thick))
-        for x in (middle - 0.15 * B, middle, middle + 0.15 * B)
-    ]
-    crane = _make_box("mast", (middle - 0.5 * thick, middle + 0.5 * thick), (0.16 * B, 0.18 * B), (z - 0.4 * B, z))
-    return [*along, *across, crane]
+def _arrange_car_carrier(outfit: Outfit, random: Random) -> tuple[float, float]:
+    """A box over the whole length without windows but for a bridge forward, a ramp on the stern."""
+    deck, L, B = outfit.deck, outfit.deck.length, outfit.deck.breadth
+    u, t = deck.unit, TIER * deck.unit
+    aft, fore = deck.aft + 0.004 * L, deck.fore - 0.07 * L
+    outfit.add("house", make_prism(deck.plan(aft, fore, inset=0.06 * u), (deck.z - 2.4 * t, deck.z)))
+    z = outfit.tier(deck.plan(aft + 0.05 * L, fore - 0.02 * L, inset=2.5 * u), deck.z - 2.4 * t, t)
+    half = deck.half_breadth(fore - 0.12 * L, fore - 0.05 * L)
+    top = outfit.band(deck.plan(fore - 0.12 * L, fore - 0.04 * L, half=half), z, 1.1 * t)
+    for x in np.linspace(aft + 0.1 * L, fore - 0.16 * L, max(3, round(0.6 * L / (16.0 * u)))):
+        outfit.pair("trim", (float(x) - 0.8 * u, float(x) + 0.8 * u), (0.30 * B, 0.36 * B), (z - 1.4 * u, z))
+    outfit.funnel((aft + 0.10 * L, aft + 0.10 * L + 0.3 * B), 0.12 * B, z, 2.6 * t)
+    outfit.mast(fore - 0.09 * L, top, 8.0 * u, is_radar=True)
+    outfit.mast(aft + 0.3 * L, z, 12.0 * u)
+    _fit_forecastle(outfit)
+    return (aft + 0.3 * L, z - 12.0 * u) if L >= 50.0 else (fore - 0.09 * L, top - 8.0 * u)
 
 
-def _leave_bare(deck: _Deck, L: float, B: float) -> list[Fitting]:
-    return []
+def _arrange_tug(outfit: Outfit, random: Random) -> tuple[float, float]:
+    """The house forward with a wheelhouse that looks all round, two funnels, a winch and a towing gear aft, fenders."""
+    deck, L, B = outfit.deck, outfit.deck.length, outfit.deck.breadth
+    u, t, z = deck.unit, TIER * deck.unit, deck.z
+    aft, fore = deck.fore - 0.60 * L, deck.fore - 0.20 * L
+    half = 0.74 * deck.half_breadth(aft, fore)
+    low = outfit.tier(deck.plan(aft, fore, half=half), z, t + 0.07 * B, pitch=2.0)
+    back, front = fore - 0.25 * L, fore - 0.01 * L
+    second = outfit.tier(deck.plan(back, front, half=0.85 * half), low, 0.85 * t, pitch=1.9) if L > 22.0 else low
+    bridge = deck.plan(front - 0.15 * L, front - 0.01 * L, half=0.66 * half)
+    top = outfit.band(bridge, second, 1.05 * t, glass=(0.28, 0.86))
+    for side in (-1.0, 1.0):
+        outfit.funnel((aft + 0.02 * L, aft + 0.08 * L), 0.14 * half, low, 1.7 * t, y=side * 0.72 * half)
+    mast = front - 0.11 * L
+    outfit.mast(mast, top, max(0.55 * B, 4.0 * u), is_radar=True)
+    outfit.box("trim", (aft - 0.13 * L, aft - 0.05 * L), (-0.32 * half, 0.32 * half), (z - 0.55 * t, z))
+    outfit.add(
+        "crane",
+        make_rod((aft - 0.09 * L, -0.30 * half, z - 0.5 * t), (aft - 0.09 * L, 0.30 * half, z - 0.5 * t), 0.28 * t, 10),
+    )
+    gear = aft - 0.22 * L
+    for side in (-1.0, 1.0):
+        outfit.rod("crane", (gear, side * 0.4 * half, z), (gear, side * 0.3 * half, z - 0.8 * t), 0.10 * t)
+    outfit.rod("crane", (gear, -0.33 * half, z - 0.8 * t), (gear, 0.33 * half, z - 0.8 * t), 0.10 * t)
+    if L > 40.0:
+        outfit.boat(aft + 0.14 * L, half - 0.4 * u, low - 0.5 * u, 5.0 * u)
+    return mast, top - max(0.55 * B, 4.0 * u)
 
 
-_ARRANGEMENTS: dict[str, Callable[[_Deck, float, float], list[Fitting]]] = {
+def _arrange_naval_ship(outfit: Outfit, random: Random) -> tuple[float, float]:
+    """Blocks with sloping sides, a gun before them, a pyramid mast, a funnel, a hangar and a flight deck."""
+    deck, L, B = outfit.deck, outfit.deck.length, outfit.deck.breadth
+    u, t, z = deck.unit, TIER * deck.unit, deck.z
+
+    def block(aft: float, fore: float, half: float, low: float, tiers: float, slope: float = 0.16) -> float:
+        high = low - tiers * t
+        by = slope * tiers * t
+        outfit.add(
+            "grey", make_loft(_oblong(aft, fore, half), low, _oblong(aft + 0.6 * by, fore - by, half - by), high)
+        )
+        return high
+
+    middle = 0.5 * (deck.aft + deck.fore)
+    half = 0.9 * deck.half_breadth(middle - 0.25 * L, middle + 0.16 * L)
+    first = block(middle - 0.24 * L, middle + 0.16 * L, half, z, 1.0)
+    front = block(middle + 0.01 * L, middle + 0.14 * L, 0.84 * half, first, 1.5)
+    slope = 0.16 * 1.5 * t
+    x = (middle + 0.06 * L, middle + 0.14 * L - 0.75 * slope)
+    outfit.add("windows", make_prism(_oblong(*x, 0.84 * half - 0.72 * slope), (front + 0.25 * t, front + 0.6 * t)))
+    top = block(middle + 0.045 * L, middle + 0.085 * L, 0.34 * half, front, 3.2, slope=0.08)
+    back = block(middle - 0.235 * L, middle - 0.10 * L, 0.86 * half, first, 1.3)
+    outfit.box(
+        "trim", (middle - 0.237 * L, middle - 0.233 * L), (-0.4 * half, 0.4 * half), (first - 1.0 * t, z - 0.1 * t)
+    )
+    funnel = (middle - 0.07 * L, middle - 0.015 * L)
+    high, run = first - 2.6 * t, funnel[1] - funnel[0]
+    outfit.add(
+        "grey",
+        make_loft(
+            _oblong(*funnel, 0.5 * half),
+            first,
+            _oblong(funnel[0] + 0.10 * run, funnel[1] - 0.28 * run, 0.32 * half),
+            high,
+        ),
+    )
+    outfit.box(
+        "funnel-top",
+        (funnel[0] + 0.18 * run, funnel[1] - 0.36 * run),
+        (-0.26 * half, 0.26 * half),
+        (high - 0.4 * t, high),
+    )
+    for x0, low in ((middle + 0.065 * L, top), (middle - 0.16 * L, back)):
+        outfit.rod("mast", (x0, 0.0, low), (x0, 0.0, low - 2.4 * t), 0.22 * u)
+        outfit.box("mast", (x0 - 0.1 * u, x0 + 0.1 * u), (-2.0 * u, 2.0 * u), (low - 1.3 * t, low - 1.2 * t))
+    outfit.box("trim", (middle + 0.05 * L, middle + 0.055 * L), (-1.8 * u, 1.8 * u), (front - 2.2 * t, front - 1.9 * t))
+    gun = middle + 0.27 * L
+    mount = min(0.11 * B, 0.7 * deck.half_breadth(gun, gun + 0.05 * L))
+    outfit.add(
+        "grey",
+        make_loft(
+            _oblong(gun - 0.02 * L, gun + 0.018 * L, mount),
+            z,
+            _oblong(gun - 0.014 * L, gun + 0.002 * L, 0.6 * mount),
+            z - 0.95 * t,
+        ),
+    )
+    outfit.rod("grey", (gun + 0.005 * L, 0.0, z - 0.55 * t), (gun + 0.055 * L, 0.0, z - 0.78 * t), 0.10 * t)
+    outfit.rails(deck.aft + 0.01 * L, deck.aft + 0.22 * L)
+    return middle - 0.16 * L, back - 2.4 * t
+
+
+def _leave_bare(outfit: Outfit, random: Random) -> tuple[float, float]:
+    deck = outfit.deck
+    return deck.aft + 0.4 * deck.length, deck.z - 0.5 * deck.breadth
+
+
+def _tiers(deck: WeatherDeck, least: int, most: int) -> int:
+    """Tiers of a house: `most` on a ship of full size, fewer on a small one."""
+    return int(np.clip(round(deck.breadth / (4.4 * deck.unit)), 2, least if deck.breadth < 28.0 else most))
+
+
+def _oblong(aft: float, fore: float, half: float) -> np.ndarray:
+    return np.array([(fore, half), (aft, half), (aft, -half), (fore, -half)])
+
+
+def _build_house(outfit: Outfit, aft: float, tiers: int, length: float = 0.0) -> tuple[float, float]:
+    """The house of a cargo ship: tiers, bridge with wings, funnel behind it, boats, radar mast; mast and its top."""
+    deck, u, t = outfit.deck, outfit.deck.unit, TIER * outfit.deck.unit
+    B, z = deck.breadth, deck.z
+    length = length or max(0.045 * deck.length, 0.36 * B)
+    casing = aft + 0.24 * B
+    aft, fore = (casing, casing + length) if length < 0.42 * B else (aft, aft + length)
+    half = min(0.43 * B, 0.88 * deck.half_breadth(aft, fore))
+    widths = [half if i < 2 else 0.86 * half for i in range(tiers)]
+    top = z
+    for i, width in enumerate(widths):
+        back = aft + (0.0 if i < 2 else 0.10 * length)
+        top = outfit.tier(_oblong(back, fore, width), top, t)
+    wing, inner = deck.half_breadth(aft, fore), 0.62 * half
+    wings = (fore - 4.2 * u, fore - 0.2 * u)
+    outfit.box("house", wings, (-wing, wing), (top - 0.22 * u, top))
+    outfit.box("house", (wings[1] - 0.15 * u, wings[1]), (-wing, wing), (top - 1.25 * u, top - 0.2 * u))
+    outfit.pair("house", wings, (wing - 0.15 * u, wing), (top - 1.25 * u, top - 0.2 * u))
+    outfit.box("house", (wings[0], wings[0] + 0.15 * u), (-wing, wing), (top - 1.25 * u, top - 0.2 * u))
+    house = outfit.band(_oblong(max(aft, fore - 0.75 * length), fore + 0.3 * u, inner), top, 1.08 * t)
+    outfit.mast(fore - 0.35 * length, house, 8.5 * u, is_radar=True)
+    funnel = (aft - 0.23 * B, aft - 0.02 * B)
+    outfit.box("house", (funnel[0] - 0.01 * B, aft), (-0.24 * B, 0.24 * B), (z - 0.42 * tiers * t, z))
+    outfit.funnel(funnel, 0.11 * B, z - 0.42 * tiers * t, (0.62 * tiers + 0.9) * t)
+    if B > 9.0:
+        outfit.boat(
+            aft + 0.35 * length, min(half + 0.9 * u, deck.half_breadth(aft, fore) - 1.4 * u), z - 1.6 * t, 7.5 * u
+        )
+    return fore - 0.35 * length, house - 8.5 * u
+
+
+def _fit_forecastle(outfit: Outfit) -> None:
+    """A foremast, windlasses, a breakwater."""
+    deck, L, u = outfit.deck, outfit.deck.length, outfit.deck.unit
+    x = deck.fore - 0.06 * L
+    z = max(deck.height(x), deck.height(x - 0.03 * L))
+    height = float(np.clip(deck.breadth, 6.0, 12.0)) * u if L >= 20.0 else 0.6 * deck.breadth
+    if L >= 50.0:
+        outfit.mast(x, min(z, deck.z), height - (deck.z - z) + 0.3)
+    half = 0.55 * deck.half_breadth(x - 0.02 * L, x - 0.01 * L)
+    for y in (-0.5, 0.5):
+        outfit.box(
+            "trim", (x - 2.4 * u, x - 1.0 * u), (y * half - 0.35 * half, y * half + 0.35 * half), (z - 1.1 * u, z)
+        )
+    outfit.add("trim", make_box((x + 0.018 * L, x + 0.018 * L + 0.8 * u), (-0.3 * u, 0.3 * u), (z - 0.7 * u, z)))
+
+
+_ARRANGEMENTS: dict[str, Callable[[Outfit, Random], tuple[float, float]]] = {
     "container ship, loaded": _arrange_container_ship, "cargo vessel, container on deck": _arrange_container_ship,
     "tanker, loaded": _arrange_tanker, "tanker, in ballast": _arrange_tanker,
-    "liquefied natural gas tanker": _arrange_tanker, "ferry": _arrange_ferry, "passenger liner": _arrange_ferry,
-    "car carrier": _arrange_ferry, "tug": _arrange_tug, "offshore supply vessel": _arrange_tug,
+    "liquefied natural gas tanker": _arrange_gas_carrier, "ferry": _arrange_ferry, "passenger liner": _arrange_ferry,
+    "car carrier": _arrange_car_carrier, "tug": _arrange_tug, "offshore supply vessel": _arrange_tug,
     "diving support vessel": _arrange_tug, "fishing vessel": _arrange_tug, "research vessel": _arrange_tug,
     "tender": _arrange_tug, "destroyer": _arrange_naval_ship, "speed boat": _leave_bare,
 }  # fmt: skip

@@ -7,10 +7,20 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-__all__ = ["SHIP_COLOURS", "Paint", "choose_topsides", "convert_to_display", "convert_to_linear", "find_paint"]
+__all__ = [
+    "LIVERIES",
+    "SHIP_COLOURS",
+    "Paint",
+    "choose_topsides",
+    "convert_to_display",
+    "convert_to_linear",
+    "find_paint",
+]
 
 SHIP_COLOURS = ("#2f6fb7", "#c8102e", "#2e8b57", "#b8860b", "#7a4fa3", "#3a8f9e")
 """Topsides (sRGB) of the first, second ... ship; from the seventh on they repeat."""
+LIVERIES = ("topsides", "livery")
+"""Parts in the colour of their ship: topsides, and the band of the funnel."""
 
 
 @dataclass(frozen=True)
@@ -28,18 +38,34 @@ _PAINTS = {
     paint.name: paint
     for paint in (
         Paint("antifouling", "#7d2a22", 0.8),
-        Paint("boot-top", "#e9e6df", 0.6),
-        Paint("deck", "#5d6b62", 0.9),
-        Paint("house", "#eeece6", 0.6),
-        Paint("windows", "#1b2730", 0.15, 0.4),
-        Paint("funnel", "#d99a2b", 0.6),
+        Paint("boot-top", "#d9d6cd", 0.6),
+        Paint("deck", "#56655f", 0.9),
+        Paint("deck-red", "#653a30", 0.9),
+        Paint("deck-grey", "#5c646a", 0.9),
+        Paint("bulwark", "#8d8a80", 0.8),
+        Paint("letters", "#f4f2ec", 0.6),
+        Paint("bronze", "#b08a3c", 0.35, 0.7),
+        Paint("house", "#f1efe9", 0.55),
+        Paint("trim", "#c9c7be", 0.65),
+        Paint("windows", "#18232c", 0.12, 0.4),
+        Paint("funnel", "#e6e2d8", 0.6),
+        Paint("funnel-top", "#1c1d1f", 0.8),
         Paint("mast", "#d8d4c8", 0.6),
-        Paint("hatch", "#8a4b3a", 0.8),
-        Paint("pipe", "#a9a39a", 0.5, 0.3),
-        Paint("container-a", "#b5482f", 0.8),
-        Paint("container-b", "#3d6f8f", 0.8),
-        Paint("container-c", "#c9a13b", 0.8),
-        Paint("container-d", "#7c8a7a", 0.8),
+        Paint("rail", "#dcdad2", 0.6),
+        Paint("crane", "#d9b23c", 0.6),
+        Paint("lifeboat", "#d6431c", 0.5),
+        Paint("grey", "#8b949a", 0.6),
+        Paint("hatch", "#7c3f31", 0.8),
+        Paint("pipe", "#b3aca2", 0.5, 0.3),
+        Paint("gap", "#23211f", 0.9),
+        Paint("container-a", "#8f3b2a", 0.8),
+        Paint("container-b", "#2f5f8a", 0.8),
+        Paint("container-c", "#b9b7b0", 0.8),
+        Paint("container-d", "#2f6b4a", 0.8),
+        Paint("container-e", "#c9a13b", 0.8),
+        Paint("container-f", "#c4622d", 0.8),
+        Paint("container-g", "#7fa6bd", 0.8),
+        Paint("container-h", "#8d2f55", 0.8),
         Paint("concrete", "#9b978d", 0.95),
         Paint("scratch", "#ff7a2e", 0.5, 0.0, 0.35),
     )

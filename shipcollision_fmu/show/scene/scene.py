@@ -26,7 +26,10 @@ import numpy as np
 from ...fmi.names import ATTITUDE, POSITION, STATE
 from ...ship.frames import Array
 from .effects import Effect, make_effects
-from .fittings import Fitting, make_fittings
+from .fittings import Fitting
+from .hull_shell import Shape
+from .lights import Light
+from .looks import make_looks
 from .resample import choose_samples
 from .run_folder import CollisionEvent, RunFolder, ShipBody, read_run_folder
 from .scratches import Scratch, lay_scratches
@@ -61,9 +64,13 @@ class Track:
 
 @dataclass(frozen=True, eq=False)
 class Ship:
-    """A ship: its name in the scenario, the model's name and kind, dimensions [m], hull and fittings in b, track.
+    """A ship: its name in the scenario, the model's name and kind, dimensions [m], track, and in b:
 
-    Fittings (a deckhouse, hatches, a mast) distinguish bow from stern in pictures; contact ignores them.
+    hull       the surface that touches
+    plating    the hull's outside as drawn, on which scratches lie: from the waterline to the deck it is that surface
+    shell      the hull as drawn, by paint (hull_shell.py)
+    fittings   all that stands on deck; contact ignores it
+    lights     of rule 21
     """
 
     name: str
@@ -74,7 +81,10 @@ class Ship:
     B: float
     T: float
     hull: Surface
+    plating: Surface
+    shell: tuple[Shape, ...]
     fittings: tuple[Fitting, ...]
+    lights: tuple[Light, ...]
     track: Track
 
 
@@ -151,7 +161,7 @@ def build_scene(run: RunFolder) -> Scene:
         )
         for name, body in run.bodies.obstacles.items()
     )  # fmt: skip
-    scratches = lay_scratches(run.events.scratches, {ship.name: ship.hull for ship in ships})
+    scratches = lay_scratches(run.events.scratches, {ship.name: ship.plating for ship in ships})
     return Scene(
         name=run.summary.scenario,
         description=run.summary.description,
@@ -185,9 +195,11 @@ def slerp(q: Array, r: Array, share: float) -> Array:
 def _build_ship(name: str, body: ShipBody, times: Array, states: Array) -> Ship:
     hull = drop_flat_triangles(_build_surface(body.vertices, body.triangles))
     reach = float(np.linalg.norm(hull.vertices, axis=1).max())
+    looks = make_looks(name, body, hull)
     return Ship(
         name=name, model=body.ship, kind=body.kind, L_pp=body.L_pp, L_oa=body.L_oa, B=body.B, T=body.T,
-        hull=hull, fittings=make_fittings(body, hull), track=_build_track(times, states, reach),
+        hull=hull, plating=looks.plating, shell=looks.shell, fittings=looks.fittings, lights=looks.lights,
+        track=_build_track(times, states, reach),
     )  # fmt: skip
 
 

@@ -159,10 +159,10 @@ def test_a_scratch_is_seen_once_it_is_there_and_not_through_the_hull(scene: Scen
     def painted(film: Film, time: float) -> int:
         return int((np.abs(film.draw(time) - colour).max(axis=2) < 40).sum())
 
-    film = Film(bare, 480, 270)
+    film = Film(bare, 960, 540)
     assert painted(film, min(scratch.times[0] for scratch in scene.scratches) - 0.1) == 0
     assert painted(film, scene.end) > 5
-    away = Film(bare, 480, 270)
+    away = Film(bare, 960, 540)
     object.__setattr__(away._camera, "direction", away._camera.direction * [-1, -1, 1])
     assert painted(away, scene.end) == 0
 

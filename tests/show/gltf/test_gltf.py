@@ -135,7 +135,7 @@ def test_another_reader_sees_the_hulls_there_with_port_to_port(folder: Path, sce
     seen = np.vstack(clouds)
     for ship in scene.ships:
         x = eta(first, ship.name)
-        for corner in ship.hull.vertices[::9]:
+        for corner in ship.hull.vertices[ship.hull.vertices[:, 2] <= 0.0][::4]:  # under water a bulb is drawn
             north, east, down = x[:3] + rotation(x[3:]) @ corner - scene.origin
             assert np.linalg.norm(seen - [north, -down, east], axis=1).min() < CENTIMETRE
     for ship in scene.ships:  # the port side is on the left of who looks from stern to stem with the sky above
@@ -152,7 +152,7 @@ def test_ribbons_lie_on_the_hull_and_appear_when_their_time_has_come(folder: Pat
     stretches = 0
     for name, ship_node in read.nodes("ship").items():
         ship = scene.ship(name)
-        hull = trimesh.Trimesh(ship.hull.vertices, ship.hull.triangles, process=False)
+        hull = trimesh.Trimesh(ship.plating.vertices, ship.plating.triangles, process=False)
         for child in nodes[ship_node]["children"]:
             extras = nodes[child].get("extras", {})
             if "scratch" not in extras:

@@ -85,7 +85,7 @@ def test_outlines_agree_with_states_csv_to_a_centimetre(
         transform = named(root, ship)
         corners, path = hull(transform), osgt.path(transform)
         drawn = outline[:, [1, 0, 2]] * [1, 1, -1]  # starboard, forward, up
-        for corner in drawn:
+        for corner in drawn[drawn[:, 2] >= 0.0]:  # under water the ends are finer
             assert np.linalg.norm(corners - corner, axis=1).min() < 1e-3, "a corner of the hull is not drawn"
         for row in rows[:: max(1, len(rows) // 25)]:
             off = moved(path, row["time"] + delay, drawn) - in_the_world(row, ship, outline)
@@ -126,7 +126,7 @@ def test_scratches_lie_on_the_hull_and_grow_in_time(kvlcc2_crossing: Path, tmp_p
             assert event["start"] - 1e-6 <= shown[0] <= event["start"] + 1.0
             assert sequence["NumRepeats"] == ["1"]
             points = osgt.vertices(shared[0])[:, [1, 0, 2]] * [1, 1, -1]
-            on_hull, _ = find_nearest_points(ship.hull, points)
+            on_hull, _ = find_nearest_points(ship.plating, points)
             away = np.linalg.norm(points - on_hull, axis=1)
             if len(points) > 4:  # what is shorter is a dent, a cross, whose arms may leave a round bow
                 assert shown[-1] == pytest.approx(event["end"], abs=1e-6 * len(durations))  # each written to six digits

@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import json
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -62,7 +61,7 @@ def test_scratches_lie_on_the_hull_beside_the_contact_points(folder: Path, scene
     events = json.loads((folder / "events.json").read_text())["scratches"]
     assert len(scene.scratches) == 2 * len(events) > 0
     for scratch in scene.scratches:
-        hull = scene.ship(scratch.ship).hull
+        hull = scene.ship(scratch.ship).plating
         mesh = trimesh.Trimesh(hull.vertices, hull.triangles, process=False)
         _, distance, _ = trimesh.proximity.closest_point_naive(mesh, scratch.points)
         assert distance.max() < 1e-6
@@ -163,20 +162,6 @@ def test_bands_keep_the_surface_and_split_it_at_the_waterline(scene: Scene) -> N
         z = part.vertices[part.triangles][..., 2]
         assert z.min() >= low - 1e-9
         assert z.max() <= high + 1e-9
-
-
-def test_fittings_stand_on_deck_within_the_hull_and_face_outwards(scene: Scene) -> None:
-    for ship in scene.ships:
-        deck = ship.hull.vertices[:, 2].min()
-        plan = trimesh.Trimesh(ship.hull.vertices, ship.hull.triangles, process=False)
-        assert ship.fittings
-        for fitting in ship.fittings:
-            solid: Any = trimesh.Trimesh(fitting.surface.vertices, fitting.surface.triangles, process=False)
-            assert solid.volume > 0.0
-            assert fitting.surface.vertices[:, 2].max() <= deck + 1e-9
-            low, high = plan.bounds
-            assert np.all(fitting.surface.vertices[:, :2] >= low[:2] - 1e-6)
-            assert np.all(fitting.surface.vertices[:, :2] <= high[:2] + 1e-6)
 
 
 def test_normals_are_round_along_the_side_and_sharp_at_the_deck(scene: Scene) -> None:
