@@ -69,7 +69,7 @@ export async function startBridge() {
     if (type === "hello") greet();
     else if (type === "back") forgetEffects();
     else if (type === "end") showEnd();
-    if (type === "state" || type === "lost" || type === "hello") alarmBar.show();
+    if (["state", "lost", "hello", "event"].includes(type)) alarmBar.show();
     document.body.classList.toggle("lost", !session.connection.isOpen && !session.ended);
   }
 
@@ -232,8 +232,10 @@ export async function startBridge() {
     get client() {
       return session.hello?.client;
     },
-    /** Contacts as they came into the page: [{id, time, wall}], wall in ms when the frame that shows one was made. */
-    contacts: session.contacts,
+    /** Contacts as they came into the page: [{id, time, wall}], wall [ms] when the frame was made that shows one. */
+    get contacts() {
+      return session.contacts.filter(({ wall }) => wall);
+    },
     order: (fields) => session.connection.ask("order", { ship: session.own, ...fields }),
     ask: (type, fields) => session.connection.ask(type, fields),
     camera: chooseCamera,

@@ -35,6 +35,7 @@ export class Conning {
     });
     const quick = (key, text, order) => inWords(element("button", { type: "button", text, onclick: order }), { "aria-label": key, title: key });
     this.wanted = inWords(element("input", { type: "number", min: 0, max: 360, step: 1, inputmode: "numeric", id: "course" }), { "aria-label": "course_to_steer" });
+    this.wanted.addEventListener("focus", () => this.wanted.select());
     this.wanted.addEventListener("keydown", (event) => {
       event.stopPropagation();
       if (event.key === "Enter") this.steerWanted();

@@ -56,7 +56,7 @@ export async function startInstructor() {
     if (type === "hello") greet(message);
     else if (type === "event") note(message);
     else if (type === "end") showEnd();
-    if (["state", "lost", "hello"].includes(type)) alarmBar.show();
+    if (["state", "lost", "hello", "event"].includes(type)) alarmBar.show();
     document.body.classList.toggle("lost", !session.connection.isOpen && !session.ended);
   }
 

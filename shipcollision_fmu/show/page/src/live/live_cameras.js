@@ -88,8 +88,8 @@ export class LiveCameras extends Cameras {
     const target = this.anchor(mode);
     const direction = new THREE.Vector3(...(mode === "chase" ? [-1, 0, 0] : [0.75, 0.66, 0])).transformDirection(node.matrixWorld).setY(0).normalize();
     if (mode === "chase") target.addScaledVector(direction, -0.3 * info.L_oa);
-    direction.addScaledVector(UP, mode === "chase" ? 0.24 : 0.16).normalize();
-    return { target, position: target.clone().addScaledVector(direction, (mode === "chase" ? 1.25 : 1.35) * info.L_oa) };
+    direction.addScaledVector(UP, mode === "chase" ? 0.2 : 0.16).normalize();
+    return { target, position: target.clone().addScaledVector(direction, (mode === "chase" ? 1.6 : 1.35) * info.L_oa) };
   }
 
   follow(time) {

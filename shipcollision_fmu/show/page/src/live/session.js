@@ -10,6 +10,7 @@ import { Snapshots } from "./snapshots.js";
 import { Sound } from "./sound.js";
 import { miles } from "./targets.js";
 
+const keyOf = ({ id, time }) => `${id} ${time}`;
 const JUST = 10; // a collision is news for so long [s]
 
 export class Session {
@@ -37,6 +38,7 @@ export class Session {
   listen(type, message) {
     if (type === "hello") this.greet(message);
     else if (type === "state") this.take(message);
+    else if (type === "event" && message.kind === "collision begins") this.meet({ ...message, time: message.start });
     else if (type === "lost") this.alarms.set("lost", true, "warning", () => say("alarm_lost"));
     else if (type === "end") Object.assign(this, { ended: message }), this.connection.finish();
     this.hear(type, message);
@@ -53,7 +55,10 @@ export class Session {
   take(state) {
     const isBack = this.snapshots.push(state, performance.now());
     this.state = state;
-    if (isBack) this.hear("back", state);
+    if (isBack) {
+      this.known = new Set(state.contact.collisions.map(keyOf));
+      this.hear("back", state);
+    }
     this.watch(state);
   }
 
@@ -64,17 +69,23 @@ export class Session {
     return state;
   }
 
+  /** A collision begins: the server says so at once, and the next state has it. */
+  meet(collision) {
+    if (this.known.has(keyOf(collision))) return;
+    this.known.add(keyOf(collision));
+    this.alarms.set("contact", true, "alarm", () => say("alarm_contact", { a: collision.ship_a, b: collision.ship_b }));
+    const contact = { ...collision, wall: null };
+    this.contacts.push(contact);
+    requestAnimationFrame(() => (contact.wall = Date.now()));
+    this.sounds();
+  }
+
   /** Raises the alarms of a state. */
   watch(state) {
     const { alarms } = this;
     const last = state.contact.collisions.at(-1);
     const isNews = last !== undefined && (state.contact.points > 0 || state.time - last.time < JUST);
-    const before = this.known;
-    this.known = new Set(state.contact.collisions.map(({ id, time }) => `${id} ${time}`));
-    for (const { id, time } of state.contact.collisions) {
-      if (before.has(`${id} ${time}`)) continue;
-      requestAnimationFrame(() => this.contacts.push({ id, time, wall: Date.now() }));
-    }
+    for (const collision of state.contact.collisions) this.meet(collision);
     alarms.set("contact", isNews, "alarm", () => say("alarm_contact", { a: last.ship_a, b: last.ship_b }));
     alarms.set("slow", !state.paused && !state.paced, "caution", () => say("alarm_slow", { rate: number(state.real_rate, 1) }));
     const failing = this.role === "bridge" ? [this.own] : [];

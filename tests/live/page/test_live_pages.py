@@ -1,0 +1,345 @@
+"""The live pages in a browser, with their server: what is steered, seen, refused and said."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from math import degrees
+from pathlib import Path
+from statistics import median
+from time import time
+
+import pytest
+from selenium.webdriver import ActionChains, Chrome, Keys
+from selenium.webdriver.common.by import By
+from selenium.webdriver.support.ui import Select
+
+from shipcollision_fmu import load_scenario, simulate
+from shipcollision_fmu.live.session.commands import Back, End
+from tests.conftest import Write
+
+from .live_server import BridgePage, LiveServer, serve_live
+
+PHONE, TOUCH = (390, 844), 44
+SMALL = (500, 440)
+"""Size of the window [pixels] where drawing takes long without a graphics card."""
+SEEN_WITHIN = 0.2
+"""[s] between a contact in the model and in the page."""
+APART = """
+[scenario]
+name = "apart"
+duration = 600.0
+step = 0.1
+
+[ships.own]
+ship = "kvlcc2"
+position = [0.0, 0.0]
+heading_deg = 350.0
+speed = 6.0
+hydrodynamics = true
+orders = [{ time = 0.0, rev_per_s = 0.9 }]
+
+[ships.target]
+ship = "kvlcc2"
+position = [{north}, {east}]
+heading_deg = 90.0
+speed = {speed}
+hydrodynamics = true
+"""
+
+
+def write_apart(folder: Path, north: float = 3000.0, east: float = 1000.0, speed: float = 1.0) -> Path:
+    """A scenario of two tankers; with these numbers they never meet."""
+    path = folder / "apart.toml"
+    numbers = {"north": north, "east": east, "speed": speed}
+    text = APART
+    for name, value in numbers.items():
+        text = text.replace(f"{{{name}}}", str(value))
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+@pytest.fixture(scope="module")
+def server(browser: Chrome, tmp_path_factory: pytest.TempPathFactory) -> Iterator[LiveServer]:
+    """Two tankers, a mile and a half apart, four times as fast as the clock."""
+    with serve_live(browser, write_apart(tmp_path_factory.mktemp("apart")), rate=4.0) as served:
+        yield served
+
+
+@pytest.fixture
+def bridge(browser: Chrome, server: LiveServer) -> BridgePage:
+    """The bridge of own, in command of it."""
+    page = BridgePage(browser, server.address())
+    page.wait("return live.state.command.own === live.client")
+    return page
+
+
+@contextmanager
+def as_phone(browser: Chrome) -> Iterator[None]:
+    """A phone's screen, under fingers."""
+    size = {"width": PHONE[0], "height": PHONE[1], "deviceScaleFactor": 1, "mobile": True}
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+    browser.execute_cdp_cmd("Emulation.setTouchEmulationEnabled", {"enabled": True})
+    try:
+        yield
+    finally:
+        browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+        browser.execute_cdp_cmd("Emulation.setTouchEmulationEnabled", {"enabled": False})
+
+
+def press(page: BridgePage, keys: str) -> None:
+    page.driver.find_element(By.ID, "picture").send_keys(keys)
+
+
+def test_keys_steer_the_ship_and_instruments_follow(bridge: BridgePage) -> None:
+    press(bridge, Keys.ARROW_RIGHT * 3)
+    bridge.wait("return Math.abs(live.state.ships.own.rudder_order - 15 * Math.PI / 180) < 1e-9")
+    bridge.wait("return live.state.ships.own.rudder > 0.2 && live.state.ships.own.nu[5] > 1e-4")
+    bridge.wait("return document.getElementById('show-rudder').textContent.startsWith('S')")
+    bridge.wait("return document.querySelector('.tile.rot small').textContent === '\\u25b6'")
+    heading = "return Number(document.getElementById('show-heading_short').textContent)"
+    yaw = degrees(bridge.state(".ships.own.eta[5]")) % 360.0
+    assert abs((bridge.run(heading) - yaw + 180.0) % 360.0 - 180.0) < 3.0
+    assert bridge.run("return document.getElementById('wheel').getAttribute('aria-valuetext')") == "Stb 15°"
+    press(bridge, "m")
+    bridge.wait("return live.state.ships.own.rudder_order === 0")
+    press(bridge, Keys.ARROW_UP)
+    bridge.wait("return document.querySelector('[data-telegraph=\"3\"]').getAttribute('aria-checked') === 'true'")
+    press(bridge, Keys.BACKSPACE)
+    bridge.wait("return live.state.ships.own.rev_order === 0")
+    press(bridge, "a")
+    bridge.wait("return live.state.ships.own.heading_order !== null")
+    before = bridge.run("return Number(document.getElementById('course').value)")
+    press(bridge, "..")
+    bridge.wait("return live.state.ships.own.heading_order !== null")
+    wanted = (before + 2.0) % 360.0
+    bridge.wait(f"return Math.abs(live.state.ships.own.heading_order * 180 / Math.PI - {wanted}) < 1e-6")
+    press(bridge, "h")
+    assert bridge.complaints() == []
+
+
+@pytest.mark.slow
+def test_wheel_telegraph_and_course_answer_to_the_mouse(bridge: BridgePage) -> None:
+    driver = bridge.driver
+    driver.find_element(By.CSS_SELECTOR, '[data-telegraph="-2"]').click()
+    bridge.wait("return live.state.ships.own.rev_order < 0")
+    course = driver.find_element(By.ID, "course")
+    course.click()
+    course.send_keys(Keys.CONTROL + "a" + Keys.NULL + "123" + Keys.ENTER)
+    bridge.wait("return Math.abs(live.state.ships.own.heading_order * 180 / Math.PI - 123) < 1e-6")
+    wheel = driver.find_element(By.ID, "wheel")
+    driver.execute_script("arguments[0].scrollIntoView({ block: 'center' })", wheel)
+    # A quarter turn to port from the top of the rim: 90 degrees of the wheel are 15 of the rudder.
+    held = ActionChains(driver, duration=50).move_to_element_with_offset(wheel, 0, -44).click_and_hold()
+    for x, y in ((-22, -38), (-38, -22), (-44, 0)):
+        held = held.move_to_element_with_offset(wheel, x, y)
+    held.release().perform()
+    bridge.wait("return live.state.ships.own.heading_order === null && live.state.ships.own.rudder_order < -0.05")
+
+
+@pytest.mark.slow
+def test_cameras_stand_on_the_ship(bridge: BridgePage) -> None:
+    """On the bridge the eye is over the wheelhouse; the wings are a ship's breadth apart; binoculars make 7 of 1."""
+    seen = {mode: bridge.run(f"live.camera('{mode}'); return live.drawn()") for mode in ("bridge", "port", "starboard")}
+    apart = [a - b for a, b in zip(seen["starboard"]["eye"], seen["port"]["eye"], strict=True)]
+    info = bridge.run("return live.session.infoOf('own')")
+    assert sum(x * x for x in apart) ** 0.5 == pytest.approx(info["B"], rel=0.02)  # the ship sails on between
+    assert seen["bridge"]["eye"][1] == pytest.approx(-info["bridge"][2], abs=0.5)
+    press(bridge, "1b")
+    assert bridge.run("return live.drawn().zoom") == 7
+    assert bridge.run("return document.getElementById('binoculars').getAttribute('aria-pressed')") == "true"
+    press(bridge, "b4")
+    assert bridge.run("return live.drawn().mode") == "chase"
+    press(bridge, "vv1")
+    assert bridge.complaints() == []
+
+
+def test_ships_are_drawn_where_the_state_puts_them(bridge: BridgePage) -> None:
+    """While paused the picture is of the latest state."""
+    press(bridge, "p")
+    bridge.wait("return live.state.paused")
+    bridge.wait("return Math.abs(live.drawn().time - live.state.time) < 1e-9")
+    drawn, ships = bridge.run("return [live.drawn().poses, live.state.ships]")
+    for name, ship in ships.items():
+        assert drawn[name]["position"] == pytest.approx(ship["eta"][:3], abs=0.01)
+    press(bridge, "p")
+    bridge.wait("return !live.state.paused")
+
+
+@pytest.mark.slow
+def test_one_is_in_command_and_the_others_see_who(bridge: BridgePage, server: LiveServer) -> None:
+    driver, first = bridge.driver, bridge.run("return live.client")
+    mine = driver.current_window_handle
+    driver.switch_to.new_window("tab")
+    second = BridgePage(driver, server.address())
+    second.wait(f"return document.getElementById('command-said').textContent === '{first} is in command.'")
+    before = second.state(".ships.own.rev_order")
+    driver.find_element(By.CSS_SELECTOR, '[data-telegraph="4"]').click()
+    second.wait("return document.querySelector('.messages').textContent.includes('take command first')")
+    assert second.state(".ships.own.rev_order") == before
+    driver.find_element(By.ID, "command").click()
+    second.wait("return document.querySelector('.messages').textContent.includes('let the instructor take it')")
+    driver.get(server.address("instructor"))
+    second.wait("return document.body?.dataset.ready && live.state")
+    driver.find_element(By.CSS_SELECTOR, '[data-conn="own"]').click()
+    second.wait("return live.state.command.own === live.client")
+    instructor = second.run("return live.client")
+    driver.close()
+    driver.switch_to.window(mine)
+    bridge.wait(
+        f"return ['{instructor} is in command.', 'Nobody is in command.']"
+        ".includes(document.getElementById('command-said').textContent)"
+    )
+    bridge.wait("return live.state.command.own === undefined")  # whoever goes gives up command
+    driver.find_element(By.ID, "command").click()
+    bridge.wait("return live.state.command.own === live.client")
+
+
+@pytest.mark.slow
+def test_the_instructor_sets_what_there_is_to_set(browser: Chrome, server: LiveServer) -> None:
+    page = BridgePage(browser, server.address("instructor"))
+    page.wait("return live.state")
+
+    def fill(field: str, value: str) -> None:
+        found = browser.find_element(By.ID, field)
+        found.clear()
+        found.send_keys(value)
+
+    fill("wind-speed", "20")
+    fill("wind-from", "270")
+    browser.find_element(By.ID, "set-wind").click()
+    page.wait("return Math.abs(live.state.environment.wind.speed - 20 * 1852 / 3600) < 1e-9")
+    assert page.state(".environment.wind.from_deg") == 270.0
+    fill("current-speed", "2")
+    fill("current-towards", "90")
+    browser.find_element(By.ID, "set-current").click()
+    page.wait("return Math.abs(live.state.environment.current[1] - 2 * 1852 / 3600) < 1e-9")
+    stuck = browser.find_element(By.CSS_SELECTOR, '[data-ship="target"] [data-fail="rudder"]')
+    stuck.click()
+    page.wait("return live.state.ships.target.failures.includes('rudder')")
+    page.wait("return document.querySelector('[data-ship=target] [data-fail=rudder]').ariaPressed === 'true'")
+    stuck.click()
+    page.wait("return live.state.ships.target.failures.length === 0")
+    fill("mark-name", "here")
+    browser.find_element(By.ID, "set-mark").click()
+    page.wait("return document.querySelector('[data-mark=here]')")
+    marked = page.state(".time")
+    page.wait(f"return live.state.time > {marked} + 2")
+    browser.find_element(By.CSS_SELECTOR, "[data-mark=here]").click()
+    page.wait(f"return live.state.time < {marked} + 1.5")
+    Select(browser.find_element(By.ID, "rate")).select_by_value("20")
+    page.wait("return live.state.rate === 20")
+    browser.find_element(By.ID, "pause").click()
+    page.wait("return live.state.paused")
+    stopped = page.state(".step_count")
+    page.wait("return !document.getElementById('step').hidden")
+    browser.find_element(By.ID, "step").click()
+    page.wait(f"return live.state.step_count === {stopped} + 1")
+    Select(browser.find_element(By.ID, "rate")).select_by_value("2")
+    browser.find_element(By.ID, "pause").click()
+    page.wait("return !live.state.paused && live.state.rate === 2")
+    assert "Mark here" in page.run("return document.getElementById('book').textContent")
+    assert page.complaints() == []
+
+
+@pytest.mark.parametrize("role", ["bridge", "instructor"])
+def test_on_a_phone_nothing_is_cut_off_and_fingers_hit(browser: Chrome, server: LiveServer, role: str) -> None:
+    with as_phone(browser):
+        page = BridgePage(browser, server.address(role))
+        page.wait("return live.state")
+        assert page.run("return innerWidth") == PHONE[0]
+        assert page.run("return document.documentElement.scrollWidth") <= PHONE[0]
+        small = page.run(
+            """return [...document.querySelectorAll('button, select, input, a, [role=slider]')]
+            .map((one) => [one.id || one.textContent, one.getBoundingClientRect()])
+            .filter(([, box]) => box.width && Math.min(box.width, box.height) < arguments[0] - 0.01)
+            .map(([name]) => name)""",
+            TOUCH,
+        )
+        assert small == []
+        browser.get("about:blank")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("role", ["bridge", "instructor"])
+def test_every_control_has_a_name_in_the_chosen_language(browser: Chrome, server: LiveServer, role: str) -> None:
+    page = BridgePage(browser, server.address(role))
+    page.wait("return live.state")
+    names = """return [...document.querySelectorAll('button, select, input, canvas, [role=slider]')]
+        .map((one) => one.ariaLabel || one.textContent.trim() || one.labels?.[0]?.textContent || '')"""
+    found = {}
+    try:
+        for language in ("de", "nb", "zh", "en"):
+            Select(browser.find_element(By.ID, "language")).select_by_value(language)
+            found[language] = page.run(names)
+            assert all(found[language])
+            assert page.run("return document.documentElement.lang") == language
+    finally:
+        page.run("localStorage.removeItem('shipcollision-language')")
+    assert found["de"] != found["en"] != found["zh"] != found["nb"]
+
+
+@pytest.mark.slow
+def test_a_server_that_is_gone_is_said_and_found_again(bridge: BridgePage) -> None:
+    bridge.run("window.kept = live.session.connection.address; live.session.connection.address = 'ws://127.0.0.1:9/';")
+    bridge.run("live.session.connection.socket.close()")
+    bridge.wait("return document.querySelector('[data-alarm=lost]')")
+    assert bridge.run("return document.body.classList.contains('lost')")
+    press(bridge, Keys.ARROW_LEFT)
+    bridge.wait("return document.querySelector('.messages').textContent.includes('there is no connection')")
+    bridge.run("live.session.connection.address = kept")
+    bridge.wait("return live.session.connection.isOpen && !document.querySelector('[data-alarm=lost]')")
+    bridge.wait("return live.state.command.own === live.client")
+    bridge.driver.get("about:blank")
+
+
+def test_contact_is_seen_and_heard_at_once(browser: Chrome, scenario_file: Write) -> None:
+    """Three times the same contact, by going back to the start: the median, as the machine may be busy meanwhile."""
+    began: list[float] = []
+    with serve_live(browser, scenario_file(("duration = 3.0", "duration = 30.0")), paused=True) as served:
+        served.session.listen(lambda event: began.append(time()) if event["kind"] == "collision begins" else None)
+        page = BridgePage(browser, served.address(), SMALL)
+        press(page, "p")
+        for turn in range(3):
+            page.wait(f"return live.contacts.length > {turn}")
+            assert page.run("return document.querySelector('[data-alarm=contact]').className") == "alarm raised"
+            assert "own" in page.run("return document.querySelector('[data-alarm=contact]').textContent")
+            press(page, Keys.ENTER)
+            page.wait("return document.querySelector('[data-alarm=contact]').className === 'alarm silent'")
+            served.session.submit(Back("start")).result(30.0)
+            page.wait("return live.state.contact.count === 0")
+            page.wait("return !document.querySelector('[data-alarm=contact]')")
+        seen = page.run("return live.contacts.map(({ wall }) => wall / 1000)")
+        assert page.complaints() == []
+    delays = [there - here for here, there in zip(began, seen, strict=False)]
+    assert len(delays) >= 3
+    assert min(delays) > -0.002  # the page counts whole milliseconds
+    assert median(delays) < SEEN_WITHIN
+
+
+@pytest.mark.slow
+def test_a_ship_is_steered_into_another_by_keys_and_the_run_is_that_of_the_orders(
+    browser: Chrome, tmp_path: Path
+) -> None:
+    """Own ship would pass ahead of the other; hard over and full ahead it does not. The folder is the run of the orders
+    as they were given, to the bit, and the debriefing shows it."""
+    scenario, out = write_apart(tmp_path, 780.0, 90.0, 0.5), tmp_path / "run"
+    assert simulate(load_scenario(scenario), in_process=True, out=tmp_path / "alone").events["collisions"] == []
+    with serve_live(browser, scenario, out, rate=10.0) as served:
+        page = BridgePage(browser, served.address())
+        page.wait("return live.state.command.own === live.client")
+        press(page, Keys.ARROW_UP * 2 + Keys.END)
+        page.wait("return live.contacts.length > 0")
+        press(page, Keys.ENTER + Keys.BACKSPACE + "m")
+        at = page.state(".time")
+        page.wait(f"return live.state.time > {at} + 20")
+        assert page.run("return live.drawn().effects") > 0
+        assert page.complaints() == []
+        served.session.submit(End())
+        page.wait("return document.getElementById('debriefing')")
+        browser.find_element(By.ID, "debriefing").click()
+        page.wait("return document.body?.dataset.ready === 'true' && window.replay")
+        assert page.run("return replay.data.events.length") > 0
+    simulate(load_scenario(out / "scenario.toml"), in_process=True, out=tmp_path / "again")
+    for name in ("states.csv", "contacts.csv", "events.json"):
+        assert (out / name).read_bytes() == (tmp_path / "again" / name).read_bytes(), name
