@@ -10,7 +10,7 @@ from ..errors import ShipCollisionError
 from .console import print_table, progress, say
 from .mistakes import fail
 from .native_code import compile_native
-from .options import FMI, NUMBER, PATH, SCENARIO, Choice
+from .options import FMI, NUMBER, PATH, SCENARIO, WHOLE_NUMBER, Choice
 
 __all__ = ["run", "show"]
 
@@ -99,23 +99,31 @@ def _compile() -> None:
 @click.option("--gif", is_flag=True, help="impact.gif, a film of the first contact. Needs Pillow.")
 @click.option("--mp4", is_flag=True, help="impact.mp4, the same. Needs Pillow and imageio-ffmpeg.")
 @click.option("--still", type=NUMBER, metavar="S", help="still.png, the picture at S seconds. Needs Pillow.")
+@click.option("--row", type=WHOLE_NUMBER, metavar="N", help="Of a study: run row N again, and write its replay alone.")
+@click.option(
+    "--replays/--no-replays", default=True, help="Of a study: run its ten worst cases again for their replays."
+)
 def show(
-    folder: Path, in_browser: bool, osg: bool, glb: bool, plots: bool, gif: bool, mp4: bool, still: float | None
-) -> None:
+    folder: Path, in_browser: bool, osg: bool, glb: bool, plots: bool, gif: bool, mp4: bool, still: float | None,
+    row: int | None, replays: bool,
+) -> None:  # fmt: skip
     """Show a finished run, or a study.
 
     DIR is its folder. Without an option the page, replay.html, is written again, and the pictures in the folder are
     listed. With options the pictures that they name are written into the folder.
 
-    Of a study the page is report.html, with its figures as PNG, SVG and CSV beside it. It needs Matplotlib.
+    Of a study the page is report.html, with its figures as PNG, SVG and CSV beside it. It needs Matplotlib. Replays of
+    the ten worst cases are in the folder replays, each a run of its own.
     """
     from ..show import outputs
 
     chosen = {"osg": osg, "glb": glb, "plots": plots, "gif": gif, "mp4": mp4, "still": still is not None}
     kinds = [kind for kind, is_chosen in chosen.items() if is_chosen]
     if (folder / "study.json").is_file():
-        _show_study(folder, kinds, in_browser)
+        _show_study(folder, kinds, in_browser, row, replays)
         return
+    if row is not None:
+        raise click.UsageError(f"--row shows a row of a study, and {folder} holds none: leave it out")
     scene = outputs.load_scene(folder)
     for kind in kinds or ["page"]:
         with progress(kind) as report:
@@ -129,15 +137,25 @@ def show(
             say(line)
 
 
-def _show_study(folder: Path, kinds: list[str], in_browser: bool) -> None:
-    """Write the report of a study."""
-    from ..study.report.report import FIGURES, write_report
+def _show_study(folder: Path, kinds: list[str], in_browser: bool, row: int | None, replays: bool) -> None:
+    """Write the report of a study, or the replay of a row."""
+    from ..study.report.report import FIGURES, replay_row, write_report
 
     if kinds:
         raise click.UsageError(f"--{kinds[0]} shows a run, and {folder} holds a study: leave it out")
-    page = write_report(folder)
-    say(f"{page}: open it in a browser")
-    say(f"{folder / FIGURES}: its figures as PNG, SVG and CSV")
+    if row is not None:
+        replay = replay_row(folder, row)
+        page = replay.page
+        numbers = "the numbers" if replay.is_identical else "other numbers than those"
+        say(f"row {row}, computed again, has {numbers} of the table")
+        say(f"{page}: open it in a browser")
+    else:
+        with progress("replays") as report:
+            page = write_report(
+                folder, replays=replays, progress=report, notify=lambda line: say(line, err=True)
+            )  # fmt: skip
+        say(f"{page}: open it in a browser")
+        say(f"{folder / FIGURES}: its figures as PNG, SVG and CSV")
     if in_browser:
         _open_page(page)
 

@@ -9,8 +9,9 @@ import base64
 import html
 from collections.abc import Iterable, Sequence
 
+from .replays import find_replay
 from .study_table import StudyTable
-from .worst import Worst, format_commands
+from .worst import Worst, format_command
 
 __all__ = ["build_page"]
 
@@ -32,7 +33,6 @@ figcaption { font-size: 0.88rem; color: #44525f; max-width: 560px; }
 table { border-collapse: collapse; font-size: 0.92rem; }
 th, td { text-align: left; padding: 4px 12px 4px 0; border-bottom: 1px solid #d5dce3; vertical-align: top; }
 .cases th, .cases td { white-space: nowrap; }
-.cases .values td { border-bottom: 0; padding-top: 8px; }
 td.number, th.number { text-align: right; font-variant-numeric: tabular-nums; }
 code { font-size: 0.85em; background: #eef2f6; padding: 2px 5px; border-radius: 3px; user-select: all; }
 a { color: #1f5a96; }
@@ -58,7 +58,8 @@ _TEMPLATE = """<!doctype html>
 </html>
 """
 _HEADINGS = (
-    ("row", "row", "", 1.0), ("energy", "energy [MJ]", ".1f", 1e-6), ("own_ship", "own ship", "", 1.0),
+    ("row", "row", "", 1.0), ("energy", "energy [MJ]", ".1f", 1e-6), ("situation", "situation", "", 1.0),
+    ("own_ship", "own ship", "", 1.0),
     ("target_ship", "target", "", 1.0), ("kind", "kind", "", 1.0), ("angle_deg", "angle [deg]", ".1f", 1.0),
     ("at", "place (at)", ".3f", 1.0), ("own_speed", "own speed [m/s]", ".2f", 1.0),
     ("target_speed", "target speed [m/s]", ".2f", 1.0), ("closing_speed", "closing speed [m/s]", ".2f", 1.0),
@@ -69,14 +70,15 @@ _HEADINGS = (
 def build_page(
     table: StudyTable, figures: Iterable[tuple[str, str, str, bytes]], worst: Sequence[Worst], is_repeatable: bool
 ) -> str:
-    """The page. figures: name of the files, heading, caption and SVG of each; is_repeatable: worst.can_repeat()."""
+    """The page. figures: name of the files, heading, caption and SVG of each; is_repeatable: whether the study file is
+    complete."""
     return _TEMPLATE.format(
         policy=_POLICY,
         name=html.escape(table.name),
         style=_STYLE,
         summary=_describe(table),
         figures="\n".join(_format_figure(*figure) for figure in figures),
-        worst=_format_worst(table.name, worst, is_repeatable),
+        worst=_format_worst(table, worst, is_repeatable),
     )
 
 
@@ -117,12 +119,12 @@ def _format_figure(name: str, title: str, caption: str, svg: bytes) -> str:
     )
 
 
-def _format_worst(name: str, worst: Sequence[Worst], is_repeatable: bool) -> str:
+def _format_worst(table: StudyTable, worst: Sequence[Worst], is_repeatable: bool) -> str:
     columns = [
         heading for heading in _HEADINGS
         if heading[0] == "row" or any(case.values.get(heading[0]) is not None for case in worst)
     ]  # fmt: skip
-    head = "".join(f"<th{_mark(spec)}>{html.escape(title)}</th>" for _, title, spec, _ in columns)
+    head = "".join(f"<th{_mark(spec)}>{html.escape(title)}</th>" for _, title, spec, _ in columns) + "<th>replay</th>"
     lines = []
     for case in worst:
         values = {**case.values, "row": case.row}
@@ -130,18 +132,30 @@ def _format_worst(name: str, worst: Sequence[Worst], is_repeatable: bool) -> str
             f"<td{_mark(spec)}>{html.escape(_format_value(values.get(key), spec, factor))}</td>"
             for key, _, spec, factor in columns
         )
-        command = f"<code>{html.escape(format_commands(name, case.row))}</code>"
-        lines.append(f'<tr class="values">{cells}</tr>\n<tr><td colspan="{len(columns)}">{command}</td></tr>')
-    where = "In the folder of this page, the line below a case"
-    if not is_repeatable:
-        where = "study.toml is not complete here: put the path of the original in its place. The line below a case"
+        found = find_replay(table, case.row)
+        replay = f'<a href="{found}">replay</a>' if found else f"<code>{html.escape(format_command(case.row))}</code>"
+        lines.append(f"<tr>{cells}<td>{replay}</td></tr>")
     return (
-        f"<h2>The {len(worst)} cases of most energy</h2>\n<p>{where} writes the case as a scenario "
-        "file and runs it again; replay.html in the folder of that run shows it. At level impact the ships coast for a "
-        "second first, so the closing speed is that of the row to a thousandth; the run goes on after the first "
-        "contact.</p>\n"
+        f"<h2>The {len(worst)} cases of most energy</h2>\n<p>{_describe_replays(table, worst, is_repeatable)}</p>\n"
         f'<div class="wide"><table class="cases">\n<tr>{head}</tr>\n' + "\n".join(lines) + "\n</table></div>"
     )
+
+
+def _describe_replays(table: StudyTable, worst: Sequence[Worst], is_repeatable: bool) -> str:
+    if not is_repeatable:
+        return (
+            "A ship or table of the study has changed, or is not where it was: without it no case can be run again. "
+            "Put it back, and show the study again."
+        )
+    text = "Each case was run again for its replay."
+    if any(find_replay(table, case.row) is None for case in worst):
+        text = "In the folder of this page, the line beside a case runs it again, and writes its replay."
+    if table.level == "impact":
+        text += (
+            " A replay begins with the impact of the row, and goes on with ships that coast: where they touch again, "
+            "they lose more energy."
+        )
+    return text
 
 
 def _mark(spec: str) -> str:

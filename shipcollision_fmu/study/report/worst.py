@@ -1,4 +1,4 @@
-"""The cases that lose most energy, and the commands that run one of them again."""
+"""The cases that lose most energy, and the command that runs one of them again."""
 
 from __future__ import annotations
 
@@ -6,14 +6,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...errors import ShipCollisionError
-from ..definition.study import read_study
 from .study_table import StudyTable
 
-__all__ = ["COLUMNS", "Worst", "can_repeat", "find_worst", "format_commands"]
+__all__ = ["COLUMNS", "Worst", "find_worst", "format_command"]
 
 COLUMNS = (
-    "energy", "own_ship", "target_ship", "kind", "angle_deg", "at", "own_speed", "target_speed", "closing_speed",
+    "energy", "situation", "own_ship", "target_ship", "kind", "angle_deg", "at", "own_speed",
+    "target_speed", "closing_speed",
 )  # fmt: skip
 
 
@@ -31,17 +30,6 @@ def find_worst(table: StudyTable, count: int = 10) -> list[Worst]:
     return [Worst(row, values) for row, values in zip(rows, table.read_cases(rows, COLUMNS), strict=True)]
 
 
-def format_commands(name: str, row: int) -> str:
-    """The line that runs a row again, in the folder of the study: a scenario file is written, then run."""
-    return (
-        f"shipcollision study study.toml --row {row} --out cases && "
-        f"shipcollision run cases/{name}_{row}.toml --out cases/{name}_{row}"
-    )
-
-
-def can_repeat(table: StudyTable) -> bool:
-    """Whether study.toml in the folder is the whole study: it names no files that lie beside the original alone."""
-    try:
-        return read_study(table.folder / "study.toml").fingerprint == table.fingerprint
-    except ShipCollisionError:
-        return False
+def format_command(row: int) -> str:
+    """The line that computes a row again in the folder of the study, and writes its replay."""
+    return f"shipcollision show . --row {row}"

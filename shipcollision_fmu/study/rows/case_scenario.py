@@ -1,6 +1,6 @@
 """write_case(): a case of a study as a scenario file, which is run and shown as any other.
 
-level impact      the ships coast to the place for a second; the run goes on after the first contact
+level impact      begins a thousandth of a second before the impact; the run goes on after the first contact
 level encounter   the run of the row, to rounding
 level sailed      the run of the row
 situations        the run of the row
@@ -16,10 +16,10 @@ from ...files import is_file, write_files
 from ...scenario.scenario import Scenario
 from ...scenario.toml_writer import format_toml
 from ..definition.study import Study
-from ..definition.variables import SAILED
+from ..definition.variables import IMPACT, SAILED
 from .cases import Cases, draw_cases
 from .compute import choose_engine
-from .encounter_rows import make_coasting_scenario
+from .encounter_rows import make_coasting_scenario, make_impact_scenario
 from .fleet_ships import find_ship
 from .impact_rows import PAIRS, as_cases
 from .sailed_rows import make_sailed_scenario
@@ -59,7 +59,8 @@ def _make_scenario(study: Study, row: int, cases: Cases, ships: ShipFolder, fold
     (found,) = impacts.run(as_cases(cases))
     if found["status"]:
         raise StudyError(f"{study.source}: row {row} is refused: {found['reason'].decode()}")
-    return make_coasting_scenario(study, {"own": ships.write(own), "target": ships.write(target)}, found, cases, 0)
+    make = make_impact_scenario if study.level == IMPACT else make_coasting_scenario
+    return make(study, {"own": ships.write(own), "target": ships.write(target)}, found, cases, 0)
 
 
 def _describe(scenario: Scenario, study: Study, name: str, row: int) -> dict[str, str]:

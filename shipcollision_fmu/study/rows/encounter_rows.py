@@ -21,7 +21,7 @@ from .python_run import run_python
 from .results import Results
 from .ship_folder import ShipFolder
 
-__all__ = ["make_coasting_scenario", "run_coasting"]
+__all__ = ["make_coasting_scenario", "make_impact_scenario", "run_coasting"]
 
 GIVEN = (
     "angle_deg", "at", "own_speed", "target_speed", "own_sway", "target_sway", "heading_deg", "friction", "restitution",
@@ -29,6 +29,9 @@ GIVEN = (
 """Numbers that collide() takes."""
 USUAL_TIME = 1.0
 """[s] from the start to the impact: coasting ships that close have touched nothing before it."""
+JUST_BEFORE = 1e-3
+"""[s] Time from the start to the impact in the scenario of an impact, and its substep: hulls touch at the end of a
+substep. The energy of the first contact differs from that of the row by some 1e-5 of itself, in proportion to it."""
 
 Places = npt.NDArray[np.intp]
 
@@ -77,18 +80,35 @@ def make_coasting_scenario(study: Study, files: dict[str, str], row: Any, cases:
     """The scenario of two ships that coast to the impact in the row."""
     run = study.run
     steps = round((run.time or USUAL_TIME) / run.step) or 1
-    ships = {}
-    for role, file in files.items():
-        heading, (surge, sway, *_, yaw_rate) = float(row[f"{role}_heading"]), row[f"{role}_before"].tolist()
-        c, s, time = np.cos(heading), np.sin(heading), steps * run.step
-        north, east = row[f"{role}_position"][:2] - time * np.array([surge * c - sway * s, surge * s + sway * c])
-        ships[role] = {
-            "ship": file, "position": [float(north), float(east)], "heading_deg": float(np.degrees(heading)),
-            "surge": surge, "sway": sway, "degrees_of_freedom": run.degrees_of_freedom, "hydrodynamics": False,
-            **({"coasting": "straight"} if sway else {}), **({"rates": [0.0, 0.0, yaw_rate]} if yaw_rate else {}),
-        }  # fmt: skip
     duration = (steps + (round(run.after / run.step) or 1)) * run.step
     contact = Collision(friction=cases.numbers["friction"][place], restitution=cases.numbers["restitution"][place])
+    return _make_scenario(study, files, row, steps * run.step, duration, contact)
+
+
+def make_impact_scenario(study: Study, files: dict[str, str], row: Any, cases: Cases, place: int) -> Scenario:
+    """The scenario that begins with the impact in the row, and goes on from there."""
+    run = study.run
+    contact = Collision(
+        friction=cases.numbers["friction"][place], restitution=cases.numbers["restitution"][place], substep=JUST_BEFORE
+    )
+    return _make_scenario(study, files, row, JUST_BEFORE, (round(run.after / run.step) or 1) * run.step, contact)
+
+
+def _make_scenario(
+    study: Study, files: dict[str, str], row: Any, time: float, duration: float, contact: Collision
+) -> Scenario:
+    """The scenario of ships that meet at the time [s], on straight courses."""
+    run, ships = study.run, {}
+    for role, file in files.items():
+        heading, (surge, sway, *_, yaw_rate) = float(row[f"{role}_heading"]), row[f"{role}_before"].tolist()
+        c, s = np.cos(heading), np.sin(heading)
+        north, east = row[f"{role}_position"][:2] - time * np.array([surge * c - sway * s, surge * s + sway * c])
+        ships[role] = {
+            "ship": file, "position": [float(north), float(east)],
+            "heading_deg": float(np.degrees(heading - yaw_rate * time)), "surge": surge, "sway": sway,
+            "degrees_of_freedom": run.degrees_of_freedom, "hydrodynamics": False,
+            **({"coasting": "straight"} if sway else {}), **({"rates": [0.0, 0.0, yaw_rate]} if yaw_rate else {}),
+        }  # fmt: skip
     return Scenario.model_validate(
         {
             "scenario": {"name": study.name, "duration": duration, "step": run.step}, "ships": ships,

@@ -7,7 +7,6 @@ import importlib.util
 import json
 import re
 import shutil
-from html import unescape
 from pathlib import Path
 from typing import Any
 
@@ -19,10 +18,12 @@ import pytest
 from click.testing import CliRunner, Result
 from selenium.webdriver import Chrome
 
-from shipcollision_fmu import load_scenario, run_study
+from shipcollision_fmu import run_study
 from shipcollision_fmu.cli import main
+from shipcollision_fmu.errors import HostError
 from shipcollision_fmu.show import extras
 from shipcollision_fmu.study.definition.study import parse_study
+from tests.study.rows import test_situations
 
 TEXT = """
 [study]
@@ -51,7 +52,7 @@ def finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder of the study, shown."""
     out = tmp_path_factory.mktemp("report") / "harbour"
     run_study(parse_study(TEXT), out, workers=0)
-    assert called("show", out).exit_code == 0
+    assert called("show", out, "--no-replays").exit_code == 0
     return out
 
 
@@ -61,6 +62,10 @@ def folder(finished: Path, tmp_path: Path) -> Path:
     return Path(
         shutil.copytree(finished, tmp_path / "harbour", ignore=shutil.ignore_patterns("report.html", "figures"))
     )
+
+
+def shown(folder: Path) -> Result:
+    return called("show", folder, "--no-replays")
 
 
 def called(*arguments: str | Path) -> Result:
@@ -125,7 +130,7 @@ def test_a_browser_shows_it_without_a_network(finished: Path, browser: Chrome, w
 
 def test_few_cases_have_few_bins_and_no_quantile_of_99_percent(tmp_path: Path) -> None:
     run_study(parse_study(TEXT.replace("rows = 400", "rows = 130")), tmp_path / "few", workers=0)
-    assert called("show", tmp_path / "few").exit_code == 0
+    assert shown(tmp_path / "few").exit_code == 0
     assert set(read_figure(tmp_path / "few", "convergence")["quantile"]) == {"nan"}
     assert len(read_figure(tmp_path / "few", "energy_by_angle")["cases"]) == 3
 
@@ -151,38 +156,115 @@ def test_the_page_says_what_is_left_out(finished: Path) -> None:
     assert "not finished" not in page
 
 
-def test_the_worst_ten_run_again_by_their_lines(
-    finished: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    done = read_done(finished)
-    expected = done["row"].to_numpy()[np.argsort(-done["energy"].to_numpy(), kind="stable")[:10]].tolist()
-    lines = [unescape(line) for line in re.findall(r"<code>([^<]+)</code>", read_page(finished))]
-    assert [int(re.findall(r"--row (\d+)", line)[0]) for line in lines] == expected
-    monkeypatch.chdir(shutil.copytree(finished, tmp_path / "again"))
-    write, run = lines[0].split(" && ")
-    result = called(*write.split()[1:])
-    path = f"cases/harbour_{expected[0]}.toml"
-    assert (result.exit_code, result.stdout) == (0, f"{path}: run it with `shipcollision run {path}`\n")
-    assert run.split()[:3] == ["shipcollision", "run", path]
-    assert load_scenario(path).name == f"harbour_{expected[0]}"
+def find_worst_rows(folder: Path) -> list[int]:
+    done = read_done(folder)
+    worst: list[int] = done["row"].to_numpy()[np.argsort(-done["energy"].to_numpy(), kind="stable")[:10]].tolist()
+    return worst
+
+
+def test_the_worst_ten_run_again_by_their_lines(finished: Path, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    expected = find_worst_rows(finished)
+    lines = re.findall(r"<code>([^<]+)</code>", read_page(finished))
+    assert lines == [f"shipcollision show . --row {row}" for row in expected]
+    monkeypatch.chdir(folder)
+    result = called(*lines[0].split()[1:])
+    row, page = expected[0], f"replays/row-{expected[0]}/replay.html"
+    assert result.stdout.splitlines() == [
+        f"row {row}, computed again, has the numbers of the table", f"{page}: open it in a browser"
+    ]  # fmt: skip
+    events = json.loads((folder / page).with_name("events.json").read_text())["collisions"]
+    (line,) = read_done(folder).filter(pc.equal(read_done(folder)["row"], row)).to_pylist()
+    assert events[0]["closing_speed"] == pytest.approx(line["closing_speed"], rel=1e-9)
+    assert events[0]["first_point"]["b_a"] == pytest.approx([line[f"own_{axis}"] for axis in "xyz"], abs=1e-5)
+    assert shown(folder).exit_code == 0
+    assert re.findall(r'<a href="(replays/[^"]+)">', read_page(folder)) == [page]  # that of the others is a line still
+
+
+def test_the_page_leads_to_the_replays(folder: Path, browser: Chrome) -> None:
+    """The links of the ten worst cases open pages that show their ships, from a file."""
+    assert called("show", folder).exit_code == 0
+    links = re.findall(r'<a href="(replays/[^"]+)">replay</a>', read_page(folder))
+    assert links == [f"replays/row-{row}/replay.html" for row in find_worst_rows(folder)]
+    assert "<code>" not in read_page(folder)
+    browser.get((folder / "report.html").as_uri())
+    browser.find_element("link text", "replay").click()
+    assert browser.current_url == (folder / links[0]).as_uri()
+    assert browser.title == f"harbour_{find_worst_rows(folder)[0]}"
+
+
+def test_a_row_with_other_numbers_than_the_table_is_said(folder: Path) -> None:
+    row = find_worst_rows(folder)[0]
+    change_part(folder, "energy_normal", pa.array(np.full(400, 1.0)))
+    assert f"row {row}, computed again, has other numbers than those of the table" in called(
+        "show", folder, "--row", str(row)
+    ).stdout  # fmt: skip
+
+
+def test_rows_that_cannot_be_replayed_are_refused(folder: Path, tmp_path: Path) -> None:
+    table = pq.read_table(folder / "encounters")
+    row = table.filter(pc.equal(table["status"], "refused"))["row"][0].as_py()
+    assert called("show", folder, "--row", str(row)).stderr.startswith(f"error: study.toml: row {row} is refused: ")
+    assert "row = 400 is not in the study" in called("show", folder, "--row", "400").stderr
+    assert "--row shows a row of a study" in called("show", tmp_path, "--row", "1").stderr
+    (folder / "study.toml").write_text(TEXT.replace("seed = 3", "seed = 4"), encoding="utf-8")
+    assert "a ship or table of the study has changed, or is not where it was: put it back" in called(
+        "show", folder, "--row", "1"
+    ).stderr  # fmt: skip
+    assert not (folder / "replays").exists()
+
+
+def test_a_replay_that_cannot_be_made_is_a_line(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(*arguments: object, **options: object) -> None:
+        raise HostError("no compiler")
+
+    monkeypatch.setattr("shipcollision_fmu.study.report.replays.simulate", fail)
+    result = called("show", folder)
+    assert (result.exit_code, result.stderr) == (0, f"no replay of row {find_worst_rows(folder)[0]}: no compiler\n")
+    assert "runs it again, and writes its replay" in read_page(folder)
+
+
+def test_figures_of_an_earlier_report_do_not_stay(folder: Path) -> None:
+    """Those that this report does not have any more; other files of the user's do."""
+    (folder / "figures").mkdir()
+    for name in ("exceedance_penetration.svg", "energy_by_place.png", "mine.png", "exceedance_energy.txt"):
+        (folder / "figures" / name).touch()
+    change_part(folder, "at", pa.array([0.25] * 400))
+    assert shown(folder).exit_code == 0
+    names = {path.name for path in (folder / "figures").iterdir()}
+    assert not names & {"exceedance_penetration.svg", "energy_by_place.png"}
+    assert names >= {"mine.png", "exceedance_energy.txt", "exceedance_energy.svg"}
+
+
+def test_a_study_of_situations_is_shown(tmp_path: Path) -> None:
+    test_situations.write_situations(tmp_path)
+    more = 'friction = {distribution = "uniform", least = 0.1, most = 0.6}'
+    text = test_situations.STUDY.format(level="encounter", more="").replace("friction = 0.45", more)
+    (tmp_path / "study.toml").write_text(text.replace('"encounter"', '"encounter"\nrows = 60'), encoding="utf-8")
+    run_study(tmp_path / "study.toml", tmp_path / "out", workers=0)
+    assert called("show", tmp_path / "out").exit_code == 0
+    page = read_page(tmp_path / "out")
+    assert "40 of 60 cases are done, at level encounter" in page
+    assert {"friction", "situation"} <= set(read_figure(tmp_path / "out", "sensitivity")["input"])
+    assert page.count('<a href="replays/row-') == 10
+    assert "meeting.json" in page
 
 
 def test_the_same_study_gives_the_same_page(finished: Path, folder: Path) -> None:
-    assert called("show", folder).exit_code == 0
+    assert shown(folder).exit_code == 0
     assert read_page(folder) == read_page(finished)
 
 
 def test_a_study_that_is_not_finished_is_shown_as_far_as_it_is(folder: Path) -> None:
     told = json.loads((folder / "study.json").read_text(encoding="utf-8"))
     (folder / "study.json").write_text(json.dumps({**told, "rows": 1000}), encoding="utf-8")
-    assert called("show", folder).exit_code == 0
+    assert shown(folder).exit_code == 0
     assert "The study is not finished: it has 1\N{NARROW NO-BREAK SPACE}000 cases." in read_page(folder)
 
 
 def test_a_column_of_damage_has_a_curve(folder: Path) -> None:
     field = pa.field("penetration", pa.float64(), metadata={"unit": "m"})
     change_part(folder, field, pa.array(np.linspace(0.0, 3.0, 400)))
-    assert called("show", folder).exit_code == 0
+    assert shown(folder).exit_code == 0
     assert read_figure(folder, "exceedance_penetration")["penetration"][-1] == str(
         np.linspace(0.0, 3.0, 400)[read_done(folder)["row"].to_numpy()[-1]]
     )
@@ -192,19 +274,19 @@ def test_a_study_file_with_files_beside_it_is_said(folder: Path) -> None:
     text = TEXT.replace('"kvlcc2"]', '"ships/mine.toml"]')
     (folder / "study.toml").write_text(text, encoding="utf-8")
     assert called("show", folder).exit_code == 0
-    assert "put the path of the original in its place" in read_page(folder)
+    assert "A ship or table of the study has changed, or is not where it was" in read_page(folder)
 
 
 def test_a_name_from_a_table_stays_text(folder: Path) -> None:
     change_part(folder, "own_ship", pa.array(["<script>alert(1)</script>"] * 400))
-    assert called("show", folder).exit_code == 0
+    assert shown(folder).exit_code == 0
     assert "<script>" not in read_page(folder)
     assert "&lt;script&gt;" in read_page(folder)
 
 
 def test_constant_inputs_have_no_figure(folder: Path) -> None:
     change_part(folder, "at", pa.array([0.25] * 400))
-    assert called("show", folder).exit_code == 0
+    assert shown(folder).exit_code == 0
     assert not (folder / "figures" / "energy_by_place.csv").exists()
 
 
