@@ -25,6 +25,7 @@ from ..session.session import Session
 from .access import Tokens, is_own_origin
 from .hub import MOST_CLIENTS, Hub
 from .messages import ROLES
+from .outline import describe_obstacles
 from .pages import HEADERS, build_live_page, make_policy, read_bundle
 from .scene import build_live_scene, describe_ships, write_glb
 
@@ -47,7 +48,7 @@ class LiveApp:
             "version": __version__, "scenario": scenario.name, "description": scenario.scenario.description,
             "own": own, "ships": describe_ships(scenario, ships, scene), "step": scenario.step, "scene": "/scene.glb",
             "origin": scene.origin.tolist(), "rates": [SLOWEST, FASTEST], "sets_pace": sets_pace,
-            "obstacles": [{"name": name, "kind": table.kind} for name, table in scenario.obstacles.items()],
+            "obstacles": describe_obstacles(scene),
         }  # fmt: skip
         self._title, self._glb = f"{scenario.name}, live", write_glb(scene)
         self._names = frozenset({"localhost", host.lower(), socket.gethostname().lower()})

@@ -33,7 +33,7 @@ export async function startBridge() {
   const targets = makeTargets();
   const alarmBar = makeAlarmBar(session, () => acknowledge());
   const help = makeLiveHelp();
-  const time = makeTimeTools(ask);
+  const time = makeTimeTools(ask, () => session.state?.paused ?? false);
   const canvas = inWords(element("canvas", { id: "picture", tabindex: "0" }), { "aria-label": "picture" });
   const title = element("h1", {});
   const said = inWords(element("p", { id: "command-said" }), { text: "connecting" });
@@ -42,7 +42,8 @@ export async function startBridge() {
     ...MODES.map((mode) => inWords(element("option", { value: mode }), { text: `camera_${mode}` }))), { "aria-label": "camera" });
   const sky = inWords(element("select", { id: "sky", onchange: () => viewer?.setSky(sky.value) },
     ...SKIES.map(([value]) => inWords(element("option", { value }), { text: `sky_${value}` }))), { "aria-label": "sky" });
-  const binoculars = textButton("binoculars", () => toggleBinoculars(), { id: "binoculars", "aria-pressed": "false" });
+  const binoculars = inWords(element("button", { type: "button", id: "binoculars", text: "7\u00d7", "aria-pressed": "false", onclick: () => toggleBinoculars() }), { "aria-label": "binoculars", title: "binoculars" });
+  const plain = inWords(element("button", { type: "button", class: "small", id: "plain", text: "\u2248", "aria-pressed": "false", onclick: () => togglePlain() }), { "aria-label": "plain", title: "plain" });
   const swap = inWords(textButton("chart", () => swapChart(), { id: "chart-large", "aria-pressed": "false" }), { title: "chart_large" });
   const over = element("div", { class: "over", hidden: true });
   const stage = element("main", { class: "stage" }, canvas,
@@ -53,7 +54,7 @@ export async function startBridge() {
   document.body.append(stage,
     element("aside", { class: "side" },
       element("header", { class: "command-bar" }, element("div", {}, title, said), command),
-      time.node, instruments.node, conning.node, chartPlace, targets.node, makeLimits(session), makeSwitches(help.toggle)), help.card);
+      time.node, instruments.node, conning.node, chartPlace, targets.node, makeLimits(session), makeSwitches(help.toggle, plain)), help.card);
 
   let viewer = null;
   let chart = null;
@@ -106,9 +107,8 @@ export async function startBridge() {
         return followed(gltf);
       }, LiveCameras);
       made.cameras.own = made.ships.findIndex(({ info }) => info.name === session.own);
-      if (isPlain) made.setPlain(true);
-      document.body.classList.toggle("plain", isPlain);
       viewer = made;
+      if (isPlain) togglePlain();
       chooseCamera(session.infoOf(session.own).bridge ? "bridge" : "chase");
     } catch (error) {
       messages.tell(say("no_picture", { message: error.message }));
@@ -131,6 +131,17 @@ export async function startBridge() {
     const isOn = viewer?.cameras.hasBinoculars ?? false;
     binoculars.setAttribute("aria-pressed", String(isOn));
     document.body.classList.toggle("binoculars", isOn);
+  }
+
+  function togglePlain() {
+    const isPlain = document.body.classList.toggle("plain");
+    plain.setAttribute("aria-pressed", String(isPlain));
+    viewer?.setPlain(isPlain);
+  }
+
+  function nextSky() {
+    sky.selectedIndex = (sky.selectedIndex + 1) % sky.options.length;
+    viewer?.setSky(sky.value);
   }
 
   function swapChart() {
@@ -217,6 +228,8 @@ export async function startBridge() {
     chart: swapChart,
     orientation: () => chart?.toggleOrientation(),
     range: (by) => chart?.zoom(by),
+    plain: togglePlain,
+    sky: nextSky,
     pause: time.toggle,
     theme: toggleTheme,
     help: help.toggle,

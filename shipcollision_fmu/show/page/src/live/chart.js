@@ -14,8 +14,8 @@ const SMALL = 18; // a ship shorter than this [pixels] is drawn as a symbol
 
 // IEC 62288: own ship and its vector in the foreground colour, others green in the dark, dangerous ones red.
 const COLOURS = {
-  light: { sea: "#dfe9ee", ring: "#9fb3c0", ink: "#14222e", soft: "#5a6b78", target: "#0b6a4a", danger: "#c8102e", track: "#7d95a5" },
-  dark: { sea: "#07131c", ring: "#24404f", ink: "#dbe7ee", soft: "#8fa5b3", target: "#5fd39b", danger: "#ff5a5f", track: "#47687c" },
+  light: { sea: "#dfe9ee", land: "#e3d3a1", ring: "#9fb3c0", ink: "#14222e", soft: "#5a6b78", target: "#0b6a4a", danger: "#c8102e", track: "#7d95a5" },
+  dark: { sea: "#07131c", land: "#3a3520", ring: "#24404f", ink: "#dbe7ee", soft: "#8fa5b3", target: "#5fd39b", danger: "#ff5a5f", track: "#47687c" },
 };
 
 export class Chart {
@@ -101,6 +101,7 @@ export class Chart {
     const view = { pen, colours, place, perMetre, turn, minutes, middle, radius };
     pen.fillStyle = colours.sea;
     pen.fillRect(0, 0, width, height);
+    for (const obstacle of this.hello.obstacles ?? []) this.drawObstacle(view, obstacle);
     this.drawRings(view, range);
     const others = Object.keys(state.ships).filter((name) => name !== this.own);
     for (const name of Object.keys(state.ships)) this.drawTrack(view, name);
@@ -141,6 +142,23 @@ export class Chart {
       pen.stroke();
       if (long) pen.fillText(degrees === 0 ? "N" : String(degrees).padStart(3, "0"), x0 + (radius + 12) * x, y0 + (radius + 11) * y);
     }
+  }
+
+  /** An obstacle: `outline` [[north, east], ...] in n [m], and its name. */
+  drawObstacle({ pen, colours, place }, { name, outline }) {
+    if (!outline) return;
+    const points = outline.map(place);
+    pen.fillStyle = colours.land;
+    pen.strokeStyle = colours.soft;
+    pen.lineWidth = 1.2;
+    pen.beginPath();
+    for (const point of points) pen.lineTo(...point);
+    pen.closePath();
+    pen.fill();
+    pen.stroke();
+    pen.font = "11px system-ui, sans-serif";
+    pen.fillStyle = colours.soft;
+    pen.fillText(name, points[0][0] + 6, points[0][1] - 6);
   }
 
   drawTrack({ pen, colours, place }, name) {

@@ -3,6 +3,7 @@
 const SILENCE = 3000; // without a message for so long [ms], the server is taken for lost: it sends 20 a second
 const WAITS = [300, 600, 1200, 2500]; // before the next try [ms]
 const ANSWER = 5000; // longest wait for an answer [ms]
+const READ = 500; // and for messages that have come meanwhile to be read
 
 export class Connection {
   /** `hear(type, message)` is called for every message, and with "open" and "lost". */
@@ -57,7 +58,9 @@ export class Connection {
     return new Promise((resolve, reject) => {
       if (!this.isOpen) return reject(new Error("there is no connection"));
       const id = ++this.number;
-      const patience = setTimeout(() => this.answer({ type: "error", id, message: "the server did not answer" }), ANSWER);
+      // A page that is busy finds clock and answer waiting together: what has come is read first.
+      const fail = () => this.answer({ type: "error", id, message: "the server did not answer" });
+      const patience = setTimeout(() => setTimeout(fail, READ), ANSWER);
       this.asked.set(id, { resolve, reject, patience });
       this.socket.send(JSON.stringify({ ...fields, type, id }));
     });

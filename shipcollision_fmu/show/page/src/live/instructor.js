@@ -26,7 +26,7 @@ export async function startInstructor() {
   const conningHead = element("h2", {});
   const conningPlace = element("section", { class: "conn-place", hidden: true }, conningHead, conning.node);
   const help = makeLiveHelp();
-  const time = makeTimeTools(ask);
+  const time = makeTimeTools(ask, () => session.state?.paused ?? false);
   const acknowledge = () => (session.acknowledge(), alarmBar.show());
   const alarmBar = makeAlarmBar(session, acknowledge);
   const over = element("div", { class: "over", hidden: true });
@@ -119,7 +119,7 @@ export async function startInstructor() {
     telegraph: whenConned((by) => conning.changeTelegraph(by)), stop: whenConned(() => conning.setTelegraph(0)),
     autopilot: whenConned(() => conning.toggleAutopilot()), heading: whenConned((by) => conning.changeHeading(by)),
     horn: whenConned((on) => (conning.isBlowing !== undefined || on) && conning.blow(on)),
-    acknowledge, camera: nothing, look: nothing, binoculars: nothing, chart: nothing, orientation: () => chart?.toggleOrientation(),
+    acknowledge, camera: nothing, look: nothing, plain: nothing, sky: nothing, binoculars: nothing, chart: nothing, orientation: () => chart?.toggleOrientation(),
     range: (by) => chart?.zoom(by), pause: time.toggle, theme: toggleTheme, help: help.toggle,
   });
   requestAnimationFrame(frame);

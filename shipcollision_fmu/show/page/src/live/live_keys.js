@@ -2,10 +2,11 @@
 import { element } from "../dom.js";
 import { inWords } from "../texts.js";
 
-const CARD = [
+/** Keys, and the text that says what they do. */
+export const CARD = [
   ["\u2190 \u2192", "key_rudder"], ["Home End", "key_hard"], ["M", "key_midships"], ["\u2191 \u2193", "key_telegraph"], ["Backspace", "key_stop"],
   ["A", "key_autopilot"], [", .", "key_heading"], ["H", "key_horn"], ["Enter", "key_acknowledge"], ["C", "key_camera"], ["Q E", "key_look"], ["B", "key_binoculars"],
-  ["V", "key_chart"], ["N", "key_orientation"], ["+ \u2212", "key_range"], ["P", "key_pause"], ["T", "key_theme"], ["?", "key_help"],
+  ["V", "key_chart"], ["N", "key_orientation"], ["+ \u2212", "key_range"], ["P", "key_pause"], ["S", "key_plain"], ["D", "key_sky"], ["F", "key_full"], ["T", "key_theme"], ["?", "key_help"],
 ];
 
 export function makeLiveHelp() {
@@ -14,6 +15,11 @@ export function makeLiveHelp() {
   const card = element("dialog", { class: "card" }, inWords(element("h2", {}), { text: "help" }), element("dl", {}, ...rows),
     inWords(element("p", {}), { text: "looking" }), inWords(element("button", { type: "button", onclick: () => card.close() }), { text: "close" }));
   return { card, toggle: () => (card.open ? card.close() : card.showModal()) };
+}
+
+/** The whole screen, and back. */
+export function toggleFullScreen() {
+  document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen?.();
 }
 
 /** Calls actions for keys; those of fields, of lists and of a focused button's Space and Enter are left alone. */
@@ -39,6 +45,9 @@ export function listenToBridgeKeys(actions) {
     n: () => actions.orientation(),
     "+": () => actions.range(1), "-": () => actions.range(-1), "=": () => actions.range(1),
     p: () => actions.pause(),
+    s: () => actions.plain(),
+    d: () => actions.sky(),
+    f: toggleFullScreen,
     t: () => actions.theme(),
     "?": () => actions.help(),
   };

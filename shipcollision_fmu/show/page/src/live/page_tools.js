@@ -1,10 +1,12 @@
 // What both live pages have: language, theme, messages of refusals, time and rate, alarm limits.
-import { element } from "../dom.js";
+import { element, icon } from "../dom.js";
 import { clockTime, number } from "../format.js";
 import { inWords, language, LANGUAGES, onLanguage, say, setLanguage } from "../texts.js";
 import { toggleTheme } from "../theme.js";
+import { toggleFullScreen } from "./live_keys.js";
 import { MILE } from "./navigation.js";
 
+const FULL_SCREEN = "M3 3h5v2H5v3H3zM12 3h5v5h-2V5h-3zM3 12h2v3h3v2H3zM15 12h2v5h-5v-2h3z";
 export const RATES = [0.25, 0.5, 1, 2, 5, 10, 20];
 
 /** A button with a text that follows the language. */
@@ -30,24 +32,24 @@ export function makeMessages() {
   };
 }
 
-export function makeSwitches(openHelp) {
+export function makeSwitches(openHelp, ...more) {
   const chosen = inWords(element("select", { id: "language" }, ...Object.entries(LANGUAGES).map(([value, text]) => element("option", { value, text }))), { "aria-label": "language" });
   chosen.addEventListener("change", () => setLanguage(chosen.value));
   onLanguage(() => (chosen.value = language()));
-  return element("div", { class: "switches" }, chosen,
+  return element("div", { class: "switches" }, chosen, ...more,
+    inWords(element("button", { type: "button", class: "small", onclick: toggleFullScreen }, icon(FULL_SCREEN)), { "aria-label": "full_screen", title: "full_screen" }),
     inWords(element("button", { type: "button", class: "small", text: "\u25d0", onclick: toggleTheme }), { "aria-label": "theme", title: "theme" }),
     inWords(element("button", { type: "button", class: "small", text: "?", onclick: openHelp }), { "aria-label": "help", title: "help" }));
 }
 
-/** Simulated time, rate, pause and step. `ask(type, fields)` asks the server. */
-export function makeTimeTools(ask) {
+/** Simulated time, rate, pause and step. `ask(type, fields)` asks the server; `isPaused()` is the latest that is known. */
+export function makeTimeTools(ask, isPaused) {
   const clock = element("output", { id: "time-now" });
   const real = element("small", {});
   const rate = inWords(element("select", { id: "rate", onchange: () => ask("rate", { rate: Number(rate.value) }) },
     ...RATES.map((value) => element("option", { value, text: `${value < 1 ? `1/${1 / value}` : value}\u00d7` }))), { "aria-label": "rate" });
-  const pause = element("button", { type: "button", id: "pause", onclick: () => ask("pause", { paused: !isPaused }) });
+  const pause = element("button", { type: "button", id: "pause", onclick: () => ask("pause", { paused: !isPaused() }) });
   const step = textButton("step", () => ask("step"), { id: "step", hidden: true });
-  let isPaused = false;
   return {
     node: inWords(element("div", { class: "time-tools" }, element("p", {}, clock, real), rate, pause, step), { "aria-label": "time" }),
     toggle: () => pause.click(),
@@ -56,13 +58,12 @@ export function makeTimeTools(ask) {
       rate.disabled = pause.disabled = step.disabled = !isAllowed;
     },
     show(state) {
-      isPaused = state.paused;
       clock.textContent = clockTime(state.time, 1);
-      real.textContent = isPaused ? say("paused") : Math.abs(state.real_rate / state.rate - 1) > 0.05 ? say("really", { rate: number(state.real_rate, 1) }) : "";
+      real.textContent = state.paused ? say("paused") : Math.abs(state.real_rate / state.rate - 1) > 0.05 ? say("really", { rate: number(state.real_rate, 1) }) : "";
       if (document.activeElement !== rate) rate.value = String(state.rate);
-      pause.textContent = say(isPaused ? "go_on" : "pause");
-      pause.setAttribute("aria-pressed", String(isPaused));
-      step.hidden = !isPaused;
+      pause.textContent = say(state.paused ? "go_on" : "pause");
+      pause.setAttribute("aria-pressed", String(state.paused));
+      step.hidden = !state.paused;
     },
   };
 }
