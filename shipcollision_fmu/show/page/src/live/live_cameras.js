@@ -6,6 +6,8 @@ const UP = new THREE.Vector3(0, 1, 0);
 const FIELD = 60; // of view on the bridge [deg]; on a narrow screen more, see field()
 const OUTSIDE_FIELD = 38;
 const BINOCULARS = 7; // magnification of a ship's 7 x 50
+const WIDE = matchMedia("(min-width: 901px)");
+const ROOM = 0.12; // of the picture's width
 const STATIONS = { bridge: 0, port: -1, starboard: 1 };
 const LOOK = { bridge: [0, -0.12], port: [-0.12, -0.14], starboard: [0.12, -0.14] }; // yaw, pitch at first [rad]
 
@@ -65,18 +67,33 @@ export class LiveCameras extends Cameras {
     return this.isAboard && this.zoom > 2;
   }
 
+  resize(width, height) {
+    this.size = [width, height];
+    this.makeRoom();
+    super.resize(width, height);
+  }
+
+  /** On a wide screen a chart covers the lower right: what is looked at from outside stands left of the middle. */
+  makeRoom() {
+    const [width, height] = this.size;
+    if (!["chase", "outside"].includes(this.mode) || !WIDE.matches) this.camera.clearViewOffset();
+    else this.camera.setViewOffset(width, height, ROOM * width, 0, width, height);
+  }
+
   choose(mode, time) {
     this.controls.enabled = !(mode in STATIONS);
     this.zoom = 1;
     if (mode in STATIONS) {
       this.mode = mode;
       [this.yaw, this.pitch] = LOOK[mode];
+      this.makeRoom();
       this.follow(time);
       return;
     }
     this.setField(OUTSIDE_FIELD);
     this.camera.up.copy(UP);
     super.choose(mode, time);
+    this.makeRoom();
   }
 
   anchor(mode, time) {
@@ -89,7 +106,7 @@ export class LiveCameras extends Cameras {
     const direction = new THREE.Vector3(...(mode === "chase" ? [-1, 0, 0] : [0.75, 0.66, 0])).transformDirection(node.matrixWorld).setY(0).normalize();
     if (mode === "chase") target.addScaledVector(direction, -0.3 * info.L_oa);
     direction.addScaledVector(UP, mode === "chase" ? 0.2 : 0.16).normalize();
-    return { target, position: target.clone().addScaledVector(direction, (mode === "chase" ? 1.6 : 1.35) * info.L_oa) };
+    return { target, position: target.clone().addScaledVector(direction, (mode === "chase" ? 1.6 : 1.5) * info.L_oa) };
   }
 
   follow(time) {
