@@ -26,6 +26,7 @@ class Document:
         self._json: dict[str, Any] = {"asset": {"version": "2.0", "generator": generator}}
         self._chunks: list[bytes] = []
         self._size = 0
+        self._accessors: dict[tuple[str, int | None, bytes], int] = {}
 
     def __setitem__(self, key: str, value: Any) -> None:
         self._json[key] = value
@@ -48,11 +49,10 @@ class Document:
         """Add an accessor of the corners of triangles (m, 3)."""
         flat = triangles.reshape(-1)
         short = int(flat.max()) < 65535  # 65535 itself restarts a primitive
-        view = self._add_view(flat.astype("<u2" if short else "<u4").tobytes(), INDICES)
-        return self.add(
-            "accessors",
+        return self._add_accessor(
+            flat.astype("<u2" if short else "<u4").tobytes(), INDICES,
             {
-                "bufferView": view, "componentType": UNSIGNED_SHORT if short else UNSIGNED_INT, "count": len(flat),
+                "componentType": UNSIGNED_SHORT if short else UNSIGNED_INT, "count": len(flat),
                 "type": "SCALAR", "min": [int(flat.min())], "max": [int(flat.max())],
             },
         )  # fmt: skip
@@ -75,14 +75,21 @@ class Document:
         if not np.isfinite(array).all():
             raise ValueError("a number of the scene is not finite in single precision")
         table = array.reshape(len(array), -1)
-        return self.add(
-            "accessors",
+        return self._add_accessor(
+            table.tobytes(), target,
             {
-                "bufferView": self._add_view(table.tobytes(), target), "componentType": FLOAT, "count": len(table),
-                "type": _TYPES[table.shape[1]],
+                "componentType": FLOAT, "count": len(table), "type": _TYPES[table.shape[1]],
                 "min": [float(x) for x in table.min(axis=0)], "max": [float(x) for x in table.max(axis=0)],
             },
         )  # fmt: skip
+
+    def _add_accessor(self, data: bytes, target: int | None, described: dict[str, Any]) -> int:
+        """An accessor of these bytes; the one that is there, if there is one: ships of a model share their surfaces."""
+        key = (f"{described['type']} {described['componentType']}", target, data)
+        if key not in self._accessors:
+            item = {"bufferView": self._add_view(data, target), **described}
+            self._accessors[key] = self.add("accessors", item)
+        return self._accessors[key]
 
     def _add_view(self, data: bytes, target: int | None) -> int:
         view: dict[str, Any] = {"buffer": 0, "byteOffset": self._size, "byteLength": len(data)}

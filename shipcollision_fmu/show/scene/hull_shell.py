@@ -18,13 +18,10 @@ from ...ship.frames import Array
 from .hull_lines import FROM, POST, RUN, UnderwaterLines
 from .hull_rings import HullRings
 from .ship_style import Style
-from .solids import join_surfaces, mirror_surface
+from .solids import Shape, join_shapes, join_surfaces, mirror_surface
 from .surface import Surface, cut_into_bands, drop_flat_triangles
 
-__all__ = ["Shape", "WeatherDeck", "cut_bare_hull", "make_shell"]
-
-Shape = tuple[str, Surface]
-"""A part of a mesh: the name of its paint, and its surface."""
+__all__ = ["WeatherDeck", "cut_bare_hull", "make_shell"]
 
 UNDER = (0.06, FROM, 0.17, 0.24, 0.32, 0.42, 0.52, 0.61, 0.68, 0.75, 0.83, 0.90, 0.95, 0.98, 1.0)
 """Shares of the depth at which the hull is drawn under water."""
@@ -34,6 +31,10 @@ GAP = 0.02
 """[m] Distance of two sections at a step."""
 BOOT_TOP = (0.10, 0.025)
 """Upper and lower edge of the boot topping above the load line, over T."""
+
+
+STRIPE = (0.10, 0.17)
+"""Upper and lower edge of a stripe, over the height from the boot topping to the deck."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,7 +117,8 @@ def make_shell(rings: HullRings, style: Style) -> list[Shape]:
     places, before_post = _place_sections(deck, lines)
     load = find_load_line(rings, style)
     z_boot = [max(rings.z_deck, load - share * rings.z_keel) for share in BOOT_TOP]
-    levels = [rings.z_deck, *z_boot, *([0.0] if z_boot[-1] < 0.0 else [])]
+    stripe = [rings.z_deck + share * (z_boot[0] - rings.z_deck) for share in STRIPE if style.has_stripe]
+    levels = [rings.z_deck, *stripe, *z_boot, *([0.0] if z_boot[-1] < 0.0 else [])]
     grid = np.array([
         [
             _above_deck(deck, place),
@@ -126,13 +128,16 @@ def make_shell(rings: HullRings, style: Style) -> list[Shape]:
         for place, before in zip(places, before_post, strict=True)
     ])  # fmt: skip
     deck_rows = np.array([_rows_on_deck(deck, lines, point) for point in grid[:, 0]])
-    bands = {"topsides": (0, 2), "boot-top": (2, 3), "antifouling": (3, grid.shape[1] - 1)}
-    shapes = [(paint, _plate(grid[:, first : last + 1])) for paint, (first, last) in bands.items()]
+    paints = ["topsides", "topsides", "boot-top", "antifouling"]
+    if stripe:
+        paints[1:1] = ["topsides", "stripe"]
+    shapes = join_shapes(
+        (paint, _plate(grid[:, i : i + 2] if i + 1 < len(paints) else grid[:, i:])) for i, paint in enumerate(paints)
+    )
     bottom = _span(grid[:, -1], downwards=True)
     cap, wall = _plate(np.stack([deck_rows[:, 0], grid[:, 0]], axis=1)), _plate(deck_rows[:, ::-1])
-    shapes[2] = ("antifouling", join_surfaces([shapes[2][1], bottom]))
-    shapes[0] = ("topsides", join_surfaces([shapes[0][1], cap]))
-    shapes += [("bulwark", wall), (style.deck, _span(deck_rows[:, 1], downwards=False))]
+    shapes += [("antifouling", bottom), ("topsides", cap), ("bulwark", wall)]
+    shapes = join_shapes([*shapes, (style.deck, _span(deck_rows[:, 1], downwards=False))])
     return [(paint, drop_flat_triangles(surface)) for paint, surface in shapes]
 
 

@@ -103,7 +103,7 @@ def _mark_draughts(rings: HullRings, station: float, spacing: float, z_top: floa
         z = rings.z_keel - float(metres)
         if not -3.0 * spacing < z < 0.0:
             continue
-        text, height = f"{metres:g}", min(0.5 * spacing, 0.7, 0.06 * float(rings.edge[:, 1].max()))
+        text, height = f"{metres:g}", min(0.5 * spacing, 0.5, 0.06 * float(rings.edge[:, 1].max()))
         x = min(station, float(rings.at(z)[0, 0]) - 1.6 * find_width(text, height))
         strokes = write_text(text, height)
         for side in (+1, -1):

@@ -10,17 +10,17 @@ from .appendages import make_anchors, make_propellers, make_rudders
 from .fittings import SHORTEST, Fitting, make_fittings
 from .hull_lines import UnderwaterLines
 from .hull_rings import read_rings
-from .hull_shell import BOOT_TOP, Shape, WeatherDeck, cut_bare_hull, find_load_line, make_shell
+from .hull_shell import BOOT_TOP, WeatherDeck, cut_bare_hull, find_load_line, make_shell
 from .lettering import letter_hull
 from .lights import Light, place_lights
 from .run_folder import ShipBody
 from .ship_style import choose_style, choose_type
-from .solids import join_surfaces
+from .solids import Shape, join_surfaces
 from .surface import Surface
 
 __all__ = ["PLATED", "Looks", "make_looks"]
 
-PLATED = ("topsides", "boot-top", "antifouling")
+PLATED = ("topsides", "stripe", "boot-top", "antifouling")
 """Paints of the outside of a hull."""
 
 

@@ -43,6 +43,7 @@ _PAINTS = {
         Paint("deck-red", "#653a30", 0.9),
         Paint("deck-grey", "#5c646a", 0.9),
         Paint("bulwark", "#8d8a80", 0.8),
+        Paint("stripe", "#f4f2ec", 0.5),
         Paint("letters", "#f4f2ec", 0.6),
         Paint("bronze", "#b08a3c", 0.35, 0.7),
         Paint("house", "#f1efe9", 0.55),

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from .fittings import Fitting
-from .hull_shell import Shape
 from .palette import LIVERIES, Paint, choose_topsides, find_paint
 from .scene import Obstacle, Ship
-from .solids import join_surfaces
+from .solids import Shape, join_shapes
 from .surface import Surface
 
 __all__ = ["Part", "Shape", "join_fittings", "join_shapes", "list_obstacle_parts", "list_ship_parts"]
@@ -32,11 +31,3 @@ def list_obstacle_parts(obstacle: Obstacle) -> list[Part]:
 def join_fittings(fittings: Iterable[Fitting]) -> list[Shape]:
     """Fittings of the same part joined to one surface."""
     return join_shapes((fitting.part, fitting.surface) for fitting in fittings)
-
-
-def join_shapes(shapes: Iterable[Shape]) -> list[Shape]:
-    """Surfaces of the same paint joined to one."""
-    by_paint: dict[str, list[Surface]] = {}
-    for paint, surface in shapes:
-        by_paint.setdefault(paint, []).append(surface)
-    return [(paint, join_surfaces(surfaces)) for paint, surfaces in by_paint.items()]

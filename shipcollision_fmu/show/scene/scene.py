@@ -27,13 +27,13 @@ from ...fmi.names import ATTITUDE, POSITION, STATE
 from ...ship.frames import Array
 from .effects import Effect, make_effects
 from .fittings import Fitting
-from .hull_shell import Shape
 from .lights import Light
 from .looks import make_looks
 from .resample import choose_samples
 from .run_folder import CollisionEvent, RunFolder, ShipBody, read_run_folder
 from .scratches import Scratch, lay_scratches
 from .signals import Signals, signals_of
+from .solids import Shape
 from .surface import Surface, drop_flat_triangles
 
 __all__ = [

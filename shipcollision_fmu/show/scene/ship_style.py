@@ -15,7 +15,8 @@ __all__ = ["Style", "choose_style", "choose_type"]
 
 
 class Style(NamedTuple):
-    """forecastle, bulwark [m]; sheer over B; where bulwarks reach, over the length from aft; deck: its paint."""
+    """forecastle, bulwark [m]; sheer over B; where bulwarks reach, over the length from aft; deck: its paint;
+    has_stripe: a white band below the deck."""
 
     forecastle: float = 2.6
     forecastle_length: float = 0.075
@@ -27,6 +28,7 @@ class Style(NamedTuple):
     has_bulb: bool = True
     propellers: int = 1
     deck: str = "deck-red"
+    has_stripe: bool = False
     depth_over_draught: float = 1.4
 
 
@@ -37,9 +39,9 @@ _STYLES = {
     "tanker, loaded": Style(0.0, 0.0, 0.03, 0.0, 1.4, 0.93),
     "tanker, in ballast": Style(0.0, 0.0, 0.03, 0.0, 1.4, 0.93),
     "liquefied natural gas tanker": Style(0.0, 0.0, 0.03, 0.0, 1.4, 0.92),
-    "ferry": Style(0.0, 0.0, bulwark_fore=0.80, propellers=2, deck="deck"),
+    "ferry": Style(0.0, 0.0, bulwark_fore=0.80, propellers=2, deck="deck", has_stripe=True),
     "car carrier": Style(0.0, 0.0, bulwark_fore=0.93, deck="deck"),
-    "passenger liner": Style(0.0, 0.0, 0.04, 0.0, bulwark_fore=0.80, propellers=2, deck="deck"),
+    "passenger liner": Style(0.0, 0.0, 0.04, 0.0, bulwark_fore=0.80, propellers=2, deck="deck", has_stripe=True),
     "destroyer": Style(0.0, 0.0, 0.10, 0.0, 0.2, 2.0, has_bulb=False, propellers=2, deck="deck-grey"),
     "tug": _WORKING._replace(propellers=2), "fishing vessel": _WORKING._replace(sheer_fore=0.14),
     "offshore supply vessel": Style(0.0, 0.0, 0.08, 0.0, 1.2, 0.6, propellers=2),

@@ -5,7 +5,7 @@ Frame b: x forward, y starboard, z down. A plan (k, 2) runs from the bow along s
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
@@ -13,9 +13,21 @@ from ...ship.frames import Array
 from ...ship.hull.convex import Indices
 from .surface import Surface
 
-__all__ = ["join_surfaces", "make_box", "make_faces", "make_loft", "make_prism", "make_rod", "mirror_surface"]
+__all__ = [
+    "Shape",
+    "join_shapes",
+    "join_surfaces",
+    "make_box",
+    "make_faces",
+    "make_loft",
+    "make_prism",
+    "make_rod",
+    "mirror_surface",
+]
 
 Span = tuple[float, float]
+Shape = tuple[str, Surface]
+"""A part of a mesh: the name of its paint, and its surface."""
 
 _BOX = np.array([
     (0, 2, 3), (0, 3, 1), (4, 5, 7), (4, 7, 6), (0, 1, 5), (0, 5, 4), (2, 6, 7), (2, 7, 3), (0, 4, 6), (0, 6, 2),
@@ -87,3 +99,11 @@ def join_surfaces(surfaces: Sequence[Surface]) -> Surface:
     offsets = np.cumsum([0, *(len(surface.vertices) for surface in surfaces[:-1])])
     triangles: Indices = np.vstack([s.triangles + offset for s, offset in zip(surfaces, offsets, strict=True)])
     return Surface(np.vstack([surface.vertices for surface in surfaces]), triangles)
+
+
+def join_shapes(shapes: Iterable[Shape]) -> list[Shape]:
+    """Surfaces of the same paint joined to one."""
+    by_paint: dict[str, list[Surface]] = {}
+    for paint, surface in shapes:
+        by_paint.setdefault(paint, []).append(surface)
+    return [(paint, join_surfaces(surfaces)) for paint, surfaces in by_paint.items()]

@@ -204,3 +204,22 @@ def test_obstacles_stand_where_they_are(meeting: MakeRun) -> None:
     quay = read.json["nodes"][read.nodes("obstacle")["quay"]]
     assert np.allclose(np.array(quay["translation"]) + scene.origin, [0.0, 60.0, 0.0])
     assert np.allclose(quay["rotation"], [0.0, 0.0, np.sin(np.pi / 12), np.cos(np.pi / 12)])
+
+
+def test_ships_of_a_model_share_their_plating_and_have_lights(kvlcc2_crossing: Path) -> None:
+    """Nothing that is equal is in the file twice, so that a page of many ships stays small."""
+    read = Glb(build_glb(load_scene(kvlcc2_crossing)))
+    nodes, meshes = read.json["nodes"], read.json["meshes"]
+    views = [read.json["accessors"][i]["bufferView"] for i in range(len(read.json["accessors"]))]
+    assert len(set(views)) == len(views)
+    platings = []
+    for ship_node in read.nodes("ship").values():
+        children = [nodes[child] for child in nodes[ship_node]["children"]]
+        hull = next(child for child in children if child["name"] == "hull")
+        platings.append([p["attributes"]["POSITION"] for p in meshes[hull["mesh"]]["primitives"]])
+        lights = {child["extras"]["light"]: child for child in children if "light" in child.get("extras", {})}
+        assert set(lights) == {"masthead fore", "masthead aft", "starboard", "port", "stern"}
+        assert lights["starboard"]["translation"][1] > 0.0 > lights["port"]["translation"][1]
+        assert [lights[name]["extras"]["arc"] for name in ("masthead aft", "port", "stern")] == [225.0, 112.5, 135.0]
+    own, target = platings
+    assert sum(a == b for a, b in zip(own, target, strict=True)) >= len(own) - 1  # all but the letters

@@ -66,8 +66,8 @@ def test_under_water_it_is_within_the_hull_that_touches(kind: str) -> None:
 @pytest.mark.parametrize("L", [16.0, 120.0])
 def test_the_shell_is_closed_faces_outwards_and_is_symmetric(kind: str, L: float) -> None:
     drawn = draw_ship(kind, L)
-    outside = [(paint, s) for paint, s in drawn.looks.shell if paint not in ("letters", "bronze", "funnel-top")]
-    parts = [s for _, s in outside[:5]]  # topsides, boot-top, antifouling, bulwark, deck
+    names = [paint for paint, _ in drawn.looks.shell]
+    parts = [s for _, s in drawn.looks.shell[: names.index("letters")]]  # plating, bulwark, deck
     solid = to_solid(join_surfaces(parts))
     assert solid.is_watertight
     assert solid.is_winding_consistent
