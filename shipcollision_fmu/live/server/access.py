@@ -12,10 +12,14 @@ from dataclasses import dataclass, field
 from ipaddress import ip_address
 from urllib.parse import urlsplit
 
-__all__ = ["Allowance", "Tokens", "is_own_origin"]
+__all__ = [
+    "AT_ONCE", "PER_SECOND", "REFUSED_AT_ONCE", "REFUSED_PER_SECOND", "Allowance", "Tokens", "is_own_origin",
+]  # fmt: skip
 
 PER_SECOND, AT_ONCE = 60.0, 120.0
 """Messages of a client in a second, and at once. A hand on a wheel sends some 20 a second."""
+REFUSED_PER_SECOND, REFUSED_AT_ONCE = 20.0, 1000.0
+"""Of those beyond, how many are refused in a second, and at once, before the client is dropped."""
 
 
 @dataclass(frozen=True)
@@ -62,11 +66,16 @@ class Allowance:
     """How many messages a client may send now: a bucket that fills with time. `now` is a wall time [s]."""
 
     now: float
-    left: float = AT_ONCE
+    per_second: float
+    at_once: float
+    left: float = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.left = self.at_once
 
     def take(self, now: float) -> bool:
         """Whether one more is allowed."""
-        self.left = min(AT_ONCE, self.left + (now - self.now) * PER_SECOND)
+        self.left = min(self.at_once, self.left + (now - self.now) * self.per_second)
         self.now = now
         if self.left < 1.0:
             return False

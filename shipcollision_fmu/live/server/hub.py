@@ -20,6 +20,7 @@ from ...errors import InputError, ShipCollisionError
 from ..session.commands import Leave
 from ..session.session import Session
 from ..session.snapshot import Snapshot
+from . import access
 from .access import Allowance
 from .messages import BadMessageError, parse_message
 
@@ -33,8 +34,6 @@ PATIENCE = 5.0
 """[s] for which a message may take to be sent. A slower client is dropped."""
 MOST_EVENTS = 200
 """Events that wait for a client."""
-MOST_REFUSED = 1000
-"""Messages of a client beyond its allowance, without one within it, after which the client is dropped."""
 
 
 @dataclass(eq=False)
@@ -44,7 +43,7 @@ class _Client:
     socket: WebSocket
     waiting: deque[dict[str, Any]] = field(default_factory=lambda: deque(maxlen=MOST_EVENTS))
     news: asyncio.Event = field(default_factory=asyncio.Event)
-    sending: asyncio.Lock = field(default_factory=asyncio.Lock)
+    is_over: bool = False  # asked for besides cancelling: wait_for() of CPython 3.11 may swallow that
 
     def put(self, message: dict[str, Any]) -> None:
         self.waiting.append(message)
@@ -83,6 +82,7 @@ class Hub:
             await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
         finally:
             self._clients.discard(client)
+            client.is_over = True
             for task in tasks:
                 task.cancel()
             await asyncio.gather(*tasks, return_exceptions=True)
@@ -98,8 +98,8 @@ class Hub:
         try:
             await self._send(client, json.dumps({"type": "hello", **hello}))
             due = loop.time()
-            while True:
-                while client.waiting:
+            while not client.is_over:
+                while client.waiting and not client.is_over:
                     await self._send(client, json.dumps(client.waiting.popleft()))
                 now = loop.time()
                 if now >= due:
@@ -144,20 +144,24 @@ class Hub:
     async def _receive_all(self, client: _Client) -> None:
         """Answer every message of a client, until it is gone or floods."""
         loop = asyncio.get_running_loop()
-        allowance, refused = Allowance(loop.time()), 0
+        allowance = Allowance(loop.time(), access.PER_SECOND, access.AT_ONCE)
+        beyond = Allowance(loop.time(), access.REFUSED_PER_SECOND, access.REFUSED_AT_ONCE)
+        is_told = False
         try:
-            while refused < MOST_REFUSED:
+            while True:
                 received = await client.socket.receive()
                 if received["type"] == "websocket.disconnect":
                     return
                 if allowance.take(loop.time()):
-                    refused = 0
+                    is_told = False
                     client.put(await self._answer(client, received.get("text")))
                     continue
-                refused += 1
                 self._session.count_refused()
-                if refused == 1:
-                    client.put({"type": "error", "message": "too many messages: send at most 60 a second"})
+                if not beyond.take(loop.time()):
+                    return
+                if not is_told:
+                    is_told = True
+                    client.put({"type": "error", "message": f"too many: send {access.PER_SECOND:g} a second at most"})
         except (WebSocketDisconnect, RuntimeError, OSError):
             return
 

@@ -6,6 +6,7 @@ Ctrl-C ends the run; a second Ctrl-C does not wait for the pages.
 from __future__ import annotations
 
 import asyncio
+import os
 import signal
 import socket
 from collections.abc import Callable
@@ -23,6 +24,8 @@ MOST_MESSAGE = 16_384
 """Bytes in a message of a client. An order has some hundred."""
 MOST_CONNECTIONS = 200
 """Connections at a time, of browsers that fetch and of clients."""
+SEND_BUFFER = 65_536
+"""Bytes that the system keeps for a client: some three seconds of states. More would show a slow client the past."""
 LINGER = 60.0
 """[s] for which pages may still fetch the replay after the end of the run."""
 GOODBYE = 1.0
@@ -36,7 +39,9 @@ def bind(host: str, port: int) -> socket.socket:
         listening = socket.socket(family, socket.SOCK_STREAM)
     except OSError as error:
         raise HostError(f"--host {host}: {error.strerror or error}; give an address of this machine") from None
-    listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    if os.name == "posix":  # elsewhere the option lets two servers share a port
+        listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    listening.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SEND_BUFFER)
     try:
         listening.bind((host, port))
         listening.listen(128)

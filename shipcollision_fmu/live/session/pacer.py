@@ -5,21 +5,23 @@
 T0, W0   simulated and wall time [s] at which the pace was last set: a start, another rate, the end of a pause
 rate     simulated seconds per second
 
-Times are absolute, so no error of a sleep adds up. A machine that lags by more than MOST_LAG starts anew from where it
-is, since it would otherwise run at full speed once it could; `paced` is False for a while then. All times come in from
-outside: the pacer has no clock.
+Times are absolute, so no error of a sleep adds up, and a busy moment of the machine is made up for at full speed. A
+machine that lags by more than MOST_LAG starts anew from where it is: it is too slow for the rate. From a lag of LATE on
+the pace counts as not kept, for a while. All times come in from outside: the pacer has no clock.
 """
 
 from __future__ import annotations
 
 from collections import deque
 
-__all__ = ["FASTEST", "SLOWEST", "Pacer"]
+__all__ = ["FASTEST", "LATE", "MOST_LAG", "SLOWEST", "WINDOW", "Pacer"]
 
 SLOWEST, FASTEST = 0.25, 20.0
 """Limits of the rate. Twenty times is near what one core computes for two ships."""
-MOST_LAG = 0.5
-"""[s] Lag that is made up for. More becomes visible as a jump of speed; less counts a busy moment of the machine."""
+MOST_LAG = 3.0
+"""[s] Lag that is made up for. With less, a machine that is shared loses percents of time; with more, ships jump."""
+LATE = 0.25
+"""[s] Lag that is told. It can be seen."""
 WINDOW = 3.0
 """[s] of wall time over which the rate is measured, and for which a lag is shown."""
 SPACING = 0.1
@@ -46,8 +48,11 @@ class Pacer:
 
     def note(self, now: float, simulated: float) -> None:
         """A step has ended, at wall time `now`, at that simulated time."""
-        if now - self.due(simulated) > MOST_LAG:
-            self._wall, self._simulated, self._lagged = now, simulated, now
+        lag = now - self.due(simulated)
+        if lag > LATE:
+            self._lagged = now
+        if lag > MOST_LAG:
+            self._wall, self._simulated = now, simulated
         if now - self._samples[-1][0] >= SPACING:
             self._samples.append((now, simulated))
         while now - self._samples[0][0] > WINDOW and len(self._samples) > 2:

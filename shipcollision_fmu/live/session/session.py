@@ -113,7 +113,7 @@ class Session:
         self._listeners: list[Callable[[Event], None]] = []
         self._touching: dict[int, bool] = {}
         self._separation = scenario.collision.minimum_separation_time or 10.0
-        self._refused = 0
+        self._refused, self._counting = 0, threading.Lock()
         self._failed: ShipCollisionError | None = None
         self._thread = threading.Thread(target=self._work, name="live session", daemon=True)
         self._published = -PUBLISHED
@@ -184,7 +184,8 @@ class Session:
 
     def count_refused(self) -> None:
         """Count a malformed message of a client."""
-        self._refused += 1
+        with self._counting:
+            self._refused += 1
 
     # -- the thread ---------------------------------------------------------------------------------------------------
 
@@ -209,6 +210,8 @@ class Session:
             if found is None:
                 break
             self._do(*found)
+            if self._reason:  # what still waits is refused
+                return
         if self._clock.now() - self._published >= LONGEST_WAIT:
             self._publish()
 

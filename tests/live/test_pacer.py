@@ -1,0 +1,194 @@
+"""The pace of a live run, and the session's loop on a clock of the test."""
+
+from __future__ import annotations
+
+import queue
+import random
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from shipcollision_fmu import load_scenario
+from shipcollision_fmu.errors import InputError
+from shipcollision_fmu.live.session import session as module
+from shipcollision_fmu.live.session.commands import Back, End, Mark, Order, Pause, Rate, Step, TakeCommand
+from shipcollision_fmu.live.session.pacer import MOST_LAG, WINDOW, Pacer
+from shipcollision_fmu.live.session.session import Session
+from shipcollision_fmu.scenario.scenario import Scenario
+from tests.conftest import Write
+
+H = 0.05
+
+
+def paced(pacer: Pacer, seconds: float, cost: Any, oversleep: Any) -> tuple[float, float, int]:
+    """Wall time, simulated time and steps of a loop that sleeps until each step is due, and oversleeps."""
+    now, k = 0.0, 0
+    while now < seconds:
+        now = max(now, pacer.due((k + 1) * H)) + oversleep()
+        now += cost()
+        k += 1
+        pacer.note(now, k * H)
+    return now, k * H, k
+
+
+@pytest.mark.parametrize("rate", [0.25, 1.0, 20.0])
+def test_sleeps_that_are_too_long_do_not_add_up(rate: float) -> None:
+    """Each sleep is up to 2 ms too long: at rate 20 that is 80 % of a step. A sum of them would be 40 s in ten
+    minutes at rate 1."""
+    rng = random.Random(1)
+    pacer = Pacer(rate, 0.0, 0.0)
+    wall, simulated, _ = paced(pacer, 600.0, lambda: 0.0003, lambda: rng.uniform(0.0, 0.002))
+    assert abs(simulated - rate * wall) <= 1.5 * H + 0.003 * rate
+    assert pacer.is_paced(wall)
+    assert pacer.measure(wall, simulated) == pytest.approx(rate, rel=0.05)
+
+
+def test_a_machine_that_is_too_slow_says_so_and_does_not_catch_up_later() -> None:
+    """Steps cost 8 ms where 2.5 are due: the rate is 6.25 instead of 20. Afterwards steps are free, and the rate is 20
+    again, not more."""
+    pacer = Pacer(20.0, 0.0, 0.0)
+    wall, simulated, k = paced(pacer, 10.0, lambda: 0.008, lambda: 0.0)
+    assert not pacer.is_paced(wall)
+    assert pacer.measure(wall, simulated) == pytest.approx(6.25, rel=0.02)
+    now = wall
+    while now < wall + 10.0:
+        now = max(now, pacer.due((k + 1) * H))
+        k += 1
+        pacer.note(now, k * H)
+    assert pacer.is_paced(now)
+    assert k * H - simulated <= 20.0 * (now - wall + MOST_LAG) + H
+
+
+def test_a_short_lag_is_made_up_for() -> None:
+    """A step that takes 2 s: the lag is told, and the simulated time is where it should be again afterwards."""
+    costs = iter([2.0] + [0.0] * 1000)
+    pacer = Pacer(1.0, 0.0, 0.0)
+    wall, simulated, k = paced(pacer, 2.0, lambda: next(costs), lambda: 0.0)
+    assert (simulated, pacer.is_paced(wall)) == (H, False)
+    while wall < 10.0:
+        wall = max(wall, pacer.due((k + 1) * H))
+        k += 1
+        pacer.note(wall, k * H)
+    assert abs(k * H - wall) <= H
+    assert pacer.is_paced(wall)
+
+
+def test_a_new_rate_counts_from_its_own_moment() -> None:
+    pacer = Pacer(1.0, 100.0, 7.0)
+    assert pacer.due(8.0) == 101.0
+    pacer.restart(103.0, 10.0, 4.0)
+    assert pacer.due(12.0) == 103.5
+    assert WINDOW > 1.0
+
+
+class FakeClock:
+    """A clock that stands still but for waits; `script` are commands by the time at which they come."""
+
+    def __init__(self, script: list[tuple[float, Any]]) -> None:
+        self.time, self.script, self.session = 0.0, sorted(script, key=lambda item: item[0]), None
+        self.answers: list[Any] = []
+
+    def now(self) -> float:
+        return self.time
+
+    def wait(self, waiting: queue.Queue[Any], timeout: float) -> Any:
+        while self.script and self.script[0][0] <= self.time:
+            assert self.session is not None
+            self.answers.append(self.session.submit(self.script.pop(0)[1]))
+        try:
+            return waiting.get_nowait()
+        except queue.Empty:
+            reached = self.script[0][0] if self.script and timeout > 0.0 else self.time + timeout
+            self.time = min(self.time + timeout, reached)
+            return None
+
+
+def played(
+    script: list[tuple[float, Any]], scenario: Scenario | None = None, **options: Any
+) -> tuple[Session, list[dict[str, Any]], FakeClock]:
+    """A session that has played a script on its clock, its events, and the clock."""
+    clock, events = FakeClock(script), list[dict[str, Any]]()
+    session = Session(scenario or load_scenario("kvlcc2_crossing"), clock=clock, **options)
+    clock.session = session
+    session.listen(events.append)
+    session.start()
+    assert session.join(60.0)
+    assert session.error is None
+    return session, events, clock
+
+
+def test_simulated_time_follows_rate_pause_and_single_steps() -> None:
+    script = [(2.0, Rate(4.0)), (3.0, Pause(True)), (5.0, Step()), (5.5, Step()), (6.0, Pause(False)), (8.0, End())]
+    session, _, _ = played(script)
+    expected = 2.0 + 4.0 * 1.0 + 2 * H + 4.0 * 2.0
+    assert session.snapshot.time == pytest.approx(expected, abs=0.3)
+    assert not session.snapshot.running
+
+
+def test_a_duration_ends_the_run() -> None:
+    session, events, _ = played([], duration=12.0)
+    assert session.snapshot.time == pytest.approx(12.0)
+    assert events[-1] == {"kind": "end", "time": 12.0, "folder": None, "message": "the duration is over", "error": None}
+
+
+def test_back_to_a_mark_goes_on_at_the_same_pace() -> None:
+    session, events, _ = played([(2.0, Mark("here")), (5.0, Back("here")), (7.0, End())], rate=2.0)
+    assert session.snapshot.time == pytest.approx(2.0 * 2.0 + 2.0 * 2.0, abs=0.2)
+    assert [event["kind"] for event in events] == ["mark", "back", "end"]
+
+
+def test_a_collision_is_told_once_at_its_beginning_and_once_at_its_end(scenario_file: Write) -> None:
+    apart = "friction = 0.3\nrestitution = 0.5\nminimum_separation_time = 0.5"
+    _, events, _ = played([], scenario=load_scenario(scenario_file(("friction = 0.3", apart))), duration=6.0)
+    told = [(event["kind"], event["id"]) for event in events if event["kind"].startswith("collision")]
+    assert told[0] == ("collision begins", 1)
+    assert len(told) == len(set(told))
+    (begins, ends) = (
+        next(event for event in events if event["kind"] == f"collision {kind}") for kind in ("begins", "ends")
+    )
+    assert begins["time"] - begins["start"] <= H + 1e-9
+    assert ends["energy"] >= begins["energy"] > 0.0
+    assert ends["time"] - begins["time"] >= 0.5
+
+
+@pytest.mark.parametrize(
+    ("command", "message"),
+    [
+        (Rate(30.0), "rate = 30.0 must be from 0.25 to 20: give one such as 1"),
+        (Rate(float("nan")), "rate = nan must be from 0.25 to 20: give one such as 1"),
+        (Step(), "a single step needs a pause: pause first"),
+        (Back("there"), "there is no mark 'there': the marks are start"),
+        (Mark(""), "mark '': give a name of 1 to 60 printable characters"),
+        (Order("a", "own", rudder_deg=1.0), "nobody is in command of own: take command first"),
+        (Order("a", "tug", rudder_deg=1.0), "there is no ship 'tug': the ships are own, target"),
+        (TakeCommand("a", "tug"), "there is no ship 'tug': the ships are own, target"),
+    ],
+)
+def test_what_is_refused_says_why(command: Any, message: str) -> None:
+    _, _, clock = played([(1.0, command), (2.0, End())])
+    with pytest.raises(InputError) as refused:
+        clock.answers[0].result(0.0)
+    assert str(refused.value) == message
+
+
+def test_after_the_end_commands_are_refused_and_those_that_wait_too() -> None:
+    session, _, clock = played([(1.0, End()), (1.0, Mark("late"))])
+    for answer in (clock.answers[1], session.submit(Mark("later"))):
+        with pytest.raises(InputError, match="the run has ended: start another one"):
+            answer.result(0.0)
+
+
+def test_a_fault_of_ours_ends_the_run_with_a_line(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    def fail(self: Any) -> None:
+        raise ZeroDivisionError("oops")
+
+    session = Session(load_scenario("kvlcc2_crossing"), out=tmp_path / "out", clock=FakeClock([]))
+    events: list[dict[str, Any]] = []
+    session.listen(events.append)
+    monkeypatch.setattr(module.LiveRun, "advance", fail)
+    session.start()
+    assert session.join(30.0)
+    assert str(session.error) == "the live session failed: ZeroDivisionError: oops"
+    assert events[-1]["error"] == str(session.error)
+    assert (tmp_path / "out" / "states.csv").is_file()
