@@ -11,7 +11,7 @@ import pytest
 
 from shipcollision_fmu import load_scenario, simulate
 from shipcollision_fmu.errors import InputError
-from shipcollision_fmu.live.session.live_run import LiveRun
+from shipcollision_fmu.live.session.live_run import MOST_MARKS, LiveRun
 from shipcollision_fmu.live.session.run_folder import write_run
 
 FILES = ("states.csv", "contacts.csv", "events.json", "signals.csv", "summary.json", "bodies.json")
@@ -71,3 +71,220 @@ def test_whatever_is_ordered_the_scenario_gives_the_same_run(run: LiveRun, tmp_p
         run.advance()
     assert run.k < 901
     assert_same_again(run, tmp_path)
+
+
+def test_back_at_a_mark_the_run_is_as_if_nothing_had_been(tmp_path: Path) -> None:
+    """Two runs with the same orders; one of them has gone through the collision and come back, twice."""
+    texts = []
+    for detours in (0, 2):
+        with closing(LiveRun(load_scenario("kvlcc2_crossing"), tmp_path)) as run:
+            run.bridges["own"].order(None, 170.0, None, None)
+            advance(run, 20.0)
+            run.bridges["own"].fail("rudder", True)
+            advance(run, 25.0)
+            run.mark("here")
+            for _ in range(detours):
+                run.bridges["own"].fail("blackout", True)
+                run.bridges["target"].order(20.0, None, None, 4)
+                run.change((0.5, 0.5), (12.0, 90.0))
+                advance(run, 32.0)
+                run.mark("later")
+                run.go_back("here")
+                assert list(run.marks) == ["here"]
+            run.bridges["target"].order(-10.0, None, None, None)
+            advance(run, 34.0)
+            write_run(run, tmp_path / str(detours))
+        texts.append([(tmp_path / str(detours) / name).read_bytes() for name in (*FILES, "scenario.toml")])
+    assert texts[0] == texts[1]
+
+
+def test_a_stuck_rudder_stays_where_it_is_on_its_way(run: LiveRun) -> None:
+    bridge = run.bridges["own"]
+    bridge.order(35.0, None, None, None)
+    advance(run, 5.0)
+    angle = bridge.read_machines()[0]
+    assert 0.1 < angle < 0.3
+    bridge.fail("rudder", True)
+    advance(run, 8.0)
+    assert bridge.read_machines()[0] == pytest.approx(angle, abs=1e-12)
+    with pytest.raises(
+        InputError, match=r"own: the rudder is stuck at \d+.\d deg: order revolutions alone, or end the"
+    ):
+        bridge.order(None, 90.0, None, None)
+    bridge.order(None, None, None, -4)  # the engine is not stuck
+    bridge.fail("rudder", False)
+    advance(run, 9.0)
+    assert bridge.read_machines()[0] == pytest.approx(angle, abs=1e-12)  # until the next order
+    bridge.order(0.0, None, None, None)
+    advance(run, 20.0)
+    assert bridge.read_machines()[0] == 0.0
+
+
+TIMED = """
+[scenario]
+name = "timed"
+duration = 30.0
+step = 0.05
+[ships.own]
+ship = "kvlcc2"
+position = [0.0, 0.0]
+heading_deg = 0.0
+speed = 5.0
+orders = [
+  { time = 0.0, rev_per_s = 0.7 },
+  { time = 2.0, rudder_deg = 10.0 },
+  { time = 6.0, rudder_deg = -10.0 },
+  { time = 9.0, heading_deg = 30.0, rev_per_s = 0.5 },
+]
+[ships.target]
+ship = "kvlcc2"
+position = [800.0, 300.0]
+heading_deg = 200.0
+speed = 5.0
+evasion = { of = "own", distance = 900.0, rudder_deg = 35.0 }
+[environment]
+wind = { speed = 5.0, from_deg = 0.0 }
+changes = [{ time = 3.0, current = [0.5, 0.0] }, { time = 8.0, wind = { speed = 9.0, from_deg = 90.0 } }]
+"""
+
+
+@pytest.fixture
+def timed(tmp_path: Path) -> Iterator[LiveRun]:
+    (tmp_path / "timed.toml").write_text(TIMED, encoding="utf-8")
+    with closing(LiveRun(load_scenario(tmp_path / "timed.toml"), tmp_path)) as made:
+        yield made
+
+
+def test_a_blackout_stops_propeller_and_rudder_until_it_ends(timed: LiveRun) -> None:
+    bridge = timed.bridges["own"]
+    bridge.order(20.0, None, 0.8, None)
+    advance(timed, 4.0)
+    bridge.fail("blackout", True)
+    advance(timed, 60.0)
+    rudder, revolutions = bridge.read_machines()
+    assert (revolutions, rudder) == (0.0, pytest.approx(0.16, abs=0.1))
+    with pytest.raises(InputError, match="own has a blackout and takes no orders: end it on the instructor's page"):
+        bridge.order(None, None, None, 4)
+    bridge.fail("blackout", False)
+    bridge.order(None, None, None, 1)
+    advance(timed, 66.0)
+    assert bridge.read_machines()[1] > 0.1
+
+
+def test_a_heading_is_steered_by_the_autopilot(timed: LiveRun) -> None:
+    advance(timed, 1.0)
+    timed.bridges["own"].order(None, 340.0, None, None)
+    advance(timed, 40.0)
+    own = timed.observe_ships()["own"]
+    assert own.nu[5] < -0.001  # to port, from north
+    assert own.heading_order == pytest.approx(5.9341195)
+
+
+def test_without_people_a_live_run_is_the_scenarios(timed: LiveRun, tmp_path: Path) -> None:
+    advance(timed, 30.0)
+    write_run(timed, tmp_path / "live")
+    simulate(load_scenario(tmp_path / "timed.toml"), in_process=True, out=tmp_path / "again")
+    for name in FILES:
+        assert (tmp_path / "live" / name).read_bytes() == (tmp_path / "again" / name).read_bytes(), name
+
+
+def test_a_persons_first_order_ends_the_timed_ones_and_an_evasion(timed: LiveRun, tmp_path: Path) -> None:
+    advance(timed, 4.0)
+    assert timed.observe_ships()["own"].rudder_order == pytest.approx(0.1745329)  # of the scenario
+    assert timed.observe_ships()["target"].rudder_order == pytest.approx(0.6108652)  # it evades
+    timed.bridges["own"].order(None, None, None, 3)
+    timed.bridges["target"].order(-5.0, None, None, None)
+    advance(timed, 12.0)
+    assert timed.observe_ships()["own"].rudder_order == pytest.approx(0.1745329)
+    assert timed.observe_ships()["target"].rudder_order == pytest.approx(-0.0872665)
+    assert_same_again(timed, tmp_path)
+    text = (tmp_path / "live" / "scenario.toml").read_text(encoding="utf-8")
+    assert "until = 4.0" in text
+    assert "heading_deg = 30.0" not in text
+
+
+@pytest.mark.parametrize("at", [1.0, 5.0, 10.0])
+def test_a_persons_wind_ends_the_changes_to_come(timed: LiveRun, tmp_path: Path, at: float) -> None:
+    advance(timed, at)
+    timed.change(None, (20.0, 180.0))
+    advance(timed, 15.0)
+    assert timed.observe_environment().wind.speed == pytest.approx(20.0)
+    assert timed.observe_environment().current == ((0.5, 0.0) if at > 3.0 else (0.0, 0.0))
+    assert_same_again(timed, tmp_path)
+
+
+def test_a_failure_spares_the_timed_revolutions(timed: LiveRun, tmp_path: Path) -> None:
+    advance(timed, 4.0)
+    timed.bridges["own"].fail("rudder", True)
+    advance(timed, 12.0)
+    own = timed.observe_ships()["own"]
+    assert (own.rev_order, own.heading_order) == (0.5, None)
+    assert own.rudder == pytest.approx(timed.bridges["own"].read_machines()[0])
+    assert_same_again(timed, tmp_path)
+
+
+def test_a_run_longer_than_its_scenario(timed: LiveRun, tmp_path: Path) -> None:
+    """The duration of the scenario, 30 s, does not end a live run; its record grows beyond the chunk in memory."""
+    advance(timed, 60.0)
+    timed.mark("here")
+    timed.change(None, (20.0, 180.0))
+    advance(timed, 62.0)
+    timed.go_back("here")
+    advance(timed, 70.0)
+    assert timed.k == 1400
+    assert_same_again(timed, tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("order", "message"),
+    [
+        ((36.0, None, None, None), "own: rudder_deg = 36 deg is beyond what it can: give -35 to 35 deg"),
+        ((None, 361.0, None, None), "own: heading_deg = 361 deg is beyond what it can: give 0 to 360 deg"),
+        ((None, None, 2.0, None), "own: rev_per_s = 2 1/s is beyond what it can: give -1 to 1.6 1/s"),
+        ((None, None, float("nan"), None), "own: rev_per_s = nan is not a finite number: give one from -1 to 1.6 1/s"),
+        (
+            (None, None, None, 5),
+            "own: telegraph = 5 must be a whole number from -4 (full astern) to 4 (full ahead): 0 is stop",
+        ),
+        ((1.0, 1.0, None, None), "own: rudder_deg and heading_deg are both given: keep one of them"),
+        ((None, None, 1.0, 1), "own: rev_per_s and telegraph are both given: keep one of them"),
+        ((None,) * 4, "own: the order is empty: give rudder_deg, heading_deg, rev_per_s or telegraph"),
+    ],
+)
+def test_orders_that_are_refused(run: LiveRun, order: tuple[float | None, ...], message: str) -> None:
+    with pytest.raises(InputError) as refused:
+        run.bridges["own"].order(*order)  # type: ignore[arg-type]  # a telegraph that is none
+    assert str(refused.value) == message
+
+
+@pytest.mark.parametrize(
+    ("current", "wind", "message"),
+    [
+        ((11.0, 0.0), None, "runs faster than the limit of 10 m/s"),
+        (None, (61.0, 0.0), "speed = 61.0 must be less than or equal to 60"),
+        (None, (5.0, 900.0), "from_deg = 900.0 must be"),
+    ],
+)
+def test_current_and_wind_that_are_refused(
+    run: LiveRun, current: tuple[float, float] | None, wind: tuple[float, float] | None, message: str
+) -> None:
+    with pytest.raises(InputError, match=message):
+        run.change(current, wind)
+
+
+def test_ships_that_coast_take_no_orders_and_no_wind() -> None:
+    with closing(LiveRun(load_scenario("guan2014"))) as run:
+        with pytest.raises(InputError, match="own takes no orders, it coasts, follows a track or has no rudder and"):
+            run.bridges["own"].order(1.0, None, None, None)
+        with pytest.raises(
+            InputError, match="current and wind act on no ship here: take a scenario with hydrodynamics"
+        ):
+            run.change((1.0, 0.0), None)
+
+
+def test_marks_are_bounded(run: LiveRun) -> None:
+    for number in range(MOST_MARKS):
+        run.mark(f"{number}")
+    run.mark("3")
+    with pytest.raises(InputError, match="mark 'more': there are 30 marks, which is the limit: take the name of one"):
+        run.mark("more")

@@ -34,6 +34,8 @@ GOODBYE = 1.0
 
 def bind(host: str, port: int) -> socket.socket:
     """A socket that listens at that address. Raises HostError when it is in use or not this machine's."""
+    if not 0 <= port <= 65535:
+        raise HostError(f"--port {port} must be from 0 to 65535: 0 is any that is free")
     try:
         family = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0][0]
         listening = socket.socket(family, socket.SOCK_STREAM)
