@@ -37,6 +37,7 @@ _SOURCE = re.compile(r"(?<![\w/.-])([\w./-]*\w\.(?:py|c|toml|js|mjs))(?:::(\w+))
 _OWN_NAMES = {
     "harbour.toml",
     "my.toml",
+    "scenario.toml",
     "mine.toml",
     "study.toml",
     "my/ship.toml",

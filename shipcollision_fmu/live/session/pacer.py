@@ -6,7 +6,7 @@ T0, W0   simulated and wall time [s] at which the pace was last set: a start, an
 rate     simulated seconds per second
 
 Times are absolute, so no error of a sleep adds up, and a busy moment of the machine is made up for at full speed. A
-machine that lags by more than MOST_LAG starts anew from where it is: it is too slow for the rate. From a lag of LATE on
+machine that lags by more than MOST_LAG starts anew from where it is: it is too slow for the rate. From a lag of TOLD_LAG on
 the pace counts as not kept, for a while. All times come in from outside: the pacer has no clock.
 """
 
@@ -14,13 +14,13 @@ from __future__ import annotations
 
 from collections import deque
 
-__all__ = ["FASTEST", "LATE", "MOST_LAG", "SLOWEST", "WINDOW", "Pacer"]
+__all__ = ["FASTEST", "TOLD_LAG", "MOST_LAG", "SLOWEST", "WINDOW", "Pacer"]
 
 SLOWEST, FASTEST = 0.25, 20.0
 """Limits of the rate. Twenty times is near what one core computes for two ships."""
 MOST_LAG = 3.0
 """[s] Lag that is made up for. With less, a machine that is shared loses percents of time; with more, ships jump."""
-LATE = 0.25
+TOLD_LAG = 0.25
 """[s] Lag that is told. It can be seen."""
 WINDOW = 3.0
 """[s] of wall time over which the rate is measured, and for which a lag is shown."""
@@ -49,7 +49,7 @@ class Pacer:
     def note(self, now: float, simulated: float) -> None:
         """A step has ended, at wall time `now`, at that simulated time."""
         lag = now - self.due(simulated)
-        if lag > LATE:
+        if lag > TOLD_LAG:
             self._lagged = now
         if lag > MOST_LAG:
             self._wall, self._simulated = now, simulated
