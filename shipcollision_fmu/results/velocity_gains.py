@@ -33,9 +33,10 @@ def velocity_gains(
     names = list(ships)
     upright = {name: free_inverse(ship.M, free[name]) for name, ship in ships.items()}
     gains: dict[tuple[int, str], Array] = {}
-    issued_before = np.zeros((len(names), 6))
+    issued_before, times = np.zeros((len(names), 6)), record.contacts["time"]
     for k, issued in record.issued.items():
-        rows = record.contacts[record.contacts["time"] == record.states["time"][k]]
+        time = record.states["time"][k]
+        rows = record.contacts[np.searchsorted(times, time) : np.searchsorted(times, time, side="right")]
         for i, name in enumerate(names):
             if name in prescribed:
                 continue

@@ -6,15 +6,15 @@ T0, W0   simulated and wall time [s] at which the pace was last set: a start, an
 rate     simulated seconds per second
 
 Times are absolute, so no error of a sleep adds up, and a busy moment of the machine is made up for at full speed. A
-machine that lags by more than MOST_LAG starts anew from where it is: it is too slow for the rate. From a lag of TOLD_LAG on
-the pace counts as not kept, for a while. All times come in from outside: the pacer has no clock.
+machine that lags by more than MOST_LAG starts anew from where it is: it is too slow for the rate. From TOLD_LAG on the
+pace counts as not kept, for a while. All times come in from outside: the pacer has no clock.
 """
 
 from __future__ import annotations
 
 from collections import deque
 
-__all__ = ["FASTEST", "TOLD_LAG", "MOST_LAG", "SLOWEST", "WINDOW", "Pacer"]
+__all__ = ["FASTEST", "MOST_LAG", "SLOWEST", "TOLD_LAG", "WINDOW", "Pacer"]
 
 SLOWEST, FASTEST = 0.25, 20.0
 """Limits of the rate. Twenty times is near what one core computes for two ships."""
