@@ -118,6 +118,26 @@ def test_keys_steer_the_ship_and_instruments_follow(bridge: BridgePage) -> None:
     assert bridge.complaints() == []
 
 
+def test_screen_readers_are_told_of_news_and_not_of_every_number(bridge: BridgePage) -> None:
+    """While the numbers run on, no live region changes, but where an alarm begins."""
+    regions = """return [...document.querySelectorAll('output, [aria-live], [role=alert], [role=status]')]
+        .map((one) => one.textContent)"""
+    before = bridge.run(regions)
+    at = bridge.run("return document.getElementById('time-now').textContent")
+    bridge.wait(f"return live.state.time > {bridge.state('.time')} + 4")
+    bridge.wait(f"return document.getElementById('time-now').textContent !== '{at}'")
+    assert bridge.run(regions) == before
+    bridge.run("document.getElementById('tcpa-limit').value = 60; document.getElementById('cpa-limit').value = 10;")
+    bridge.run(
+        "for (const id of ['tcpa-limit', 'cpa-limit']) document.getElementById(id).dispatchEvent(new Event('input'))"
+    )
+    bridge.wait("return document.querySelector('[role=alert]').textContent.includes('target: CPA')")
+    bridge.run("document.getElementById('cpa-limit').value = 0")
+    bridge.run("document.getElementById('cpa-limit').dispatchEvent(new Event('input'))")
+    press(bridge, Keys.ENTER)
+    bridge.wait("return !document.querySelector('[data-alarm=\"cpa target\"]')")
+
+
 @pytest.mark.slow
 def test_wheel_telegraph_and_course_answer_to_the_mouse(bridge: BridgePage) -> None:
     driver = bridge.driver
@@ -325,10 +345,11 @@ def test_a_ship_is_steered_into_another_by_keys_and_the_run_is_that_of_the_order
     as they were given, to the bit, and the debriefing shows it."""
     scenario, out = write_apart(tmp_path, 780.0, 90.0, 0.5), tmp_path / "run"
     assert simulate(load_scenario(scenario), in_process=True, out=tmp_path / "alone").events["collisions"] == []
-    with serve_live(browser, scenario, out, rate=10.0) as served:
+    with serve_live(browser, scenario, out, rate=10.0, paused=True) as served:
         page = BridgePage(browser, served.address())
         page.wait("return live.state.command.own === live.client")
-        press(page, Keys.ARROW_UP * 2 + Keys.END)
+        page.wait("return document.getElementById('step').offsetWidth > 0")  # it is seen to be paused
+        press(page, Keys.ARROW_UP * 2 + Keys.END + "p")
         page.wait("return live.contacts.length > 0")
         press(page, Keys.ENTER + Keys.BACKSPACE + "m")
         at = page.state(".time")

@@ -4,9 +4,11 @@ import { inWords } from "../texts.js";
 
 export function makeAlarmBar({ alarms, sound }, acknowledge) {
   const silent = inWords(element("small", { class: "silent", hidden: true }), { text: "sound_waits" });
-  const list = element("ul", { id: "alarms", role: "alert", "aria-live": "assertive" });
+  const list = element("ul", { id: "alarms" });
+  const spoken = element("div", { class: "sr-only", role: "alert" }); // what begins; numbers in the list run on
   const button = inWords(element("button", { type: "button", id: "acknowledge", onclick: acknowledge }), { text: "acknowledge" });
   const node = inWords(element("section", { class: "alarm-bar", hidden: true }, list, silent, button), { "aria-label": "alarms" });
+  document.body.append(spoken); // not in the bar, which is hidden at times
   const shown = new Map();
   return {
     node,
@@ -22,6 +24,7 @@ export function makeAlarmBar({ alarms, sound }, acknowledge) {
         if (!shown.has(key)) {
           shown.set(key, item);
           list.append(item);
+          spoken.textContent = words();
         }
         const text = words();
         if (item.textContent !== text) item.textContent = text;

@@ -16,7 +16,7 @@ export function compassText(degrees) {
 
 export function makeInstruments() {
   const tiles = Object.fromEntries(TILES.map((key) => {
-    const value = element("output", { id: `show-${key}` });
+    const value = element("span", { class: "value", id: `show-${key}` }); // no <output>: it would be read out again and again
     const small = element("small", {});
     const unit = element("span", { class: "unit" });
     if (UNITS[key] === "°") unit.textContent = "°";

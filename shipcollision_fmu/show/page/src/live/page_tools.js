@@ -44,7 +44,7 @@ export function makeSwitches(openHelp, ...more) {
 
 /** Simulated time, rate, pause and step. `ask(type, fields)` asks the server; `isPaused()` is the latest that is known. */
 export function makeTimeTools(ask, isPaused) {
-  const clock = element("output", { id: "time-now" });
+  const clock = element("span", { class: "value", id: "time-now" });
   const real = element("small", {});
   const rate = inWords(element("select", { id: "rate", onchange: () => ask("rate", { rate: Number(rate.value) }) },
     ...RATES.map((value) => element("option", { value, text: `${value < 1 ? `1/${1 / value}` : value}\u00d7` }))), { "aria-label": "rate" });
