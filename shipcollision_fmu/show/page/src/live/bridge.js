@@ -50,7 +50,7 @@ export async function startBridge() {
     element("div", { class: "stage-top" }, alarmBar.node, messages.node, over),
     element("div", { class: "stage-tools" }, camera, sky, binoculars, swap));
   const chartPlace = element("div", { class: "chart-place" });
-  const isNarrow = matchMedia("(max-width: 900px)");
+  const isNarrow = matchMedia("(max-width: 1200px)");
   document.body.append(stage,
     element("aside", { class: "side" },
       element("header", { class: "command-bar" }, element("div", {}, title, said), command),
