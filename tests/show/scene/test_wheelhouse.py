@@ -10,12 +10,12 @@ import pytest
 from shipcollision_fmu.ship.ship_type import SHIP_TYPES
 from shipcollision_fmu.show.scene.wheelhouse import find_wheelhouse
 
-from .test_fittings import fit_out
+from .drawn_ships import draw_ship
 
 
 def ship_of(kind: str, L: float) -> Any:
-    hull, fittings = fit_out(kind, L)
-    return SimpleNamespace(hull=hull, fittings=fittings, B=L / 6.0)
+    drawn = draw_ship(kind, L)
+    return SimpleNamespace(hull=drawn.hull, fittings=drawn.looks.fittings, B=L / 6.0)
 
 
 @pytest.mark.parametrize("kind", SHIP_TYPES)
