@@ -19,12 +19,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..collision.geometry.clipping import convex_polygon
 from ..files import IN_PLACE, write_file
 from ..ship.frames import Array, rotation_from_quaternion
 from .extras import require
 from .scene.palette import choose_topsides
-from .scene.scene import Obstacle, Scene, Ship
+from .scene.plan import find_convex_hull, find_plan
+from .scene.scene import Scene, Ship
 from .scene.signals import Signal
 
 if TYPE_CHECKING:
@@ -116,7 +116,7 @@ def _draw_track(figure: Figure, scene: Scene) -> None:
 
     axes = figure.add_subplot()
     for obstacle in scene.obstacles:
-        axes.fill(*_find_plan(obstacle)[:, ::-1].T, facecolor="#c9c5bc", edgecolor=GREY, linewidth=0.6)
+        axes.fill(*find_plan(obstacle)[:, ::-1].T, facecolor="#c9c5bc", edgecolor=GREY, linewidth=0.6)
     first = min((event.time for event in scene.events), default=None)
     times = np.linspace(scene.start, scene.end, OUTLINES)
     for ship in scene.ships:
@@ -159,17 +159,7 @@ def _measure_height(axes: Axes) -> float:
 def _find_outline(ship: Ship, time: float) -> Array:
     """Outline of a ship in plan, (k, 2) north and east [m]: the convex hull of its vertices."""
     position, quaternion = ship.track.at(time)
-    return _find_convex_hull((position + ship.hull.vertices @ rotation_from_quaternion(quaternion).T)[:, :2])
-
-
-def _find_plan(obstacle: Obstacle) -> Array:
-    c, s = np.cos(obstacle.heading), np.sin(obstacle.heading)
-    turned = obstacle.surface.vertices[:, :2] @ np.array([[c, s], [-s, c]])
-    return _find_convex_hull(obstacle.position[:2] + turned)
-
-
-def _find_convex_hull(points: Array) -> Array:
-    return np.array(convex_polygon(map(tuple, points.tolist())))
+    return find_convex_hull((position + ship.hull.vertices @ rotation_from_quaternion(quaternion).T)[:, :2])
 
 
 # -- over time ----------------------------------------------------------------------------------------

@@ -19,8 +19,10 @@ import numpy as np
 from ... import __version__
 from ...errors import HostError
 from ...files import IN_PLACE, write_file
+from ...ship.frames import Array
 from ..gltf.gltf import build_glb, collect_extras
 from ..scene.palette import choose_topsides
+from ..scene.plan import find_convex_hull, find_plan
 from ..scene.scene import Scene, Ship, load_scene
 from ..scene.signals import Signals
 from ..scene.wheelhouse import find_wheelhouse
@@ -87,6 +89,8 @@ def _collect_data(scene: Scene) -> dict[str, Any]:
         "version": __version__,
         "is_native": scene.is_native,
         "ships": [describe_ship(i, ship) for i, ship in enumerate(scene.ships)],
+        "outlines": {ship.name: _round(find_convex_hull(ship.hull.vertices[:, :2])) for ship in scene.ships},
+        "obstacles": [_round(find_plan(obstacle) - scene.origin[:2]) for obstacle in scene.obstacles],
         "scratches": [
             {"id": s.id, "ship": s.ship, "other": s.other, "times": s.times.tolist()} for s in scene.scratches
         ],
@@ -106,6 +110,12 @@ def describe_ship(index: int, ship: Ship) -> dict[str, Any]:
         "height": -float(ship.hull.vertices[:, 2].min()),
         "bridge": find_wheelhouse(ship),
     }
+
+
+def _round(points: Array) -> list[list[float]]:
+    """Points in centimetres, which is less than a track plot shows."""
+    rounded: list[list[float]] = np.round(points, 2).tolist()
+    return rounded
 
 
 def _encode_signals(signals: Signals) -> dict[str, Any]:

@@ -15,13 +15,25 @@ MADE = {"telegraph", "alarm", "camera", "fail", "log", "key", "sky"}
 
 @pytest.fixture(scope="module")
 def texts() -> dict[str, list[str]]:
+    """What the live pages say, and what all pages say."""
     found: dict[str, list[str]] = run_javascript("texts.js", "TEXTS", "return TEXTS;")
     return found
 
 
-def test_every_text_is_there_in_four_languages_with_the_same_places(texts: dict[str, list[str]]) -> None:
+@pytest.fixture(scope="module")
+def replay() -> dict[str, list[str]]:
+    """What the replay page alone says."""
+    found: dict[str, list[str]] = run_javascript("texts_replay.js", "REPLAY", "return REPLAY;")
+    return found
+
+
+def test_every_text_is_there_in_four_languages_with_the_same_places(
+    texts: dict[str, list[str]], replay: dict[str, list[str]]
+) -> None:
     assert len(texts) > 100
-    for key, languages in texts.items():
+    assert len(replay) > 40
+    assert set(texts) & set(replay) == set()
+    for key, languages in [*texts.items(), *replay.items()]:
         assert len(languages) == 4, key
         assert all(languages), key
         assert len({tuple(sorted(re.findall(r"\{(\w+)\}", text))) for text in languages}) == 1, key
@@ -35,6 +47,17 @@ def test_texts_and_sources_name_each_other(texts: dict[str, list[str]]) -> None:
     asked = set(re.findall(r'(?:say|textButton|labelled)\("(\w+)"', source))
     asked |= set(re.findall(r'(?:text|title|placeholder|"aria-label"): "(\w+)"', source))
     assert asked - set(texts) == set()
+
+
+def test_the_replay_page_and_its_texts_name_each_other(
+    texts: dict[str, list[str]], replay: dict[str, list[str]]
+) -> None:
+    source = "\n".join(path.read_text(encoding="utf-8") for path in SOURCES.glob("*.js") if "texts" not in path.name)
+    quoted = set(re.findall(r'"([a-z_0-9]+)"', source))
+    assert set(replay) - quoted == set()
+    asked = set(re.findall(r'(?:say|button|section)\("(\w+)"', source))
+    asked |= set(re.findall(r'(?:text|title|"aria-label"): "(\w{2,})"', source))
+    assert asked - set(texts) - set(replay) == set()
 
 
 @pytest.mark.parametrize(("language", "said"), [("en", "Stop"), ("de", "Stopp"), ("nb", "Stopp"), ("zh", "停车")])

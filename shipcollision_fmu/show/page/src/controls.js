@@ -2,6 +2,8 @@
 import { SKIES } from "./daylight.js";
 import { element, icon } from "./dom.js";
 import { clockTime } from "./format.js";
+import "./texts_replay.js";
+import { inWords, onLanguage, say } from "./texts.js";
 import { toggleTheme } from "./theme.js";
 
 const PLAY = "M6 3.5v13l11-6.5z";
@@ -21,15 +23,30 @@ function startSpeed(duration) {
   return SPEEDS.find((speed) => speed >= 1 && duration / speed <= PLAYBACK) ?? SPEEDS.at(-1);
 }
 
-function button(label, key, path, onclick, more = {}) {
-  const hint = key ? `${label} (${key})` : label;
-  return element("button", { type: "button", class: "icon", title: hint, "aria-label": label, onclick, ...more }, icon(path));
+/** A button with an icon; its name follows the language, and its hint has the key as well. */
+function button(words, key, path, onclick, more = {}) {
+  const made = element("button", { type: "button", class: "icon", onclick, ...more }, icon(path));
+  onLanguage(() => name(made, words, key));
+  return made;
+}
+
+function name(made, words, key) {
+  made.setAttribute("aria-label", say(words));
+  made.title = key ? `${say(words)} (${key === "space" ? say("key_space") : key})` : say(words);
+}
+
+const CAMERAS = { all: "camera_all", impact: "camera_impact", free: "camera_free" };
+
+/** The name of a camera in the present language; that of a newer one as it comes. */
+function nameCamera(data, value, text) {
+  if (value.startsWith("ship-")) return say("follow_ship", { ship: data.ships[Number(value.slice(5))].name });
+  return value in CAMERAS ? say(CAMERAS[value]) : text;
 }
 
 export function makeControls(data, clock, viewer, digits, actions) {
-  const play = button("Play", "space", PLAY, () => clock.toggle(), { id: "play" });
+  const play = button("play", "space", PLAY, () => clock.toggle(), { id: "play" });
   const slider = element("input", {
-    type: "range", id: "time", min: clock.start, max: clock.end, step: "any", "aria-label": "Time",
+    type: "range", id: "time", min: clock.start, max: clock.end, step: "any",
     oninput: () => clock.seek(Number(slider.value)),
   });
   const share = (time) => (time - clock.start) / (clock.end - clock.start);
@@ -44,13 +61,19 @@ export function makeControls(data, clock, viewer, digits, actions) {
   );
   const shown = element("output", { id: "now" });
   const total = element("span", { class: "total", text: `/ ${clockTime(clock.end, digits)}` });
-  const speed = element("select", { "aria-label": "Speed", title: "Speed", onchange: () => clock.setSpeed(Number(speed.value)) },
-    ...SPEEDS.map((value) => element("option", { value, text: `${value}\u00d7` })));
-  const camera = element("select", { id: "camera", "aria-label": "Camera", title: "Camera (C)", onchange: () => viewer.chooseCamera(camera.value) },
-    ...viewer.cameras.choices.map(([value, text]) => element("option", { value, text })));
-  const sky = element("select", { id: "sky", "aria-label": "Time of day", title: "Time of day (D)", onchange: () => viewer.setSky(sky.value) },
-    ...SKIES.map(([value, text]) => element("option", { value, text })));
-  const plain = button("Plain sea, for weak computers", "S", WAVES, () => setPlain(plain.getAttribute("aria-pressed") !== "true"), { id: "plain", "aria-pressed": "false" });
+  const speed = inWords(element("select", { onchange: () => clock.setSpeed(Number(speed.value)) },
+    ...SPEEDS.map((value) => element("option", { value, text: `${value}\u00d7` }))), { "aria-label": "speed_of_play", title: "speed_of_play" });
+  const camera = element("select", { id: "camera", onchange: () => viewer.chooseCamera(camera.value) },
+    ...viewer.cameras.choices.map(([value, text]) => {
+      const option = element("option", { value });
+      onLanguage(() => (option.textContent = nameCamera(data, value, text)));
+      return option;
+    }));
+  onLanguage(() => name(camera, "camera", "C"));
+  const sky = element("select", { id: "sky", onchange: () => viewer.setSky(sky.value) },
+    ...SKIES.map(([value]) => inWords(element("option", { value }), { text: `sky_${value}` })));
+  onLanguage(() => name(sky, "sky", "D"));
+  const plain = button("plain_sea", "S", WAVES, () => setPlain(plain.getAttribute("aria-pressed") !== "true"), { id: "plain", "aria-pressed": "false" });
 
   function setPlain(isPlain) {
     plain.setAttribute("aria-pressed", String(isPlain));
@@ -58,15 +81,18 @@ export function makeControls(data, clock, viewer, digits, actions) {
     viewer.setPlain(isPlain);
   }
 
+  let isPlaying = null;
+  onLanguage(() => (name(play, isPlaying ? "pause" : "play", "space"), slider.setAttribute("aria-label", say("time"))));
   clock.setSpeed(startSpeed(clock.end - clock.start));
   clock.watch(({ time, playing, speed: current }) => {
     slider.value = time;
     slider.style.setProperty("--share", `${100 * share(time)}%`);
     shown.textContent = clockTime(time, digits);
     speed.value = String(current);
-    const label = playing ? "Pause" : "Play";
-    if (play.getAttribute("aria-label") !== label) {
-      play.setAttribute("aria-label", label);
+    slider.setAttribute("aria-valuetext", clockTime(time, digits));
+    if (isPlaying !== playing) {
+      isPlaying = playing;
+      name(play, playing ? "pause" : "play", "space");
       play.replaceChildren(icon(playing ? PAUSE : PLAY));
     }
   });
@@ -75,12 +101,12 @@ export function makeControls(data, clock, viewer, digits, actions) {
     "div",
     { class: "bar" },
     element("div", { class: "transport" },
-      button("Previous collision", "P", BACK, actions.previous), play, button("Next collision", "N", FORWARD, actions.next)),
+      button("previous_collision", "P", BACK, actions.previous), play, button("next_collision", "N", FORWARD, actions.next)),
     element("div", { class: "timeline" }, slider, marks),
     element("div", { class: "clock" }, shown, total),
     element("div", { class: "choices" }, speed, camera, sky, plain,
-      button("Light or dark", "T", MOON, toggleTheme, { id: "theme" }),
-      button("Curves and collisions", "V", PANEL, actions.panel), button("Keys", "?", HELP, actions.help)),
+      button("theme", "T", MOON, toggleTheme, { id: "theme" }),
+      button("panel", "V", PANEL, actions.panel), button("help", "?", HELP, actions.help)),
   );
   return {
     node,

@@ -1,26 +1,28 @@
 // The keyboard, and the card that lists it.
 import { element } from "./dom.js";
+import "./texts_replay.js";
+import { inWords } from "./texts.js";
 
 const KEYS = [
-  ["Space", "play, pause"],
-  ["\u2190 \u2192", "one second back, on; with Shift a tenth"],
-  ["Home End", "start, end"],
-  ["N P", "next, previous collision"],
-  ["C", "next camera"],
-  ["S", "plain sea"],
-  ["T", "light, dark"],
-  ["V", "curves and collisions"],
-  ["?", "this card"],
+  ["Space", "key_play"],
+  ["\u2190 \u2192", "key_seconds"],
+  ["Home End", "key_ends"],
+  ["N P", "key_collisions"],
+  ["C", "key_next_camera"],
+  ["S", "key_plain"],
+  ["T", "key_theme"],
+  ["V", "key_panel"],
+  ["?", "key_help"],
 ];
 
 export function makeHelp() {
   const rows = KEYS.flatMap(([keys, what]) => [
     element("dt", {}, ...keys.split(" ").map((key) => element("kbd", { text: key }))),
-    element("dd", { text: what }),
+    inWords(element("dd"), { text: what }),
   ]);
-  const close = element("button", { type: "button", text: "Close", onclick: () => card.close() });
-  const card = element("dialog", { class: "card" }, element("h2", { text: "Keys" }), element("dl", {}, ...rows),
-    element("p", { text: "Drag to turn the camera, wheel to zoom, right button to move. Click a curve to go to its time; drag across it to zoom, double-click to see all again." }), close);
+  const close = inWords(element("button", { type: "button", onclick: () => card.close() }), { text: "close" });
+  const card = inWords(element("dialog", { class: "card" }, inWords(element("h2"), { text: "help" }), element("dl", {}, ...rows),
+    inWords(element("p"), { text: "mouse_and_curves" }), close), { "aria-label": "help" });
   return card;
 }
 

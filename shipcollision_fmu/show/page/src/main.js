@@ -8,7 +8,11 @@ import { makeEvents } from "./events.js";
 import { clockTime } from "./format.js";
 import { SKIES } from "./daylight.js";
 import { listenToKeys, makeHelp } from "./keys.js";
+import { makeLanguageSwitch } from "./language_switch.js";
 import { makePlots } from "./plots.js";
+import "./texts_replay.js";
+import { inWords, language, LANGUAGES, say, setLanguage } from "./texts.js";
+import { makeTrackPlot } from "./track_plot.js";
 import { lineColour, onTheme, startTheme, toggleTheme } from "./theme.js";
 import { drawsInSoftware, makeViewer } from "./viewer.js";
 
@@ -28,9 +32,9 @@ function makeTitle(data) {
     const size = `${ship.model}, ${ship.kind}, ${Math.round(ship.L_oa)} m`;
     return element("li", {}, dot, element("b", { text: ship.name }), element("span", { text: size }));
   });
-  return element("header", { class: "title" }, element("h1", { text: data.name }),
+  return element("header", { class: "title" }, makeLanguageSwitch(), element("h1", { text: data.name }),
     element("p", { text: data.description }),
-    ...(data.is_native ? [element("p", { text: "Native run: its FMUs ran without Python." })] : []),
+    ...(data.is_native ? [inWords(element("p"), { text: "native_run" })] : []),
     element("ul", {}, ...ships));
 }
 
@@ -38,9 +42,11 @@ async function start() {
   const data = readData();
   const hash = asked();
   startTheme(hash.get("theme") ?? undefined);
+  if (hash.get("lang") in LANGUAGES) setLanguage(hash.get("lang"), false);
+  else document.documentElement.lang = language();
   const digits = data.end - data.start < 600 ? 2 : 1;
   const clock = new Clock(data.start, data.end);
-  const canvas = element("canvas", { id: "picture", tabindex: "0", "aria-label": "The ships, at the time of the slider" });
+  const canvas = inWords(element("canvas", { id: "picture", tabindex: "0", role: "img" }), { "aria-label": "replay_picture" });
   const stage = element("main", { class: "stage" }, canvas, makeTitle(data));
   document.body.append(stage);
   document.body.classList.toggle("bare", hash.has("bare"));
@@ -60,10 +66,17 @@ async function start() {
   };
   const controls = makeControls(data, clock, viewer, digits, actions);
   const jump = (event) => (go(event.time), controls.chooseCamera("impact"));
-  const panel = element("aside", { class: "panel" },
-    element("section", {}, element("h2", { text: "Collisions" }), element("div", { class: "events" }, makeEvents(data, clock, digits, jump))),
-    element("section", {}, element("h2", { text: "Curves" }), makePlots(data, clock)),
-    element("footer", { text: `shipcollision-fmu ${data.version}` }));
+  const section = (words, ...inside) => inWords(element("section", {}, inWords(element("h2"), { text: words }), ...inside), { "aria-label": words });
+  const tracks = {
+    ships: viewer.ships.map(({ info, track }) => ({ name: info.name, colour: info.colour, length: info.L_oa, track, outline: data.outlines[info.name] })),
+    events: data.events.map(({ time, point }) => ({ time, point: point.map((x, i) => x - data.origin[i]) })),
+    obstacles: data.obstacles, start: data.start, end: data.end,
+  };
+  const panel = inWords(element("aside", { class: "panel" },
+    section("collisions", element("div", { class: "events" }, makeEvents(data, clock, digits, jump))),
+    section("track_plot", makeTrackPlot(tracks, clock)),
+    section("curves", makePlots(data, clock)),
+    element("footer", { text: `shipcollision-fmu ${data.version}` })), { "aria-label": "panel" });
   stage.append(controls.node);
   document.body.append(panel, help);
   listenToKeys(clock, actions);
@@ -98,6 +111,7 @@ async function start() {
     play: () => clock.play(),
     pause: () => clock.pause(),
     camera: (mode) => controls.chooseCamera(mode),
+    language: setLanguage,
     plain: (isPlain) => controls.setPlain(isPlain),
     sky: (name) => controls.chooseSky(name),
     /** Draws now and says what is in the picture. */
@@ -117,7 +131,7 @@ async function start() {
 start().catch((error) => {
   const message = document.createElement("p");
   message.className = "failure";
-  message.textContent = `The picture cannot be shown: ${error.message.replace(/\.$/, "")}. It needs WebGL 2, which this browser does not offer or has switched off.`;
+  message.textContent = say("no_webgl", { message: error.message.replace(/\.$/, "") });
   document.body.append(message);
   document.body.dataset.ready = "failed";
   throw error;

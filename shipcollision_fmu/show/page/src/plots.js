@@ -2,8 +2,12 @@
 // zooms all of them, a double click shows the whole again.
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
+import { axisRange, isMoving } from "./axis_range.js";
 import { element } from "./dom.js";
 import { compass, degrees, number } from "./format.js";
+import { KNOT } from "./live/navigation.js";
+import "./texts_replay.js";
+import { inWords, onLanguage, say } from "./texts.js";
 import { isDark, lineColour, onTheme } from "./theme.js";
 
 const HEIGHT = 108;
@@ -13,15 +17,16 @@ const mark = (value) => String(Number(value.toPrecision(6))).replace("-", "\u221
 
 // Title, unit, what of the scene it shows, factor or function to that unit, digits, least range of the axis, and how a
 // value is shown where that is not the value itself: a curve of the heading goes on beyond 360, its numbers do not.
+// All axes but that of the heading have their zero. Speeds have a second axis, in knots.
 const PLOTS = [
-  { title: "Speed", unit: "m/s", quantities: ["speed"], to: same, digits: 2, range: 0.2 },
-  { title: "Surge", unit: "m/s", quantities: ["surge"], to: same, digits: 2, range: 0.2 },
-  { title: "Yaw rate", unit: "°/s", quantities: ["yaw_rate"], to: degrees, digits: 3, range: 0.02 },
-  { title: "Roll", unit: "°", quantities: ["roll"], to: degrees, digits: 2, range: 0.2 },
-  { title: "Heading", unit: "°", quantities: ["heading"], to: degrees, digits: 1, range: 1, shown: compass },
-  { title: "Energy", unit: "MJ", quantities: ["kinetic", "dissipated"], to: (x) => x / 1e6, digits: 1, range: 0.01 },
-  { title: "Impulse", unit: "MN s", quantities: ["normal", "tangential"], to: (x) => x / 1e6, digits: 2, range: 0.001 },
-  { title: "Clearance", unit: "m", quantities: ["clearance"], to: same, digits: 2, range: 0.5 },
+  { title: "speed", unit: "m/s", quantities: ["speed"], to: same, digits: 2, range: 0.2, hasZero: true, hasKnots: true },
+  { title: "surge", unit: "m/s", quantities: ["surge"], to: same, digits: 2, range: 0.2, hasZero: true, hasKnots: true },
+  { title: "yaw_rate", unit: "°/s", quantities: ["yaw_rate"], to: degrees, digits: 3, range: 0.02, hasZero: true },
+  { title: "roll", unit: "°", quantities: ["roll"], to: degrees, digits: 2, range: 0.2, hasZero: true },
+  { title: "heading", unit: "°", quantities: ["heading"], to: degrees, digits: 1, range: 1, hasZero: false, shown: compass },
+  { title: "energy", unit: "MJ", quantities: ["kinetic", "dissipated"], to: (x) => x / 1e6, digits: 1, range: 0.01, hasZero: true },
+  { title: "impulse", unit: "MN s", quantities: ["normal", "tangential"], to: (x) => x / 1e6, digits: 2, range: 0.001, hasZero: true },
+  { title: "clearance", unit: "m", quantities: ["clearance"], to: same, digits: 2, range: 0.5, hasZero: true },
 ];
 const COMMON = { dissipated: "#e07b00", normal: "#c65d07", tangential: "#8a7a00", clearance: "#3d7f6a" };
 const DASHES = { kinetic: undefined, tangential: [5, 3] };
@@ -39,26 +44,34 @@ function valueAt(times, values, time) {
   return values[low] + share * (values[high] - values[low]);
 }
 
-function makePlot(plot, data, clock, colourOf, cursor) {
-  const { times } = data.signals;
-  const curves = plot.quantities.flatMap((quantity) => data.signals.curves.filter((curve) => curve.quantity === quantity));
-  const lines = curves.map((curve) => ({
-    label: curve.ship ?? curve.quantity,
+/** The lines of a plot: name, values in its unit, colour, dash. */
+function linesOf(plot, data) {
+  const colourOf = (name) => data.ships.find((ship) => ship.name === name).colour;
+  return plot.quantities.flatMap((quantity) => data.signals.curves.filter((curve) => curve.quantity === quantity)).map((curve) => ({
+    ship: curve.ship,
+    quantity: curve.quantity,
     values: Float64Array.from(curve.values, plot.to),
     colour: () => lineColour(curve.ship === null ? COMMON[curve.quantity] : colourOf(curve.ship)),
     dash: DASHES[curve.quantity],
   }));
+}
+
+const labelOf = ({ ship, quantity }) => (ship === null ? inWords(element("span"), { text: quantity }) : element("span", { text: ship }));
+
+function makePlot(plot, lines, times, clock, cursor) {
   const chips = lines.map((line) => {
     const value = element("b");
+    const knots = element("small", { class: "knots" });
     const dot = element("i");
-    return { line, value, dot, node: element("span", { class: "chip" }, dot, element("span", { text: line.label }), value) };
+    return { line, value, knots, dot, node: element("span", { class: "chip" }, dot, labelOf(line), value, ...(plot.hasKnots ? [knots] : [])) };
   });
   const now = element("div", { class: "now" });
-  const place = element("div", { class: "curves" });
+  const place = element("div", { class: "curves", role: "img" });
+  onLanguage(() => place.setAttribute("aria-label", say("curve_of", { title: say(plot.title), unit: plot.unit })));
   const node = element(
     "figure",
-    { class: "plot" },
-    element("figcaption", {}, element("h3", { text: plot.title }), element("span", { class: "unit", text: plot.unit }), ...chips.map((chip) => chip.node)),
+    { class: "plot", "data-plot": plot.title },
+    element("figcaption", {}, inWords(element("h3"), { text: plot.title }), element("span", { class: "unit", text: plot.unit }), ...chips.map((chip) => chip.node)),
     place,
   );
 
@@ -77,16 +90,14 @@ function makePlot(plot, data, clock, colourOf, cursor) {
       scales: {
         x: { time: false },
         y: {
-          range: (_, low, high) => {
-            const middle = (low + high) / 2;
-            const half = Math.max((high - low) * 0.58, plot.range / 2);
-            return [middle - half, middle + half];
-          },
+          range: (_, low, high) => axisRange(low, high, plot.range, plot.hasZero),
         },
+        ...(plot.hasKnots ? { knots: { from: "y", range: (_, low, high) => [low / KNOT, high / KNOT] } } : {}),
       },
       axes: [
         { ...axis, size: 20, gap: 2 },
         { ...axis, size: 46, gap: 4, space: 26, values: (_, marks) => marks.map((value) => mark(shown(value, 6))) },
+        ...(plot.hasKnots ? [{ ...axis, scale: "knots", side: 1, size: 30, gap: 4, space: 26, grid: { show: false } }] : []),
       ],
       series: [{}, ...lines.map((line) => ({ stroke: line.colour, width: 1.6, dash: line.dash, points: { show: false } }))],
     },
@@ -109,7 +120,11 @@ function makePlot(plot, data, clock, colourOf, cursor) {
       const x = chart.valToPos(time, "x");
       now.style.transform = `translateX(${x.toFixed(1)}px)`;
       now.hidden = !(x >= 0 && x <= chart.over.clientWidth);
-      for (const { line, value } of chips) value.textContent = number(shown(valueAt(times, line.values, time), plot.digits), plot.digits);
+      for (const { line, value, knots } of chips) {
+        const present = valueAt(times, line.values, time);
+        value.textContent = number(shown(present, plot.digits), plot.digits);
+        if (plot.hasKnots) knots.textContent = `${number(present / KNOT, 1)} ${say("knots")}`;
+      }
     },
     paint() {
       for (const { line, dot } of chips) dot.style.background = line.colour();
@@ -122,19 +137,35 @@ function makePlot(plot, data, clock, colourOf, cursor) {
   };
 }
 
-/** All plots as a node, which follow the clock. */
+/** A node that says what does not change, with the values. */
+function makeSteady(steady) {
+  const node = element("p", { class: "none", id: "steady", hidden: steady.length === 0 });
+  const valuesOf = ({ plot, lines }) => {
+    const texts = lines.map(({ values, ship, quantity }) => {
+      const value = number(plot.shown ? plot.shown(values[0], plot.digits) : values[0], plot.digits);
+      return { value, name: ship ?? say(quantity) };
+    });
+    const isSame = texts.every(({ value }) => value === texts[0].value);
+    return `${say(plot.title)} (${isSame ? texts[0].value : texts.map(({ name, value }) => `${name} ${value}`).join(", ")} ${plot.unit})`;
+  };
+  onLanguage(() => (node.textContent = say("steady", { what: steady.map(valuesOf).join(", ") })));
+  return node;
+}
+
+/** All plots as a node, which follow the clock; a quantity that never changes has a line of text in place of a plot. */
 export function makePlots(data, clock) {
-  const colourOf = (name) => data.ships.find((ship) => ship.name === name).colour;
   const cursor = uPlot.sync("run");
-  const shown = PLOTS.filter((plot) => data.signals.curves.some((curve) => plot.quantities.includes(curve.quantity)));
-  const plots = shown.map((plot) => makePlot(plot, data, clock, colourOf, cursor));
-  const node = element("div", { class: "plots" }, ...plots.map((plot) => plot.node));
+  const all = PLOTS.map((plot) => ({ plot, lines: linesOf(plot, data) })).filter(({ lines }) => lines.length);
+  const isShown = ({ plot, lines }) => lines.some(({ values }) => isMoving(values, plot.digits));
+  const plots = all.filter(isShown).map(({ plot, lines }) => makePlot(plot, lines, data.signals.times, clock, cursor));
+  const node = element("div", { class: "plots" }, ...plots.map((plot) => plot.node), makeSteady(all.filter((one) => !isShown(one))));
   const showNow = () => plots.forEach((plot) => plot.show(clock.time));
   new ResizeObserver(() => {
     for (const plot of plots) plot.resize();
     showNow();
   }).observe(node);
   for (const plot of plots) plot.onZoom(() => queueMicrotask(showNow));
+  onLanguage(showNow);
   const paint = () => plots.forEach((plot) => plot.paint());
   onTheme(paint);
   paint();

@@ -1,4 +1,4 @@
-// All texts of the live pages in four languages, and what puts them on the page.
+// Texts in four languages, those of the live pages and those that all pages have, and what puts them on the page.
 // A text may have places for values: {name}. The language is the browser's until somebody chooses.
 
 export const LANGUAGES = { en: "English", de: "Deutsch", nb: "Norsk", zh: "中文" };
@@ -223,16 +223,20 @@ function firstLanguage() {
 
 export const language = () => ORDER[index];
 
-export function setLanguage(name) {
+/** Chooses a language, for this browser's next pages as well unless `isKept` is false. */
+export function setLanguage(name, isKept = true) {
   index = Math.max(0, ORDER.indexOf(name));
   document.documentElement.lang = name;
   try {
-    localStorage.setItem(KEY, name);
+    if (isKept) localStorage.setItem(KEY, name);
   } catch {
     // not kept, then
   }
   for (const listener of listeners) listener();
 }
+
+/** Adds the texts of a page: {key: [English, German, Norwegian, Chinese]}. */
+export const addTexts = (table) => Object.assign(TEXTS, table);
 
 /** Calls `listener` now and after every change of the language. */
 export function onLanguage(listener) {
