@@ -99,13 +99,16 @@ def _compile() -> None:
 @click.option("--gif", is_flag=True, help="impact.gif, a film of the first contact. Needs Pillow.")
 @click.option("--mp4", is_flag=True, help="impact.mp4, the same. Needs Pillow and imageio-ffmpeg.")
 @click.option("--still", type=NUMBER, metavar="S", help="still.png, the picture at S seconds. Needs Pillow.")
+@click.option(
+    "--compare", "other", type=PATH, metavar="OTHER", help="compare.html, the runs in DIR and OTHER on one clock."
+)
 @click.option("--row", type=WHOLE_NUMBER, metavar="N", help="Of a study: run row N again, and write its replay alone.")
 @click.option(
     "--replays/--no-replays", default=True, help="Of a study: run its ten worst cases again for their replays."
 )
 def show(
     folder: Path, in_browser: bool, osg: bool, glb: bool, plots: bool, gif: bool, mp4: bool, still: float | None,
-    row: int | None, replays: bool,
+    other: Path | None, row: int | None, replays: bool,
 ) -> None:  # fmt: skip
     """Show a finished run, or a study.
 
@@ -120,10 +123,13 @@ def show(
     chosen = {"osg": osg, "glb": glb, "plots": plots, "gif": gif, "mp4": mp4, "still": still is not None}
     kinds = [kind for kind, is_chosen in chosen.items() if is_chosen]
     if (folder / "study.json").is_file():
-        _show_study(folder, kinds, in_browser, row, replays)
+        _show_study(folder, [*kinds, *(["compare"] if other is not None else [])], in_browser, row, replays)
         return
     if row is not None:
         raise click.UsageError(f"--row shows a row of a study, and {folder} holds none: leave it out")
+    if other is not None:
+        _show_comparison(folder, other, kinds, in_browser)
+        return
     scene = outputs.load_scene(folder)
     for kind in kinds or ["page"]:
         with progress(kind) as report:
@@ -135,6 +141,18 @@ def show(
     elif not kinds:
         for line in outputs.describe(scene, folder):
             say(line)
+
+
+def _show_comparison(folder: Path, other: Path, kinds: list[str], in_browser: bool) -> None:
+    """Write the page of two runs."""
+    from ..show.outputs import write_comparison
+
+    if kinds:
+        raise click.UsageError(f"--{kinds[0]} shows one run, and --compare two: leave one of them out")
+    page = write_comparison(folder, other)
+    say(f"{page}: open it in a browser")
+    if in_browser:
+        _open_page(page)
 
 
 def _show_study(folder: Path, kinds: list[str], in_browser: bool, row: int | None, replays: bool) -> None:

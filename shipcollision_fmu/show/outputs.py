@@ -5,18 +5,20 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+from ..errors import InputError
 from ..files import IN_PLACE, write_file
 from .film import animation
 from .gltf.gltf import build_glb
 from .osg import osg
-from .page import PAGE, build_page
+from .page import COMPARISON, PAGE, build_comparison, build_page
 from .plots import FOLDER, write_plots
 from .scene.scene import Scene, load_scene
 
-__all__ = ["PAGE", "PICTURES", "describe", "load_scene", "remove", "write", "write_page"]
+__all__ = ["PAGE", "PICTURES", "describe", "load_scene", "remove", "write", "write_comparison", "write_page"]
 
 PICTURES = {
     PAGE: "the page: open it in a browser",
+    COMPARISON: "this run and another, --compare OTHER",
     "scene.glb": "glTF 2.0, --glb",
     "scene.osgt": "OpenSceneGraph, --osg",
     FOLDER: "figures, --plots",
@@ -30,6 +32,20 @@ PICTURES = {
 def write_page(scene: Scene, folder: Path) -> Path:
     """Write the page; returns its path."""
     return write_file(folder / PAGE, build_page(scene), IN_PLACE)
+
+
+def write_comparison(folder: Path, other: Path) -> Path:
+    """Write the page of the runs in two folders into the first; returns its path.
+
+    Raises InputError when they are the same folder or one is not that of a complete run, HostError.
+    """
+    if folder.resolve() == other.resolve():
+        raise InputError(f"{other} is the run itself: give --compare the folder of another run")
+    labels = (folder.resolve().name, other.resolve().name)
+    if labels[0] == labels[1]:
+        labels = ("/".join(folder.resolve().parts[-2:]), "/".join(other.resolve().parts[-2:]))
+    text = build_comparison(load_scene(folder), labels[0], load_scene(other), labels[1])
+    return write_file(folder / COMPARISON, text, IN_PLACE)
 
 
 def write(

@@ -27,9 +27,10 @@ from ..scene.scene import Scene, Ship, load_scene
 from ..scene.signals import Signals
 from ..scene.wheelhouse import find_wheelhouse
 
-__all__ = ["PAGE", "build_page", "describe_ship", "write_page"]
+__all__ = ["COMPARISON", "PAGE", "build_comparison", "build_page", "describe_ship", "write_page"]
 
 PAGE = "replay.html"
+COMPARISON = "compare.html"
 
 _POLICY = (
     "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; "
@@ -48,7 +49,7 @@ _TEMPLATE = """<!doctype html>
 <body>
 <script type="application/json" id="scene-data">{data}</script>
 <script type="text/plain" id="scene-glb">{glb}</script>
-<script>{script}</script>
+{other}<script>{script}</script>
 </body>
 </html>
 """
@@ -61,14 +62,30 @@ def write_page(folder: Path) -> Path:
 
 def build_page(scene: Scene) -> str:
     """The page of a scene; the same text for the same scene. Raises HostError when the bundle has not been built."""
+    return _fill_template(scene.name, _collect_data(scene), scene)
+
+
+def build_comparison(scene: Scene, label: str, other: Scene, other_label: str) -> str:
+    """The page of two scenes on one clock: the ships of the other are outlines. Raises HostError like `build_page`."""
+    data = _collect_data(scene) | {"label": label, "other": _collect_data(other) | {"label": other_label}}
+    return _fill_template(f"{label}, {other_label}", data, scene, other)
+
+
+def _fill_template(title: str, data: dict[str, Any], scene: Scene, other: Scene | None = None) -> str:
+    more = "" if other is None else f'<script type="text/plain" id="other-glb">{_encode_glb(other)}</script>\n'
     return _TEMPLATE.format(
         policy=_POLICY,
-        title=html.escape(scene.name),
+        title=html.escape(title),
         style=_read_bundle("page.css"),
-        data=json.dumps(_collect_data(scene), separators=(",", ":"), allow_nan=False).replace("<", "\\u003c"),
-        glb=base64.b64encode(build_glb(scene)).decode(),
+        data=json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c"),
+        glb=_encode_glb(scene),
+        other=more,
         script=_read_bundle("page.js"),
     )
+
+
+def _encode_glb(scene: Scene) -> str:
+    return base64.b64encode(build_glb(scene)).decode()
 
 
 def _read_bundle(name: str) -> str:

@@ -13,6 +13,9 @@ const FORWARD = "M13 4h2v12h-2zM4 4l8 6-8 6z";
 const WAVES = "M2 7c2-2 4-2 5.3 0s3.4 2 5.3 0 3.4-2 5.4 0v2c-2-2-3.500-2-5.400 0s-4 2-5.300 0-3.300-2-5.300 0zM2 12c2-2 4-2 5.3 0s3.4 2 5.3 0 3.4-2 5.4 0v2c-2-2-3.500-2-5.400 0s-4 2-5.300 0-3.300-2-5.300 0z";
 const MOON = "M12.500 2.500a8 8 0 1 0 5 11.500 6.500 6.500 0 0 1-5-11.500z";
 const PANEL = "M2.500 3.500h15v13h-15zM12 5v10h4V5z";
+const FULL = "M3 3h5v2H5v3H3zM12 3h5v5h-2V5h-3zM3 12h2v3h3v2H3zM15 12h2v5h-5v-2h3z";
+const RECORD = "M10 3a7 7 0 1 0 0 14 7 7 0 0 0 0-14zm0 2a5 5 0 1 1 0 10 5 5 0 0 1 0-10zm0 2.200a2.800 2.800 0 1 0 0 5.600 2.800 2.800 0 0 0 0-5.600z";
+const STOP = "M4.500 4.500h11v11h-11z";
 const HELP = "M10 2a8 8 0 1 0 0 16 8 8 0 0 0 0-16zm-.9 11.500h1.800v1.800H9.100zM10 4.800c2 0 3.300 1.200 3.300 2.800 0 2.400-2.400 2.500-2.400 4.600H9.100c0-3 2.300-3.100 2.300-4.500 0-.7-.5-1.200-1.400-1.200s-1.500.5-1.500 1.400H6.700c0-1.900 1.400-3.100 3.300-3.100z";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 5, 10, 20, 50];
@@ -81,6 +84,10 @@ export function makeControls(data, clock, viewer, digits, actions) {
     viewer.setPlain(isPlain);
   }
 
+  const full = button("full_screen", "F", FULL, actions.fullScreen, { id: "full-screen", "aria-pressed": "false" });
+  const record = button("record", "R", RECORD, actions.record, { id: "record" });
+  let isRecording = false;
+  onLanguage(() => name(record, isRecording ? "stop_recording" : "record", "R"));
   let isPlaying = null;
   onLanguage(() => (name(play, isPlaying ? "pause" : "play", "space"), slider.setAttribute("aria-label", say("time"))));
   clock.setSpeed(startSpeed(clock.end - clock.start));
@@ -106,7 +113,7 @@ export function makeControls(data, clock, viewer, digits, actions) {
     element("div", { class: "clock" }, shown, total),
     element("div", { class: "choices" }, speed, camera, sky, plain,
       button("theme", "T", MOON, toggleTheme, { id: "theme" }),
-      button("panel", "V", PANEL, actions.panel), button("help", "?", HELP, actions.help)),
+      button("panel", "V", PANEL, actions.panel), full, record, button("help", "?", HELP, actions.help)),
   );
   return {
     node,
@@ -119,6 +126,13 @@ export function makeControls(data, clock, viewer, digits, actions) {
     nextSky() {
       sky.selectedIndex = (sky.selectedIndex + 1) % sky.options.length;
       viewer.setSky(sky.value);
+    },
+    showFullScreen: (isFull) => full.setAttribute("aria-pressed", String(isFull)),
+    showRecording(isOn) {
+      isRecording = isOn;
+      record.classList.toggle("on", isOn);
+      record.replaceChildren(icon(isOn ? STOP : RECORD));
+      name(record, isOn ? "stop_recording" : "record", "R");
     },
     chooseSky(name) {
       sky.value = name;

@@ -9,17 +9,17 @@ function bytes(base64) {
   return array.buffer;
 }
 
-/** The scene's JSON, with the curves as arrays of numbers over `signals.times`. */
+/** The scene's JSON, with the curves as arrays of numbers over `signals.times`; `other` of a page of two runs likewise. */
 export function readData() {
   const data = JSON.parse(text("scene-data"));
-  const numbers = new Float32Array(bytes(data.signals.values));
-  const rows = data.signals.rows;
-  data.signals.times = numbers.subarray(0, rows);
-  data.signals.curves.forEach((curve, i) => {
-    curve.values = numbers.subarray((i + 1) * rows, (i + 2) * rows);
-  });
+  for (const { signals } of [data, ...(data.other ? [data.other] : [])]) {
+    const numbers = new Float32Array(bytes(signals.values));
+    const { rows } = signals;
+    signals.times = numbers.subarray(0, rows);
+    signals.curves.forEach((curve, i) => (curve.values = numbers.subarray((i + 1) * rows, (i + 2) * rows)));
+  }
   return data;
 }
 
-/** The .glb as an ArrayBuffer. */
-export const readGlb = () => bytes(text("scene-glb").trim());
+/** A .glb as an ArrayBuffer: that of the run, or of the other one. */
+export const readGlb = (id = "scene-glb") => bytes(text(id).trim());

@@ -12,6 +12,8 @@ const KEYS = [
   ["S", "key_plain"],
   ["T", "key_theme"],
   ["V", "key_panel"],
+  ["F", "key_full_screen"],
+  ["R", "key_record"],
   ["?", "key_help"],
 ];
 
@@ -39,6 +41,8 @@ export function listenToKeys(clock, actions) {
     s: actions.plain,
     t: actions.theme,
     v: actions.panel,
+    f: actions.fullScreen,
+    r: actions.record,
     "?": actions.help,
   };
   window.addEventListener("keydown", (event) => {

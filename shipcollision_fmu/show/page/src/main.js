@@ -4,12 +4,15 @@ import { Clock } from "./clock.js";
 import { makeControls } from "./controls.js";
 import { readData, readGlb } from "./data.js";
 import { element } from "./dom.js";
+import { makeComparison } from "./compare_table.js";
+import { makeGhosts } from "./ghosts.js";
 import { makeEvents } from "./events.js";
 import { clockTime } from "./format.js";
 import { SKIES } from "./daylight.js";
 import { listenToKeys, makeHelp } from "./keys.js";
 import { makeLanguageSwitch } from "./language_switch.js";
 import { makePlots } from "./plots.js";
+import { makeStageTools } from "./stage_tools.js";
 import "./texts_replay.js";
 import { inWords, language, LANGUAGES, say, setLanguage } from "./texts.js";
 import { makeTrackPlot } from "./track_plot.js";
@@ -34,6 +37,8 @@ function makeTitle(data) {
   });
   return element("header", { class: "title" }, makeLanguageSwitch(), element("h1", { text: data.name }),
     element("p", { text: data.description }),
+    ...(data.other ? [inWords(element("p", { class: "run" }), { text: "first_run" }, { run: data.label }),
+      inWords(element("p", { class: "run" }), { text: "second_run" }, { run: data.other.label })] : []),
     ...(data.is_native ? [inWords(element("p"), { text: "native_run" })] : []),
     element("ul", {}, ...ships));
 }
@@ -45,7 +50,7 @@ async function start() {
   if (hash.get("lang") in LANGUAGES) setLanguage(hash.get("lang"), false);
   else document.documentElement.lang = language();
   const digits = data.end - data.start < 600 ? 2 : 1;
-  const clock = new Clock(data.start, data.end);
+  const clock = new Clock(data.start, Math.max(data.end, data.other?.end ?? data.end));
   const canvas = inWords(element("canvas", { id: "picture", tabindex: "0", role: "img" }), { "aria-label": "replay_picture" });
   const stage = element("main", { class: "stage" }, canvas, makeTitle(data));
   document.body.append(stage);
@@ -53,6 +58,12 @@ async function start() {
 
   const plain = hash.has("plain") ? hash.get("plain") !== "no" : drawsInSoftware();
   const viewer = await makeViewer(canvas, data, readGlb(), !plain);
+  const ghosts = data.other ? await makeGhosts(readGlb("other-glb"), data.other, data.origin) : null;
+  if (ghosts) viewer.add(ghosts.node, (time) => ghosts.move(time - data.other.start));
+  const stageTools = makeStageTools(stage, canvas, data.name, clock, {
+    fullScreen: (isFull) => controls.showFullScreen(isFull),
+    recording: (isOn) => controls.showRecording(isOn),
+  });
   const go = (time) => (clock.pause(), clock.seek(time));
   const help = makeHelp();
   const actions = {
@@ -61,6 +72,8 @@ async function start() {
     panel: () => document.body.classList.toggle("wide"),
     help: () => (help.open ? help.close() : help.showModal()),
     theme: toggleTheme,
+    fullScreen: stageTools.fullScreen,
+    record: stageTools.record,
     camera: () => controls.nextCamera(),
     plain: () => controls.togglePlain(),
   };
@@ -68,16 +81,21 @@ async function start() {
   const jump = (event) => (go(event.time), controls.chooseCamera("impact"));
   const section = (words, ...inside) => inWords(element("section", {}, inWords(element("h2"), { text: words }), ...inside), { "aria-label": words });
   const tracks = {
-    ships: viewer.ships.map(({ info, track }) => ({ name: info.name, colour: info.colour, length: info.L_oa, track, outline: data.outlines[info.name] })),
+    ships: viewer.ships.map(({ info, track }) => ({ name: info.name, colour: info.colour, length: info.L_oa, track, outline: data.outlines[info.name], end: data.end })),
     events: data.events.map(({ time, point }) => ({ time, point: point.map((x, i) => x - data.origin[i]) })),
-    obstacles: data.obstacles, start: data.start, end: data.end,
+    obstacles: data.obstacles, start: data.start,
   };
+  if (ghosts) {
+    tracks.ships.push(...data.other.ships.map(({ name, colour, L_oa }) => ({
+      name, colour, length: L_oa, track: ghosts.trackOf(name), outline: data.other.outlines[name], end: data.other.end, isOther: true })));
+  }
   const panel = inWords(element("aside", { class: "panel" },
     section("collisions", element("div", { class: "events" }, makeEvents(data, clock, digits, jump))),
+    ...(data.other ? [section("comparison", makeComparison(data, data.other))] : []),
     section("track_plot", makeTrackPlot(tracks, clock)),
     section("curves", makePlots(data, clock)),
     element("footer", { text: `shipcollision-fmu ${data.version}` })), { "aria-label": "panel" });
-  stage.append(controls.node);
+  stage.append(controls.node, stageTools.node);
   document.body.append(panel, help);
   listenToKeys(clock, actions);
 
@@ -112,6 +130,10 @@ async function start() {
     pause: () => clock.pause(),
     camera: (mode) => controls.chooseCamera(mode),
     language: setLanguage,
+    record: stageTools.record,
+    showOther(isShown) {
+      if (ghosts) ghosts.node.visible = isShown;
+    },
     plain: (isPlain) => controls.setPlain(isPlain),
     sky: (name) => controls.chooseSky(name),
     /** Draws now and says what is in the picture. */
@@ -121,6 +143,7 @@ async function start() {
       return {
         time: clock.time, poses: viewer.poses(), scratchPoints: points.length,
         scratchTriangles: viewer.shown.triangles, effects: viewer.shown.effects,
+        others: ghosts?.positions(),
       };
     },
     project: (point) => viewer.project(point),

@@ -11,6 +11,7 @@ import { inWords, onLanguage, say } from "./texts.js";
 import { isDark, lineColour, onTheme } from "./theme.js";
 
 const HEIGHT = 108;
+const SLACK = 1e-4; // of times in single precision [s]
 const same = (x) => x;
 /** A number on an axis: as short as it goes, without groups, which look like decimals elsewhere. */
 const mark = (value) => String(Number(value.toPrecision(6))).replace("-", "\u2212");
@@ -29,6 +30,7 @@ const PLOTS = [
   { title: "clearance", unit: "m", quantities: ["clearance"], to: same, digits: 2, range: 0.5, hasZero: true },
 ];
 const COMMON = { dissipated: "#e07b00", normal: "#c65d07", tangential: "#8a7a00", clearance: "#3d7f6a" };
+const OTHER_DASHES = { tangential: [2, 4] };
 const DASHES = { kinetic: undefined, tangential: [5, 3] };
 
 function valueAt(times, values, time) {
@@ -44,15 +46,26 @@ function valueAt(times, values, time) {
   return values[low] + share * (values[high] - values[low]);
 }
 
-/** The lines of a plot: name, values in its unit, colour, dash. */
-function linesOf(plot, data) {
+/** A line's value at a time, or null outside its run. */
+function valueWithin({ times, values }, time) {
+  if (time < times[0] - SLACK || time > times.at(-1) + SLACK) return null;
+  return valueAt(times, values, time);
+}
+
+/** All times of two runs, in order. */
+export const mergeTimes = (first, second) => Float64Array.from(new Set([...first, ...second])).sort();
+
+/** The lines of a plot of a run: name, values in its unit, colour, dash. */
+function linesOf(plot, data, run) {
   const colourOf = (name) => data.ships.find((ship) => ship.name === name).colour;
   return plot.quantities.flatMap((quantity) => data.signals.curves.filter((curve) => curve.quantity === quantity)).map((curve) => ({
     ship: curve.ship,
     quantity: curve.quantity,
+    run,
+    times: data.signals.times,
     values: Float64Array.from(curve.values, plot.to),
     colour: () => lineColour(curve.ship === null ? COMMON[curve.quantity] : colourOf(curve.ship)),
-    dash: DASHES[curve.quantity],
+    dash: run ? OTHER_DASHES[curve.quantity] ?? [6, 4] : DASHES[curve.quantity],
   }));
 }
 
@@ -63,7 +76,7 @@ function makePlot(plot, lines, times, clock, cursor) {
     const value = element("b");
     const knots = element("small", { class: "knots" });
     const dot = element("i");
-    return { line, value, knots, dot, node: element("span", { class: "chip" }, dot, labelOf(line), value, ...(plot.hasKnots ? [knots] : [])) };
+    return { line, value, knots, dot, node: element("span", { class: line.run ? "chip other" : "chip" }, dot, labelOf(line), value, ...(plot.hasKnots ? [knots] : [])) };
   });
   const now = element("div", { class: "now" });
   const place = element("div", { class: "curves", role: "img" });
@@ -78,7 +91,7 @@ function makePlot(plot, lines, times, clock, cursor) {
   const ink = () => (isDark() ? "#9fb0bd" : "#5a6b78");
   const rule = () => (isDark() ? "rgba(255,255,255,0.07)" : "rgba(20,40,60,0.09)");
   const axis = { stroke: ink, grid: { stroke: rule, width: 1 }, ticks: { show: false }, font: "11px system-ui, sans-serif", values: (_, marks) => marks.map(mark) };
-  const shown = (value, digits) => (plot.shown ? plot.shown(value, digits) : value);
+  const shown = (value, digits) => (plot.shown && value !== null ? plot.shown(value, digits) : value);
   const chart = new uPlot(
     {
       width: 320,
@@ -101,7 +114,7 @@ function makePlot(plot, lines, times, clock, cursor) {
       ],
       series: [{}, ...lines.map((line) => ({ stroke: line.colour, width: 1.6, dash: line.dash, points: { show: false } }))],
     },
-    [times, ...lines.map((line) => line.values)],
+    [times, ...lines.map((line) => (line.times === times ? line.values : Array.from(times, (time) => valueWithin(line, time))))],
     place,
   );
   chart.over.append(now);
@@ -121,13 +134,13 @@ function makePlot(plot, lines, times, clock, cursor) {
       now.style.transform = `translateX(${x.toFixed(1)}px)`;
       now.hidden = !(x >= 0 && x <= chart.over.clientWidth);
       for (const { line, value, knots } of chips) {
-        const present = valueAt(times, line.values, time);
+        const present = valueWithin(line, time);
         value.textContent = number(shown(present, plot.digits), plot.digits);
-        if (plot.hasKnots) knots.textContent = `${number(present / KNOT, 1)} ${say("knots")}`;
+        if (plot.hasKnots) knots.textContent = present === null ? "" : `${number(present / KNOT, 1)} ${say("knots")}`;
       }
     },
     paint() {
-      for (const { line, dot } of chips) dot.style.background = line.colour();
+      for (const { line, dot } of chips) dot.style.setProperty("--dot", line.colour());
       chart.redraw(false);
     },
     resize() {
@@ -155,9 +168,11 @@ function makeSteady(steady) {
 /** All plots as a node, which follow the clock; a quantity that never changes has a line of text in place of a plot. */
 export function makePlots(data, clock) {
   const cursor = uPlot.sync("run");
-  const all = PLOTS.map((plot) => ({ plot, lines: linesOf(plot, data) })).filter(({ lines }) => lines.length);
+  const runs = data.other ? [data, data.other] : [data];
+  const times = data.other ? mergeTimes(data.signals.times, data.other.signals.times) : data.signals.times;
+  const all = PLOTS.map((plot) => ({ plot, lines: runs.flatMap((one, run) => linesOf(plot, one, run)) })).filter(({ lines }) => lines.length);
   const isShown = ({ plot, lines }) => lines.some(({ values }) => isMoving(values, plot.digits));
-  const plots = all.filter(isShown).map(({ plot, lines }) => makePlot(plot, lines, data.signals.times, clock, cursor));
+  const plots = all.filter(isShown).map(({ plot, lines }) => makePlot(plot, lines, times, clock, cursor));
   const node = element("div", { class: "plots" }, ...plots.map((plot) => plot.node), makeSteady(all.filter((one) => !isShown(one))));
   const showNow = () => plots.forEach((plot) => plot.show(clock.time));
   new ResizeObserver(() => {

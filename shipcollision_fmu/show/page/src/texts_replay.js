@@ -22,6 +22,30 @@ export const REPLAY = {
   camera_impact: ["Impact", "Aufprall", "Sammenstøt", "碰撞点"],
   camera_free: ["Free", "Frei", "Fri", "自由"],
   follow_ship: ["Follow {ship}", "{ship} folgen", "Følg {ship}", "跟随 {ship}"],
+  full_screen: ["Full screen", "Vollbild", "Fullskjerm", "全屏"],
+  no_full_screen: ["This browser offers no full screen.", "Dieser Browser bietet kein Vollbild.", "Denne nettleseren har ikke fullskjerm.", "此浏览器不支持全屏。"],
+  record: ["Record a video", "Video aufnehmen", "Ta opp video", "录制视频"],
+  stop_recording: ["Stop recording", "Aufnahme beenden", "Stopp opptaket", "停止录制"],
+  recording: [
+    "Recording the picture until you stop, or the run ends.",
+    "Das Bild wird aufgenommen, bis Sie anhalten oder der Lauf endet.",
+    "Bildet tas opp til du stopper, eller kjøringen er slutt.",
+    "正在录制画面，直到停止或运行结束。",
+  ],
+  recorded: ["Saved {name}, {size} MB.", "{name} gespeichert, {size} MB.", "Lagret {name}, {size} MB.", "已保存 {name}，{size} MB。"],
+  no_video: [
+    "This browser cannot record WebM video. Chromium and Firefox can.",
+    "Dieser Browser kann kein WebM-Video aufnehmen. Chromium und Firefox können es.",
+    "Denne nettleseren kan ikke ta opp WebM-video. Chromium og Firefox kan.",
+    "此浏览器无法录制 WebM 视频。Chromium 和 Firefox 可以。",
+  ],
+
+  // Two runs
+  comparison: ["Differences", "Unterschiede", "Forskjeller", "差异"],
+  difference: ["Difference", "Differenz", "Forskjell", "差值"],
+  least_clearance: ["Least clearance", "Kleinster Abstand", "Minste klaring", "最小间距"],
+  first_run: ["{run}: ships, solid lines", "{run}: Schiffe, durchgezogene Linien", "{run}: skip, heltrukne linjer", "{run}：船舶，实线"],
+  second_run: ["{run}: outlines, dashed lines", "{run}: Umrisse, gestrichelte Linien", "{run}: omriss, stiplede linjer", "{run}：轮廓，虚线"],
 
   // Collisions
   collisions: ["Collisions", "Kollisionen", "Kollisjoner", "碰撞"],
@@ -69,6 +93,8 @@ export const REPLAY = {
   key_collisions: ["next, previous collision", "nächste, vorige Kollision", "neste, forrige kollisjon", "下一次、上一次碰撞"],
   key_next_camera: ["next camera", "nächste Kamera", "neste kamera", "下一视角"],
   key_plain: ["plain sea", "glatte See", "glatt sjø", "简化海面"],
+  key_full_screen: ["full screen", "Vollbild", "fullskjerm", "全屏"],
+  key_record: ["record a video, stop", "Video aufnehmen, beenden", "ta opp video, stopp", "录制视频、停止"],
   key_panel: ["curves and collisions", "Kurven und Kollisionen", "kurver og kollisjoner", "曲线与碰撞"],
   mouse_and_curves: [
     "Drag to turn the camera, wheel to zoom, right button to move. Click a curve to go to its time; drag across it to zoom, double-click to see all again.",

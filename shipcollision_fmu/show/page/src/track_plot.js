@@ -30,9 +30,9 @@ function boundsOf(points, margin) {
   return { west: Math.min(...east) - margin, east: Math.max(...east) + margin, south: Math.min(...north) - margin, north: Math.max(...north) + margin };
 }
 
-/** The plot of ships [{name, colour, track, outline, length, isOther}], collisions [{time, point}] and obstacles. */
-export function makeTrackPlot({ ships, events, obstacles, start, end }, clock) {
-  const samples = ships.map(({ track }) => Array.from({ length: SAMPLES + 1 }, (_, i) => {
+/** The plot of ships [{name, colour, track, outline, length, isOther, end}], collisions [{time, point}] and obstacles. */
+export function makeTrackPlot({ ships, events, obstacles, start }, clock) {
+  const samples = ships.map(({ track, end }) => Array.from({ length: SAMPLES + 1 }, (_, i) => {
     const { north, east } = poseAt(track, ((end - start) * i) / SAMPLES);
     return [north, east];
   }));
@@ -93,7 +93,7 @@ export function makeTrackPlot({ ships, events, obstacles, start, end }, clock) {
   }
 
   function paint() {
-    for (const { ship, dot } of chips) dot.style.background = lineColour(ship.colour);
+    for (const { ship, dot } of chips) dot.style.setProperty("--dot", lineColour(ship.colour));
     ships.forEach(({ colour }, i) => {
       lines[i]?.setAttribute("stroke", lineColour(colour));
       hulls[i]?.setAttribute("stroke", lineColour(colour));

@@ -83,6 +83,8 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
   const showScratches = growScratches(gltf.scene);
   const effects = [addEffects(data.effects, nodeOf)];
 
+  const moved = []; // what else follows the time
+
   let time = data.start;
   let wanted = false;
   let shadowOf = "";
@@ -91,6 +93,7 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
 
   function pose() {
     motion.pose(time - data.start);
+    for (const move of moved) move(time);
     gltf.scene.updateMatrixWorld(true);
     shown.triangles = showScratches(time - data.start);
     shown.effects = effects.reduce((count, showAt) => count + showAt(time), 0);
@@ -159,6 +162,12 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
     chooseCamera(mode) {
       pose();
       cameras.choose(mode, time);
+      want();
+    },
+    /** Adds a node to the world, which `move(time)` puts in its place. */
+    add(node, move) {
+      world.add(node);
+      moved.push(move);
       want();
     },
     /** Adds effects of a collision that has happened since; returns what takes them away again. */
