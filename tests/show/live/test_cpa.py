@@ -79,11 +79,18 @@ def test_cases_that_are_worked_out_by_hand() -> None:
 
 @pytest.mark.parametrize(("tcpa", "is_close"), [(599.0, True), (601.0, False)])
 def test_a_cpa_beyond_the_limit_in_time_alarms_nobody(tcpa: float, is_close: bool) -> None:
-    """The other lies ahead, still, off the course by 499 m; or nearer than 500 m, whatever its course."""
+    """The other lies ahead, still, off the course by 499 m or by 501 m; or 400 m away on the same course."""
     own = body([0.0, 0.0], [5.0, 0.0])
     ahead, off, beside = (
         body([5.0 * tcpa, 499.0], [0.0, 0.0]),
         body([5.0 * tcpa, 501.0], [0.0, 0.0]),
-        body([-400.0, 0.0], [0.0, 0.0]),
+        body([0.0, 400.0], [5.0, 0.0]),
     )
     assert [one["close"] for one in approaches([(own, ahead), (own, off), (own, beside)])] == [is_close, False, True]
+
+
+def test_a_cpa_that_is_past_alarms_nobody_however_near_the_other_is() -> None:
+    own, astern = body([0.0, 0.0], [5.0, 0.0]), body([-400.0, 0.0], [0.0, 0.0])
+    (found,) = approaches([(own, astern)])
+    assert found["tcpa"] == pytest.approx(-80.0)
+    assert not found["close"]

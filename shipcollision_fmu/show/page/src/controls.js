@@ -76,7 +76,7 @@ export function makeControls(data, clock, viewer, digits, actions) {
   const sky = element("select", { id: "sky", onchange: () => viewer.setSky(sky.value) },
     ...SKIES.map(([value]) => inWords(element("option", { value }), { text: `sky_${value}` })));
   onLanguage(() => name(sky, "sky", "D"));
-  const plain = button("plain_sea", "S", WAVES, () => setPlain(plain.getAttribute("aria-pressed") !== "true"), { id: "plain", "aria-pressed": "false" });
+  const plain = button("plain", "S", WAVES, () => setPlain(plain.getAttribute("aria-pressed") !== "true"), { id: "plain", "aria-pressed": "false" });
 
   function setPlain(isPlain) {
     plain.setAttribute("aria-pressed", String(isPlain));

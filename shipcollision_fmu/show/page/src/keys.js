@@ -12,7 +12,7 @@ const KEYS = [
   ["S", "key_plain"],
   ["T", "key_theme"],
   ["V", "key_panel"],
-  ["F", "key_full_screen"],
+  ["F", "key_full"],
   ["R", "key_record"],
   ["?", "key_help"],
 ];

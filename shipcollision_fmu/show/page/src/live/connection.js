@@ -1,6 +1,7 @@
 // The WebSocket to the server: messages in, requests with answers out. It connects again by itself.
 
-const SILENCE = 3000; // without a message for so long [ms], the server is taken for lost: it sends 20 a second
+const SILENCE = 6; // looks without a message between them, after which the server is taken for lost: it sends 20 a second
+const LOOK = 500; // between two looks [ms]; looks are counted, as a page that is busy itself hears nothing meanwhile
 const WAITS = [300, 600, 1200, 2500]; // before the next try [ms]
 const ANSWER = 5000; // longest wait for an answer [ms]
 const READ = 500; // and for messages that have come meanwhile to be read
@@ -12,19 +13,18 @@ export class Connection {
     const scheme = location.protocol === "https:" ? "wss:" : "ws:";
     this.address = `${scheme}//${location.host}/ws?token=${encodeURIComponent(token)}&role=${role}`;
     this.connect();
-    setInterval(() => this.isOpen && performance.now() - this.heard > SILENCE && this.drop(), 500);
+    setInterval(() => this.isOpen && ++this.silent > SILENCE && this.drop(), LOOK);
   }
 
   connect() {
     const socket = new WebSocket(this.address);
     this.socket = socket;
     socket.onopen = () => {
-      this.heard = performance.now();
-      Object.assign(this, { tries: 0, isOpen: true });
+      Object.assign(this, { tries: 0, isOpen: true, silent: 0 });
       this.hear("open", {});
     };
     socket.onmessage = ({ data }) => {
-      this.heard = performance.now();
+      this.silent = 0;
       const message = JSON.parse(data);
       if (message.type === "ok" || (message.type === "error" && message.id !== undefined)) this.answer(message);
       else this.hear(message.type, message);

@@ -22,9 +22,8 @@ export function closestApproach(own, other) {
   };
 }
 
-/** Whether the CPA is ahead within a time and nearer than a distance, or the bodies are already that near. */
+/** Whether the CPA is ahead within a time and nearer than a distance. Bodies that part are no danger, however near. */
 export function isTooClose(own, other, { cpa: least, tcpa: within }) {
   const at = closestApproach(own, other);
-  const range = Math.hypot(other.position[0] - own.position[0], other.position[1] - own.position[1]);
-  return (at.tcpa >= 0 && at.tcpa <= within && at.cpa < least) || range < least;
+  return at.tcpa >= 0 && at.tcpa <= within && at.cpa < least;
 }
