@@ -69,7 +69,9 @@ class Loop:
                 self._take(outcome)
 
     def _hand_out(self) -> None:
-        """Hands out as many batches as may be out; a suspect one alone."""
+        """Hands out as many batches as may be out; a suspect one alone, and none beside it until it has come back."""
+        if self._is_alone and self._out:
+            return
         self._is_alone = bool(self._suspects) and not self._out
         if self._is_alone:
             self._submit(self._suspects.popleft())

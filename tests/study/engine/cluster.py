@@ -69,6 +69,12 @@ class ProcessCluster:
             for _ in range(count)
         ]  # fmt: skip
 
+    def start_limited_worker(self, memory: str) -> None:
+        """Starts a worker that a nanny ends and starts again when it takes more memory than so much."""
+        options = ("--nthreads", "1", "--no-dashboard", "--death-timeout", "30", "--memory-limit", memory)
+        place = ("--scheduler-file", str(self.file), "--host", "127.0.0.1", "--local-directory", str(self._folder))
+        self.workers.append(self._start("worker", *place, *options))
+
     def stop(self) -> None:
         """Ends whatever still runs."""
         for process in [*self.workers, *([self.scheduler] if self.scheduler else [])]:

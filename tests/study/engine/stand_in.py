@@ -47,6 +47,8 @@ class StandIn:
     is_killed: bool = True
     """Whether its worker is killed; it raises MemoryError otherwise."""
     bearable: int = 0
+    megabytes: int = 0
+    """Memory that each row of a batch takes for a second, all together."""
     fails: int = -1
     """A row whose computation raises ValueError."""
 
@@ -93,6 +95,10 @@ def compute_stand_in(study: StandIn, first: int, count: int, engine: str) -> Tab
         os.kill(os.getpid(), signal.SIGKILL)
     if first <= study.fails < first + count:
         raise ValueError(f"row {study.fails} cannot be computed")
+    if study.megabytes:
+        held = np.ones(study.megabytes * count * 2**17)
+        time.sleep(1.0)
+        del held
     rows = np.arange(first, first + count)
     refused = rows % 7 == 0
     reasons = [f"row {row} is refused" if no else None for row, no in zip(rows, refused, strict=True)]

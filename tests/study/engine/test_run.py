@@ -6,6 +6,7 @@ import json
 import pickle
 import resource
 import shutil
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -15,12 +16,15 @@ import pytest
 from shipcollision_fmu import __version__
 from shipcollision_fmu.errors import HostError, StudyError
 from shipcollision_fmu.files import write_files
-from shipcollision_fmu.study.engine.batches import Batch
+from shipcollision_fmu.study.engine.assembly import Assembly
+from shipcollision_fmu.study.engine.batches import Batch, BatchPlan
 from shipcollision_fmu.study.engine.dask_executor import DaskExecutor
+from shipcollision_fmu.study.engine.executor import Failure, Outcome
 from shipcollision_fmu.study.engine.folder import StudyFolder
 from shipcollision_fmu.study.engine.folder_lock import hold_folder
+from shipcollision_fmu.study.engine.loop import Loop, Tally
 from shipcollision_fmu.study.engine.part_file import PartBytes
-from shipcollision_fmu.study.engine.parts import get_part
+from shipcollision_fmu.study.engine.parts import get_part, list_parts
 from shipcollision_fmu.study.engine.run import StudyResult, run_study
 from shipcollision_fmu.study.engine.work import compute_batch
 from tests.study.engine.folders import STUDY, digest, list_files
@@ -372,6 +376,34 @@ def test_a_row_that_cannot_be_borne_is_named_and_the_rest_is_kept(whole: Path, t
     assert digest(out).items() <= digest(whole).items()
     run(out, resume=True)  # with more memory
     assert digest(out) == digest(whole)
+
+
+class SlowDeath:
+    """An executor whose rows end their workers, after a while in which nothing comes back."""
+
+    most = 4
+
+    def __init__(self) -> None:
+        self.out: list[Batch] = []
+        self.calls = 0
+
+    def submit(self, batch: Batch) -> None:
+        assert not any(other.count == 1 and self.calls > 8 for other in self.out), "a suspect is not alone"
+        self.out.append(batch)
+
+    def collect(self, check: Callable[[], None]) -> list[Outcome]:
+        self.calls += 1
+        assert self.calls < 40, "it goes round and round"
+        return [] if self.calls % 4 else [Outcome(self.out.pop(0), failure=Failure.DEADLY) for _ in list(self.out)]
+
+
+def test_a_row_that_takes_long_to_end_its_worker_is_named_as_well(tmp_path: Path) -> None:
+    study = StandIn(rows=2)
+    folder = StudyFolder(tmp_path / "study", study)
+    plan = BatchPlan(list_parts(2, "sailed"))
+    loop = Loop(SlowDeath(), plan, Assembly(study.fingerprint), folder, Tally(), 2, None)
+    with pytest.raises(HostError, match=r"^row 0 ended one worker after the other, killed or out of memory"):
+        loop.run(lambda: None)
 
 
 def test_a_worker_of_another_version_computes_nothing(tmp_path: Path) -> None:
