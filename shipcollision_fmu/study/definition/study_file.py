@@ -37,7 +37,7 @@ class Header(Table):
     rows: int | None = Field(
         default=None, ge=1, le=MOST_ROWS, description="the number of cases; may be left out with [grid]"
     )
-    seed: int = Field(default=1, ge=0, le=MOST_SEED, description="a whole number; another one makes other numbers")
+    seed: int = Field(default=1, ge=0, le=MOST_SEED, description="the start of the random numbers")
     sampler: Literal["latin-hypercube", "random", "sobol"] = Field(
         default="latin-hypercube", description="how the numbers fill the range: latin-hypercube, random or sobol"
     )
@@ -50,8 +50,23 @@ class Header(Table):
         return name
 
 
+OTHER_WORDS = {
+    "duration": "a case ends `after` seconds after the impact, or so long after the last contact as `separation` says",
+    "dt": "the communication step is `step`", "time_step": "the communication step is `step`",
+}  # fmt: skip
+"""What stands for keys that [run] of other programs, or of a scenario, has."""
+
+
 class RunTable(Table):
     """[run]: numbers that are the same in every case."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _refuse_other_words(cls, given: Any) -> Any:
+        for word in given if isinstance(given, dict) else ():
+            if word in OTHER_WORDS:
+                raise ValueError(f"[run] {word} is not a known key: {OTHER_WORDS[word]}")
+        return given
 
     degrees_of_freedom: Literal[3, 4, 6] = Field(
         default=3, description="of both ships: 3 (surge, sway, yaw), 4 (and roll) or 6"

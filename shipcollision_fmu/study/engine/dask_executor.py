@@ -16,6 +16,7 @@ from pathlib import Path
 from queue import Empty, SimpleQueue
 from time import monotonic, sleep
 from typing import Any
+from urllib.request import urlopen
 
 from distributed import Future, KilledWorker
 
@@ -70,9 +71,15 @@ class DaskExecutor:
         self._prepare()
 
     @property
-    def dashboard(self) -> str:
-        """Address of the page that shows the cluster at work."""
-        return str(self._client.dashboard_link)
+    def dashboard(self) -> str | None:
+        """Address of the page that shows the cluster at work; None where none answers there. A scheduler that was
+        started without one has an address all the same."""
+        link = str(self._client.dashboard_link)
+        try:
+            with urlopen(link, timeout=LOOK):
+                return link
+        except (OSError, ValueError):
+            return None
 
     @property
     def most(self) -> int:
@@ -114,7 +121,7 @@ class DaskExecutor:
         check_versions(self._client)
         self._study: Future = self._client.submit(pickle.loads, self._data, pure=False)
         self._done = SimpleQueue()
-        self._looked = -LOOK
+        self._looked, self._is_told = -LOOK, False
 
     def _wait(self) -> list[Future]:
         """Futures that are done, after waiting for the first of them."""
@@ -183,7 +190,14 @@ class DaskExecutor:
         self._looked = monotonic()
         if self._threads:
             self._last_worker = self._looked
-        elif self._looked - self._last_worker > PATIENCE:
+            return
+        if not self._is_told:
+            self._is_told = True
+            self._notify(
+                f"{self._cluster.name} has no worker; waiting for one, {PATIENCE:g} s at most: start one with `dask "
+                f"worker {self._client.scheduler.address}`"
+            )
+        if self._looked - self._last_worker > PATIENCE:
             raise HostError(
                 f"{self._cluster.name} has had no worker for {PATIENCE:g} s: start one with `dask worker`, then go on "
                 "with --resume"

@@ -107,7 +107,8 @@ def _open_executor(
         with quiet_dask(), opened as cluster:
             executor = DaskExecutor(study, compute, folder.engine, cluster, notify, aside)
             try:
-                notify(f"dashboard: {executor.dashboard}")
+                if executor.dashboard is not None:
+                    notify(f"dashboard: {executor.dashboard}")
                 yield executor
             finally:
                 executor.close()

@@ -11,6 +11,8 @@ from __future__ import annotations
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+import numpy as np
+
 from ...errors import StudyError
 from ...files import is_file, write_files
 from ...scenario.scenario import Scenario
@@ -35,8 +37,8 @@ def write_case(study: Study, row: int, out: str | Path) -> Path:
     Raises StudyError for a row that the study does not have, and for a case that is refused; HostError for a folder
     that cannot be written.
     """
-    if not 0 <= row < study.rows:
-        raise StudyError(f"{study.source}: row = {row} is not in the study: it has rows 0 to {study.rows - 1}")
+    if not isinstance(row, int | np.integer) or not 0 <= row < study.rows:
+        raise StudyError(f"{study.source}: row = {row!r} is not in the study: it has rows 0 to {study.rows - 1}")
     cases, name = draw_cases(study, row, 1), f"{study.name}_{row}"
     with ShipFolder() as ships, TemporaryDirectory(prefix="shipcollision-") as folder:
         scenario = _make_scenario(study, row, cases, ships, Path(folder, "situation"))

@@ -13,6 +13,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import lru_cache
 
+import numpy as np
+
 from ...errors import HostError, StudyError
 from ...toolchain.load import load_library
 from ..definition.study import Study
@@ -38,10 +40,11 @@ LEVEL_RUNNERS: dict[str, Callable[[Study, Cases, str], Results]] = {
 def compute_rows(study: Study, first: int, count: int, engine: str = "auto") -> RowTables:
     """The tables of the rows first to first + count - 1. Raises StudyError for rows that the study does not have,
     HostError without pyarrow, and where the engine "native" has no library."""
-    if not (first >= 0 and count >= 1 and first + count <= study.rows):
+    is_whole = all(isinstance(number, int | np.integer) for number in (first, count))
+    if not (is_whole and first >= 0 and count >= 1 and first + count <= study.rows):
         raise StudyError(
-            f"{study.source}: rows {first} to {first + count - 1} are not in the study: it has rows 0 to "
-            f"{study.rows - 1}"
+            f"{study.source}: first = {first!r}, count = {count!r} are no rows of the study: give whole numbers, it "
+            f"has rows 0 to {study.rows - 1}"
         )
     run = run_situations if study.situations else LEVEL_RUNNERS[study.level]
     return build_tables(study, run(study, draw_cases(study, first, count), choose_engine(engine)))

@@ -50,6 +50,17 @@ REFUSALS: dict[str, tuple[tuple[str, str], str]] = {
     "an unknown sampler": (
         ("rows = 100", 'rows = 100\nsampler = "halton"'), "[study] sampler = 'halton' must be 'latin-hypercube', ",
     ),
+    "a seed that is a word": (
+        ("rows = 100", 'rows = 100\nseed = "abc"'),
+        "[study] seed = 'abc' must be a whole number: it is the start of the random numbers",
+    ),
+    "a duration": (
+        ("[encounter]", "[run]\nduration = 60.0\n[encounter]"),
+        "[run] duration is not a known key: a case ends `after` seconds after the impact, or so long after the last",
+    ),
+    "a time step": (
+        ("[encounter]", "[run]\ndt = 0.1\n[encounter]"), "[run] dt is not a known key: the communication step is `step`"
+    ),
     "a misspelt key": (("rows = 100", "row = 100"), "[study] row is not a known key: did you mean rows?"),
     # -- [own] and [target]
     "no own": (("[own]\n" + SHIPS, ""), "[own] is missing: give the table [own]: the ships that strike"),

@@ -95,6 +95,9 @@ def test_a_case_that_is_refused_is_not_written(tmp_path: Path) -> None:
     test_situations.write_situations(tmp_path)
     with pytest.raises(StudyError, match=r"row 1 is refused: other.json"):
         write_case(test_situations.read(tmp_path), 1, tmp_path)
+    for row, said in (("x", "'x'"), (1.0, "1.0"), (-1, "-1")):
+        with pytest.raises(StudyError, match=rf"^study: row = {said} is not in the study: it has rows 0 to 999$"):
+            write_case(study, row, tmp_path)  # type: ignore[arg-type]  # what is refused
     with pytest.raises(StudyError, match="row = 1000 is not in the study: it has rows 0 to 999"):
         write_case(study, 1000, tmp_path)
     assert not list(tmp_path.glob("*.toml"))

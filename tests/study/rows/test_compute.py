@@ -120,5 +120,7 @@ def test_a_study_travels_to_a_worker() -> None:
 
 @pytest.mark.parametrize(("first", "count"), [(-1, 2), (0, 0), (239, 2)])
 def test_rows_beyond_the_study_are_refused(first: int, count: int) -> None:
-    with pytest.raises(StudyError, match=r"rows .* are not in the study: it has rows 0 to 239"):
+    with pytest.raises(
+        StudyError, match=r"first = .* are no rows of the study: give whole numbers, it has rows 0 to 239"
+    ):
         compute_rows(read_impacts(), first, count)
