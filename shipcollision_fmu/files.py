@@ -10,6 +10,7 @@ import os
 import tempfile
 from collections.abc import Iterable, Mapping
 from pathlib import Path
+from typing import TypeAlias
 
 from .errors import HostError
 
@@ -25,6 +26,9 @@ __all__ = [
     "write_file",
     "write_files",
 ]
+
+Content: TypeAlias = str | bytes | Iterable[str]
+"""Of a file. The parts of a large text are made one after the other."""
 
 ANOTHER_FOLDER = "give another folder with --out"
 """Remedy in messages about a folder that the user chose."""
@@ -97,8 +101,8 @@ def refuse_other_texts(out: Path, texts: Mapping[str, str]) -> None:
             )
 
 
-def write_files(out: Path, files: Mapping[str, str | bytes], remedy: str = ANOTHER_FOLDER) -> None:
-    """Write files, text or bytes, by name into the folder `out`, which is made when it does not exist.
+def write_files(out: Path, files: Mapping[str, Content], remedy: str = ANOTHER_FOLDER) -> None:
+    """Write files, text, its parts, or bytes, by name into the folder `out`, which is made when it does not exist.
 
     Files of the same names are replaced; other files stay. Raises HostError, whose message ends with `remedy`.
     """
@@ -113,15 +117,14 @@ def write_file(path: Path, content: str | bytes, remedy: str = ANOTHER_FOLDER) -
     return path
 
 
-def _write(out: Path, files: Mapping[str, str | bytes], named: Path, remedy: str) -> None:
+def _write(out: Path, files: Mapping[str, Content], named: Path, remedy: str) -> None:
     made = [place for place in (out, *out.parents) if not place.exists()]
     home = out if out.is_dir() else out.parent
     try:
         home.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(prefix=".shipcollision-", dir=home) as aside:
             for name, content in files.items():
-                data = content if isinstance(content, bytes) else content.encode()
-                Path(aside, name).write_bytes(data)
+                _write_content(Path(aside, name), content)
             out.mkdir(exist_ok=True)
             for name in files:
                 Path(aside, name).replace(out / name)
@@ -130,6 +133,14 @@ def _write(out: Path, files: Mapping[str, str | bytes], named: Path, remedy: str
             if place.is_dir() and not any(place.iterdir()):
                 place.rmdir()
         raise describe_failure(named, error, remedy) from None
+
+
+def _write_content(path: Path, content: Content) -> None:
+    if isinstance(content, str | bytes):
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+        return
+    with path.open("wb") as file:
+        file.writelines(part.encode() for part in content)
 
 
 def describe_failure(out: Path, error: OSError, remedy: str = ANOTHER_FOLDER) -> HostError:

@@ -96,6 +96,11 @@ class Recorder:
         self.collisions: dict[int, CollisionSoFar] = {}
         self._least, self._nearest = float("inf"), list[int]()
 
+    def look(self) -> None:
+        """Read clearance, energy and contacts of this point, which is not recorded: the record has its full length."""
+        self._signal_group.read()
+        self._counts.read()
+
     def record(self, k: int) -> None:
         """Record communication point k, the next one, whose values are in the wires."""
         row = self._row

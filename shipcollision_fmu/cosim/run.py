@@ -9,7 +9,7 @@ from typing import Any
 import numpy.typing as npt
 
 from ..files import write_files
-from ..results.run_text import csv_text, json_text
+from ..results.run_text import csv_parts, json_text
 from .run_frames import RunFrames, data_frames
 from .run_page import RunPage, run_page
 from .run_repr import run_html, run_text
@@ -47,8 +47,8 @@ class Run:
         Everything but timing.json is the same, to the byte, for the same scenario and software.
         """
         texts = (
-            csv_text(self.states), csv_text(self.contacts), json_text(self.events), json_text(self.summary),
-            csv_text(self.signals), json_text(self.bodies), json_text(self.timing),
+            csv_parts(self.states), csv_parts(self.contacts), json_text(self.events), json_text(self.summary),
+            csv_parts(self.signals), json_text(self.bodies), json_text(self.timing),
         )  # fmt: skip
         write_files(Path(out), dict(zip(RUN_FILES, texts, strict=True)))
 

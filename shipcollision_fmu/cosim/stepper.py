@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from ..scenario.scenario import Scenario
+from ..scenario.tables.header import MAXIMUM_STEPS
 from ..ship.ship import Ship
 from .factories import Factories
 from .helm import Helm
@@ -22,6 +23,8 @@ __all__ = ["Stepper"]
 
 class Stepper:
     """The instances of a scenario, made by `factories`, at communication point `k`, which is recorded.
+
+    Beyond `most_recorded` steps the run goes on and nothing more is recorded: no scenario gives a longer run again.
 
     prepared: files of native FMUs. With `spool`, a folder, the record grows in temporary files there. Raises what
     connect() raises.
@@ -38,6 +41,7 @@ class Stepper:
             self.system, list(scenario.ships), scenario.step, scenario.steps, list(scenario.obstacles), spool
         )
         self.k, self.step = 0, scenario.step
+        self.most_recorded = MAXIMUM_STEPS
         self._advance = ALGORITHMS[scenario.algorithm]
         self.recorder.record(0)
 
@@ -46,5 +50,8 @@ class Stepper:
         for helm in self.helms.values():
             helm.send(self.k)
         self._advance(self.system, self.k * self.step, self.step)
-        self.recorder.record(self.k + 1)
+        if self.k < self.most_recorded:
+            self.recorder.record(self.k + 1)
+        else:
+            self.recorder.look()
         self.k += 1

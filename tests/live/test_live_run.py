@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from contextlib import closing
 from pathlib import Path
 
+import psutil
 import pytest
 
 from shipcollision_fmu import load_scenario, simulate
@@ -288,3 +289,30 @@ def test_marks_are_bounded(run: LiveRun) -> None:
     run.mark("3")
     with pytest.raises(InputError, match="mark 'more': there are 30 marks, which is the limit: take the name of one"):
         run.mark("more")
+
+
+def test_beyond_its_full_length_the_record_ends_and_the_run_goes_on(timed: LiveRun, tmp_path: Path) -> None:
+    timed._stepper.most_recorded = 100
+    advance(timed, 4.0)
+    timed.mark("within")
+    advance(timed, 7.0)
+    timed.bridges["own"].order(3.0, None, None, None)
+    timed.change(None, (20.0, 180.0))
+    advance(timed, 10.0)
+    assert (timed.k, timed.recorded) == (200, 100)
+    assert timed.observe_ships()["own"].rudder_order == pytest.approx(0.0523599)
+    assert_same_again(timed, tmp_path)
+    assert (tmp_path / "live" / "states.csv").read_text(encoding="utf-8").count("\n") == 102
+    timed.go_back("within")
+    advance(timed, 4.5)
+    assert_same_again(timed, tmp_path)
+
+
+@pytest.mark.slow
+def test_the_memory_of_a_long_run_stays(run: LiveRun) -> None:
+    """Ten minutes of simulated time, ships in contact for most of it, leave no more than the log of orders."""
+    process = psutil.Process()
+    advance(run, 120.0)
+    before = process.memory_info().rss
+    advance(run, 720.0)
+    assert process.memory_info().rss - before < 8e6

@@ -110,6 +110,11 @@ class LiveRun:
         return self.scenario.scenario.duration if self.scenario.tracks else None
 
     @property
+    def recorded(self) -> int:
+        """The communication point up to which the run is recorded; the record has a full length."""
+        return min(self.k, self._stepper.most_recorded)
+
+    @property
     def time(self) -> float:
         """Simulated time [s]."""
         return round(self.k * self.step, 9)
@@ -121,7 +126,8 @@ class LiveRun:
             bridge.prepare(k)
         self._change(k)
         self._stepper.advance()
-        self._end = self._stepper.recorder.read_end()
+        if self.k <= self._stepper.most_recorded:
+            self._end = self._stepper.recorder.read_end()
 
     # -- current and wind ---------------------------------------------------------------------------------------------
 
@@ -239,7 +245,7 @@ class LiveRun:
 
     def write_scenario(self) -> str:
         """The text of a scenario that gives this run again: orders, failures, current and wind as they were given."""
-        return write_scenario(self.scenario, self.k, self.bridges, self._changes)
+        return write_scenario(self.scenario, self.recorded, self.bridges, self._changes)
 
     def finish(self) -> Run:
         """The run so far."""

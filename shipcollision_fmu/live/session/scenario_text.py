@@ -59,7 +59,7 @@ def _write_ship(table: dict[str, Any], bridge: Bridge, steps: int, step: float) 
     given = [_write_order(find_time(k, step), order) for k, order in bridge.log.items() if k < max(steps, 1)]
     if given:
         table["orders"] = given
-    if bridge.evasion_ended is not None:
+    if bridge.evasion_ended is not None and bridge.evasion_ended < steps:
         table["evasion"]["until"] = find_time(bridge.evasion_ended, step)
     if "route" not in table and not any("heading_deg" in order for order in given):
         table.pop("autopilot", None)  # a scenario with an autopilot that has nothing to steer is refused
@@ -79,5 +79,6 @@ def _list_changes(
     made = [
         {"time": find_time(k, step), **change.model_dump(exclude_none=True, exclude={"time"})}
         for k, change in changes.items()
+        if k < steps
     ]
     return [*kept, *made]

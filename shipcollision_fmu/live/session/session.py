@@ -226,6 +226,10 @@ class Session:
     def _advance(self) -> None:
         self._run.advance()
         self._pacer.note(self._clock.now(), self._run.time)
+        if self._run.k == self._run.recorded + 1:
+            self._tell(
+                "log", message=f"the record is full, with {self._run.recorded} steps; the run goes on without it"
+            )
         self._tell_of_collisions()
         if self._duration is not None and self._run.time >= self._duration - 1e-9:
             self._reason = "the duration is over"

@@ -10,7 +10,7 @@ from pydantic import Field, field_validator, model_validator
 
 from ...ship.tables.table import Table
 
-__all__ = ["Algorithm", "Header"]
+__all__ = ["MAXIMUM_STEPS", "Algorithm", "Header"]
 
 Algorithm = Literal["gauss-seidel", "jacobi"]
 
