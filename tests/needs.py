@@ -94,6 +94,13 @@ NEEDS = {
         "pybullet", lambda: find_spec("pybullet") is not None,
         "take CPython 3.10 or 3.11 on Linux (x86-64), for which it has wheels",
     ),
+    "gpsdecode": Need(
+        "gpsdecode", partial(are_programs, "gpsdecode"), f"{_DEBIAN}--no-install-recommends gpsd-clients"
+    ),
+    "opendis": Need(
+        "opendis", lambda: find_spec("opendis") is not None,
+        "pip install --no-deps opendis: alone, as it asks for an old NumPy that it does not use",
+    ),
     "g++": Need("g++ with its sanitizers", lambda: are_programs("gcc", "g++"), f"{_DEBIAN}g++"),
     **{
         f"python{version}": Need(

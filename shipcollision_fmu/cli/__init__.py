@@ -2,7 +2,7 @@
 
 Exit status: 0 done, 1 the run or the check failed, 2 bad usage or input, 130 interrupted, 143 ended by SIGTERM.
 
-    runs.py, live.py, fmus.py, encounters.py, trials.py, studies.py, lists.py  the commands, grouped by subject
+    runs.py, live.py, nmea.py, fmus.py, encounters.py, trials.py, studies.py, lists.py  the commands, grouped by subject
     run_table.py      what `run` prints                    trial_table.py   what `trial` prints
     table.py          the form of all tables               console.py       stdout, and progress on stderr
     mistakes.py       one line for every mistake           options.py       options of several commands
@@ -21,6 +21,7 @@ from .fmus import build, package, prepare, validate
 from .lists import scenarios, ships
 from .live import live
 from .mistakes import Commands
+from .nmea import nmea
 from .runs import run, show
 from .studies import study
 from .trials import trial
@@ -37,5 +38,20 @@ def main(ctx: click.Context) -> None:
         click.echo(ctx.get_help())
 
 
-for command in (build, encounter, import_, live, package, prepare, run, scenarios, ships, show, study, trial, validate):
+for command in (
+    build,
+    encounter,
+    import_,
+    live,
+    nmea,
+    package,
+    prepare,
+    run,
+    scenarios,
+    ships,
+    show,
+    study,
+    trial,
+    validate,
+):
     main.add_command(command)

@@ -33,10 +33,17 @@ PORT = 8750
 )
 @click.option("--paused", is_flag=True, help="Begin with a pause.")
 @click.option("--instructor-only", is_flag=True, help="Only the instructor sets rate and pause.")
+@click.option(
+    "--nmea", "nmea", metavar="ADDRESS", multiple=True, help="NMEA and AIS to udp://HOST:PORT, or a port here."
+)
+@click.option("--nmea-tcp", metavar="PORT", help="NMEA and AIS for clients by TCP.")
+@click.option("--dis", metavar="ADDRESS", multiple=True, help="DIS to udp://HOST:PORT, or a port here.")
+@click.option("--orders", metavar="PORT", help="Orders to ships by TCP, as JSON lines.")
 @click.option("--browser/--no-browser", default=True, help="Open the page in the browser.  [default: --browser]")
 def live(
     scenario: str, ship: str | None, rate: float, port: int, host: str, out: Path | None, overwrite: bool,
     duration: float | None, paused: bool, instructor_only: bool, browser: bool,
+    nmea: tuple[str, ...], nmea_tcp: str | None, dis: tuple[str, ...], orders: str | None,
 ) -> None:  # fmt: skip
     """Steer ships on the wall clock, in a browser.
 
@@ -50,6 +57,7 @@ def live(
     Examples:
       shipcollision live
       shipcollision live mine.toml --ship own --rate 4
+      shipcollision live --nmea 10110 --orders 4711
       shipcollision live mine.toml --host 0.0.0.0 --no-browser
     """
     from ..cosim.earlier_run import refuse_foreign_files
@@ -63,6 +71,7 @@ def live(
     from ..show.outputs import PICTURES
 
     require_live()
+    from ..live.protocols.outlets import Outlets, Wanted
     from ..live.server.app import LiveApp
     from ..live.server.serve import bind, serve
 
@@ -80,21 +89,40 @@ def live(
         session = Session(loaded, out=folder, rate=rate, duration=duration, paused=paused, spool=_make_spool(folder))
         app = LiveApp(session, own, host=host, sets_pace=not instructor_only)
         at = listening.getsockname()[:2]
+        wanted = Wanted(nmea, nmea_tcp, dis, orders)
+        outlets = Outlets(session, own, wanted) if wanted else None
 
         def tell() -> None:
             shown = f"[{at[0]}]" if ":" in at[0] else at[0]
             bridge = f"http://{shown}:{at[1]}/?token={app.tokens.bridge}"
             say(f"bridge of {own}: {bridge}")
             say(f"instructor: http://{shown}:{at[1]}/instructor?token={app.tokens.instructor}")
+            for line in _describe_outlets(own, nmea, nmea_tcp, dis, orders):
+                say(line)
             say("Ctrl-C ends the run and stores it")
             if browser:
                 _open(bridge)
 
-        serve(app, listening, tell)
+        try:
+            if outlets is not None:
+                outlets.start()
+            serve(app, listening, tell)
+        finally:
+            if outlets is not None:
+                outlets.close()
     if session.error is not None:
         say(f"stored in {folder}")
         raise session.error
     say(f"stored in {folder}: {folder / SCENARIO_FILE} gives the same run again")
+
+
+def _describe_outlets(
+    own: str, nmea: tuple[str, ...], nmea_tcp: str | None, dis: tuple[str, ...], orders: str | None
+) -> list[str]:
+    lines = [f"NMEA of {own} and AIS to {address}" for address in nmea]
+    lines += [f"NMEA of {own} and AIS for clients of TCP port {nmea_tcp}"] if nmea_tcp else []
+    lines += [f"DIS to {address}" for address in dis]
+    return lines + ([f"orders at TCP port {orders}"] if orders else [])
 
 
 def _make_spool(folder: Path) -> Path:

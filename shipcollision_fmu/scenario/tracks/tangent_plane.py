@@ -42,6 +42,11 @@ class TangentPlane:
         north, east = self._axes @ (_ecef(latitude, longitude) - self._origin)
         return float(north), float(east)
 
+    @staticmethod
+    def geocentric(latitude: float, longitude: float) -> Array:
+        """Earth-fixed coordinates (3,) [m] of a position [deg] on the ellipsoid."""
+        return _ecef(latitude, longitude)
+
     def geographic(self, north: float, east: float) -> tuple[float, float]:
         """Latitude and longitude [deg] of a position [m]: the inverse of `position`, on the ellipsoid.
 

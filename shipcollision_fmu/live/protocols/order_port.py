@@ -1,0 +1,237 @@
+"""Orders in by TCP: one JSON object a line, and one line of answer to each.
+
+    -> {"ship": "own", "rudder_deg": 5, "rev_per_s": 1.2}           <- {"ok": true}
+    -> {"ship": "own", "heading_deg": 90, "telegraph": 3, "id": 7}  <- {"ok": true, "id": 7}
+    -> {"ship": "own", "command": false}                            <- {"ok": true}             gives up the command
+    -> {"state": true}                                              <- {"ok": true, "state": {...}}
+    -> {"ship": "own", "rudder": 5}      <- {"ok": false, "error": "rudder is no key: ..."}
+
+The first order to a ship that nobody commands takes its command; a client that goes gives up all. Lines are UTF-8, end
+with a line feed and have at most LONGEST_LINE bytes. One thread serves all clients and waits for none: a client that
+does not read its answers, or sends too much at a time, is dropped. Lines that are refused are counted.
+"""
+
+from __future__ import annotations
+
+import json
+import selectors
+import socket
+import threading
+from collections.abc import Callable, Mapping
+from concurrent.futures import Future
+from concurrent.futures import TimeoutError as TooLate
+from contextlib import suppress
+from dataclasses import dataclass
+from time import monotonic
+from typing import Any
+
+from ...errors import InputError
+from .addresses import listen
+from .order_line import Line, parse_line
+
+__all__ = ["LONGEST_LINE", "MOST_CLIENTS", "MOST_LINES", "OrderPort", "Orders"]
+
+LONGEST_LINE = 4096
+"""Bytes in a line. An order has some sixty."""
+MOST_CLIENTS = 8
+MOST_LINES = 50
+"""Lines of a client that are answered in a second; the others are refused."""
+MOST_PENDING = 65_536
+"""Bytes of answers that wait for a client; with more it is dropped."""
+LONGEST_ANSWER = 2.0
+"""[s] for the session to answer an order."""
+POLL = 0.2
+"""[s] after which the thread looks whether it is to end."""
+
+
+@dataclass(frozen=True)
+class Orders:
+    """What a session does for the port. Each function but `leave` and `state` returns a Future of a result or refusal.
+
+    take(client, ship, take), order(client, ship, values), leave(client), state(), refused()
+    """
+
+    take: Callable[[str, str, bool], Future[Any]]
+    order: Callable[[str, str, Mapping[str, float | int]], Future[Any]]
+    in_command: Callable[[str], str | None]
+    leave: Callable[[str], Any]
+    state: Callable[[], Mapping[str, Any]]
+    refused: Callable[[], Any]
+
+
+class _Client:
+    def __init__(self, connection: socket.socket, name: str) -> None:
+        self.connection, self.name = connection, name
+        self.received, self.answers = bytearray(), bytearray()
+        self.skipping = False  # the rest of a line that is too long
+        self.second, self.lines = 0, 0
+
+
+class OrderPort:
+    """The server of the protocol; start() it, and close() it."""
+
+    def __init__(self, host: str, port: int, orders: Orders, option: str = "--orders") -> None:
+        self._listening = listen(host, port, option)
+        self._orders = orders
+        self._clients: dict[socket.socket, _Client] = {}
+        self._selector = selectors.DefaultSelector()
+        self._selector.register(self._listening, selectors.EVENT_READ)
+        self._ending, self._number = threading.Event(), 0
+        self._thread = threading.Thread(target=self._serve, name="order port", daemon=True)
+        self.refused, self.accepted, self.dropped = 0, 0, 0
+
+    @property
+    def port(self) -> int:
+        """The port, also where 0 was given."""
+        return int(self._listening.getsockname()[1])
+
+    def start(self) -> None:
+        """Begin."""
+        self._thread.start()
+
+    def close(self) -> None:
+        """End, and give the sockets back."""
+        self._ending.set()
+        if self._thread.is_alive():
+            self._thread.join(2.0 + LONGEST_ANSWER)
+        for client in list(self._clients.values()):
+            self._drop(client)
+        self._selector.close()
+        self._listening.close()
+
+    # -- the thread ---------------------------------------------------------------------------------------------------
+
+    def _serve(self) -> None:
+        while not self._ending.is_set():
+            for key, events in self._selector.select(POLL):
+                if key.fileobj is self._listening:
+                    self._accept()
+                    continue
+                client = self._clients.get(key.fileobj)  # type: ignore[call-overload]
+                if client is not None:
+                    self._attend(client, events)
+
+    def _accept(self) -> None:
+        try:
+            connection, _ = self._listening.accept()
+        except OSError:
+            return
+        connection.setblocking(False)
+        if len(self._clients) >= MOST_CLIENTS:
+            self.dropped += 1
+            said = {"ok": False, "error": f"{MOST_CLIENTS} clients are here already: close one of them"}
+            with suppress(OSError):
+                connection.send(json.dumps(said).encode() + b"\n")
+            connection.close()
+            return
+        self._number += 1
+        self._clients[connection] = _Client(connection, f"order port {self._number}")
+        self._selector.register(connection, selectors.EVENT_READ)
+
+    def _attend(self, client: _Client, events: int) -> None:
+        if events & selectors.EVENT_READ and not self._receive(client):
+            self._drop(client)
+            return
+        if not self._send(client) or len(client.answers) > MOST_PENDING:
+            self._drop(client)
+            return
+        wanted = selectors.EVENT_READ | (selectors.EVENT_WRITE if client.answers else 0)
+        self._selector.modify(client.connection, wanted)
+
+    def _receive(self, client: _Client) -> bool:
+        """Read what has come and answer whole lines; False for a client that has gone."""
+        try:
+            data = client.connection.recv(16_384)
+        except BlockingIOError:
+            return True
+        except OSError:
+            return False
+        if not data:
+            return False
+        client.received += data
+        while (end := client.received.find(b"\n")) >= 0:
+            raw = bytes(client.received[:end])
+            del client.received[: end + 1]
+            if client.skipping:
+                client.skipping = False
+            else:
+                self._take(client, raw)
+        if len(client.received) > LONGEST_LINE:
+            if not client.skipping:
+                self._refuse(client, f"the line has more than {LONGEST_LINE} bytes: send shorter ones")
+            client.skipping = True
+            client.received.clear()
+        return True
+
+    def _take(self, client: _Client, raw: bytes) -> None:
+        if not raw.strip():
+            return
+        if len(raw) > LONGEST_LINE:
+            self._refuse(client, f"the line has more than {LONGEST_LINE} bytes: send shorter ones")
+            return
+        now = int(monotonic())
+        client.second, client.lines = (now, 1) if now != client.second else (now, client.lines + 1)
+        if client.lines > MOST_LINES:
+            self._refuse(client, f"more than {MOST_LINES} lines in a second: send fewer")
+            return
+        identifier: str | int | None = None
+        try:
+            line = parse_line(raw)
+            identifier = line.id
+            result = self._obey(client, line)
+        except InputError as error:
+            self._refuse(client, str(error), identifier)
+        else:
+            self.accepted += 1
+            self._answer(client, {"ok": True, **result}, identifier)
+
+    def _obey(self, client: _Client, line: Line) -> dict[str, Any]:
+        if line.state:
+            return {"state": self._orders.state()}
+        ship = line.ship or ""
+        if line.command is not None:
+            _wait(self._orders.take(client.name, ship, line.command))
+        elif self._orders.in_command(ship) is None:
+            _wait(self._orders.take(client.name, ship, True))
+        if line.order and line.command is not False:
+            _wait(self._orders.order(client.name, ship, line.order))
+        return {}
+
+    def _refuse(self, client: _Client, message: str, identifier: str | int | None = None) -> None:
+        self.refused += 1
+        self._orders.refused()
+        self._answer(client, {"ok": False, "error": message}, identifier)
+
+    def _answer(self, client: _Client, answer: dict[str, Any], identifier: str | int | None) -> None:
+        if identifier is not None:
+            answer["id"] = identifier
+        client.answers += json.dumps(answer, allow_nan=False, default=str).encode() + b"\n"
+
+    def _send(self, client: _Client) -> bool:
+        try:
+            while client.answers:
+                del client.answers[: client.connection.send(client.answers)]
+        except BlockingIOError:
+            return True
+        except OSError:
+            return False
+        return True
+
+    def _drop(self, client: _Client) -> None:
+        self._selector.unregister(client.connection)
+        del self._clients[client.connection]
+        client.connection.close()
+        self.dropped += 1
+        self._orders.leave(client.name)
+
+
+def _wait(answer: Future[Any]) -> None:
+    """Wait for the session. Raises InputError for its refusal."""
+    try:
+        answer.result(LONGEST_ANSWER)
+    except TooLate:
+        raise InputError(f"the simulation did not answer within {LONGEST_ANSWER:g} s: try again") from None
+    except InputError:
+        raise
+    except Exception as error:
+        raise InputError(str(error)) from None
