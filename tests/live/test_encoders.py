@@ -33,8 +33,8 @@ def line(body: str) -> bytes:
 
 
 def test_a_ship_that_lies_still_has_no_course() -> None:
-    assert nmea.rmc(LYING, NOON) == line("GPRMC,120000.00,A,5430.00000,S,18000.00000,W,0.00,,010126,,,S,V")
-    assert nmea.vtg(LYING) == line("GPVTG,,T,,M,0.00,N,0.00,K,S")
+    assert nmea.rmc(LYING, NOON) == line("GPRMC,120000.00,A,5430.00000,S,18000.00000,W,0.00,,010126,,,A,V")
+    assert nmea.vtg(LYING) == line("GPVTG,,T,,M,0.00,N,0.00,K,A")
     message: Any = pyais.decode(*ais.position_report(OWN, LYING, NOON, own=True))
     assert (message.course, message.speed) == (360.0, 0.0)
 

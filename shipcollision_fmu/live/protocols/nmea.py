@@ -1,6 +1,6 @@
 """Sentences of NMEA 0183 of own ship, written by pynmeagps.
 
-    RMC, GGA, VTG    GP   position, SOG, COG; mode S and quality 8 say "simulator"
+    RMC, GGA, VTG    GP   position, SOG, COG; the quality 8 of GGA says "simulator"
     HDT              II   true heading. The gyro's own talker would be HE, which gpsd 3.22 drops
     ROT              TI   rate of turn [deg/min], to starboard positive
     RSA, RPM         II   rudder [deg], to starboard positive, and revolutions [1/min]
@@ -22,7 +22,8 @@ from .sample import ShipSample, Wind
 
 __all__ = ["gga", "hdt", "mwv", "rmc", "rot", "rpm", "rsa", "vtg"]
 
-SIMULATOR_MODE, SIMULATOR_QUALITY = "S", 8
+MODE, SIMULATOR_QUALITY = "A", 8
+"""Mode S would mean "simulator", but OpenCPN drops a position with it; the quality of GGA says so."""
 SATELLITES = 12
 """Zero would mean "no fix" to gpsd and charting programs."""
 KMH = 1.0 / 3.6
@@ -35,7 +36,7 @@ def rmc(fix: Fix, time: datetime) -> bytes:
     return _write(
         "GP", "RMC", time=_time(time), lat=_position(fix.latitude), lon=_position(fix.longitude), status="A",
         spd=f"{fix.sog / KNOT:.2f}",
-        cog=_course(fix.cog), date=_round(time).date(), mv="", mvEW="", posMode=SIMULATOR_MODE, navStatus="V",
+        cog=_course(fix.cog), date=_round(time).date(), mv="", mvEW="", posMode=MODE, navStatus="V",
     )  # fmt: skip
 
 
@@ -52,7 +53,7 @@ def vtg(fix: Fix) -> bytes:
     """Course and speed over ground [kn, km/h]."""
     return _write(
         "GP", "VTG", cogt=_course(fix.cog), cogtUnit="T", cogm="", cogmUnit="M", sogn=f"{fix.sog / KNOT:.2f}",
-        sognUnit="N", sogk=f"{fix.sog / KMH:.2f}", sogkUnit="K", posMode=SIMULATOR_MODE,
+        sognUnit="N", sogk=f"{fix.sog / KMH:.2f}", sogkUnit="K", posMode=MODE,
     )  # fmt: skip
 
 
