@@ -49,6 +49,34 @@ def test_a_recorded_ship_hits_where_its_track_says_so(tmp_path: Path) -> None:
     assert run.summary["ships"]["target"]["track"] == {"mmsi": MMSI}
 
 
+def test_without_a_ship_file_the_ship_is_estimated_from_its_dimensions(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """110 m by 18 m, draught 6 m, cargo: its bow is 55 m ahead, 5 m more than that of a barge."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    path = write_scenario(tmp_path, HEADER + OWN + TRACKED.replace('ship = "./barge.toml"\n', "") + PLACE)
+    sized = {"length": 110, "width": 18, "draught": 6, "type": 70, "name": "ALFA"}
+    rows = [report(CROSSING, 2.0 * k, **sized) for k in range(-3, 14)]
+    (tmp_path / "ais.csv").write_text(csv_text(rows), encoding="utf-8")
+    scenario = load_scenario(path)
+    ship = scenario.load_ships()["target"]
+    assert (ship.name, ship.L_oa, ship.B, ship.T) == ("ALFA", 110.0, 18.0, 6.0)
+    assert scenario.ship_file("target").startswith(str(tmp_path / "cache"))
+    run = simulate(scenario, in_process=True)
+    assert run.events["collisions"][0]["start"] == pytest.approx((AWAY - 65.0) / SPEED, abs=0.05)
+    assert scenario.changed(step=0.1).ship_file("target") == scenario.ship_file("target")
+
+
+def test_own_evades_a_recorded_ship(tmp_path: Path) -> None:
+    """A ship that follows a track is observed as any other: at 350 m own, a tanker, puts its rudder over."""
+    own = (
+        '[ships.own]\nship = "kvlcc2"\nposition = [0.0, 400.0]\nheading_deg = 270.0\nspeed = 4.0\n'
+        'evasion = {of = "target", distance = 450.0, rudder_deg = 35.0}\n'
+    )
+    run = simulate(load_scenario(write_scenario(tmp_path, HEADER + own + TRACKED + PLACE)), in_process=True)
+    assert run.states["own.rate.yaw"][-1] > 0.0 == run.states["own.rate.yaw"][0]
+
+
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_a_run_of_fmus_gives_the_same_bytes(tmp_path: Path, fmi: int) -> None:
     scenario = load_scenario(write_scenario(tmp_path))

@@ -129,11 +129,11 @@ def read_nmea(text: str, file: str) -> Recording:
             "front of !AIVDM, or with the time in front, 2026-01-01T00:00:00Z !AIVDM"
         )
     counts = {
-        f"{reader.unread} sentences that cannot be decoded": reader.unread,
-        f'{reader.nowhere} reports without a position, which is AIS\'s "not available"': reader.nowhere,
-        f"reports without a time, the first in row {reader.untimed}": reader.untimed,
+        f"sentences that cannot be decoded: {reader.unread}": reader.unread,
+        f'reports whose position is "not available": {reader.nowhere}': reader.nowhere,
+        f"reports without a time, from row {reader.untimed} on": reader.untimed,
     }
-    notes = tuple(f"{file}: {said} are left out." for said, count in counts.items() if count)
+    notes = tuple(f"{file}: left out are {said}." for said, count in counts.items() if count)
     return Recording(file, reader.reports, reader.sizes, reader.antennas, notes)
 
 
