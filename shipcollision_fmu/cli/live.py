@@ -71,7 +71,7 @@ def live(
     from ..show.outputs import PICTURES
 
     require_live()
-    from ..live.protocols.outlets import Outlets, Wanted
+    from ..live.protocols.outlets import OutletAddresses, Outlets
     from ..live.server.app import LiveApp
     from ..live.server.serve import bind, serve
 
@@ -89,8 +89,8 @@ def live(
         session = Session(loaded, out=folder, rate=rate, duration=duration, paused=paused, spool=_make_spool(folder))
         app = LiveApp(session, own, host=host, sets_pace=not instructor_only)
         at = listening.getsockname()[:2]
-        wanted = Wanted(nmea, nmea_tcp, dis, orders)
-        outlets = Outlets(session, own, wanted) if wanted else None
+        addresses = OutletAddresses(nmea, nmea_tcp, dis, orders)
+        outlets = Outlets(session, own, addresses) if addresses else None
 
         def tell() -> None:
             shown = f"[{at[0]}]" if ":" in at[0] else at[0]

@@ -19,7 +19,7 @@ from shipcollision_fmu.errors import HostError, InputError
 from shipcollision_fmu.live.protocols import order_port
 from shipcollision_fmu.live.protocols.order_line import parse_line
 from shipcollision_fmu.live.protocols.order_port import LONGEST_LINE, MOST_CLIENTS, MOST_LINES, OrderPort, Orders
-from shipcollision_fmu.live.protocols.outlets import Outlets, Wanted
+from shipcollision_fmu.live.protocols.outlets import OutletAddresses, Outlets
 from shipcollision_fmu.live.session.commands import End
 from shipcollision_fmu.live.session.session import Session
 
@@ -257,7 +257,7 @@ def test_ten_thousand_messages_never_stop_the_simulation(monkeypatch: pytest.Mon
     the bound on lines in a second, those that are orders reach the ships."""
     monkeypatch.setattr(order_port, "MOST_LINES", most_lines)
     session = Session(load_scenario("kvlcc2_crossing"), rate=4.0)
-    outlets = Outlets(session, "own", Wanted(orders=str(find_free_port())))
+    outlets = Outlets(session, "own", OutletAddresses(orders=str(find_free_port())))
     assert outlets.orders is not None
     session.start()
     outlets.start()

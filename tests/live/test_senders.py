@@ -12,7 +12,7 @@ import pytest
 from shipcollision_fmu import load_scenario
 from shipcollision_fmu.errors import HostError, InputError
 from shipcollision_fmu.live.protocols.addresses import parse_address
-from shipcollision_fmu.live.protocols.outlets import Outlets, Wanted
+from shipcollision_fmu.live.protocols.outlets import OutletAddresses, Outlets
 from shipcollision_fmu.live.protocols.senders import MOST_CLIENTS, MOST_PENDING, TcpSender, UdpSender
 from shipcollision_fmu.live.session.commands import End
 from shipcollision_fmu.live.session.session import Session
@@ -132,8 +132,10 @@ def test_a_live_session_speaks_to_all(receiver: socket.socket) -> None:
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as dis:
         dis.bind(("127.0.0.1", 0))
         dis.settimeout(10.0)
-        wanted = Wanted(nmea=[f"udp://127.0.0.1:{receiver.getsockname()[1]}"], dis=[str(dis.getsockname()[1])])
-        outlets = Outlets(session, "own", wanted)
+        addresses = OutletAddresses(
+            nmea=[f"udp://127.0.0.1:{receiver.getsockname()[1]}"], dis=[str(dis.getsockname()[1])]
+        )
+        outlets = Outlets(session, "own", addresses)
         session.start()
         outlets.start()
         try:

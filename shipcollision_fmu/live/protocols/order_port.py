@@ -135,8 +135,8 @@ class OrderPort:
         if not self._send(client) or len(client.answers) > MOST_PENDING:
             self._drop(client)
             return
-        wanted = selectors.EVENT_READ | (selectors.EVENT_WRITE if client.answers else 0)
-        self._selector.modify(client.connection, wanted)
+        mask = selectors.EVENT_READ | (selectors.EVENT_WRITE if client.answers else 0)
+        self._selector.modify(client.connection, mask)
 
     def _receive(self, client: _Client) -> bool:
         """Read what has come and answer whole lines; False for a client that has gone."""

@@ -26,13 +26,13 @@ from .order_port import OrderPort, Orders
 from .sample import CollisionSample, Sample, ShipSample, Wind
 from .senders import Sender, TcpSender, UdpSender
 
-__all__ = ["Outlets", "Wanted", "make_fleet", "make_sample"]
+__all__ = ["OutletAddresses", "Outlets", "make_fleet", "make_sample"]
 
 PERIOD = 0.02
 """[s] of wall time between two looks at the session."""
 
 
-class Wanted(NamedTuple):
+class OutletAddresses(NamedTuple):
     """What a live session is to send and take: addresses as options give them (addresses.py)."""
 
     nmea: Sequence[str] = ()
@@ -74,22 +74,22 @@ class Outlets:
     """All outlets of a session; start() them, and close() them. Raises HostError for an address that cannot be used,
     InputError for one that is none."""
 
-    def __init__(self, session: Session, own: str, wanted: Wanted) -> None:
+    def __init__(self, session: Session, own: str, addresses: OutletAddresses) -> None:
         fleet = make_fleet(session.scenario, own)
         self._session = session
         self.senders: list[Sender] = []
         self._feeds: list[tuple[NmeaFeed | DisFeed, list[Sender]]] = []
         self.orders: OrderPort | None = None
         try:
-            nmea: list[Sender] = [UdpSender(*parse_address(at, "udp", "--nmea")) for at in wanted.nmea]
+            nmea: list[Sender] = [UdpSender(*parse_address(at, "udp", "--nmea")) for at in addresses.nmea]
             self.senders += nmea
-            if wanted.nmea_tcp is not None:
-                nmea.append(TcpSender(*parse_address(wanted.nmea_tcp, "tcp", "--nmea-tcp")))
+            if addresses.nmea_tcp is not None:
+                nmea.append(TcpSender(*parse_address(addresses.nmea_tcp, "tcp", "--nmea-tcp")))
                 self.senders.append(nmea[-1])
-            dis: list[Sender] = [UdpSender(*parse_address(at, "udp", "--dis"), "--dis") for at in wanted.dis]
+            dis: list[Sender] = [UdpSender(*parse_address(at, "udp", "--dis"), "--dis") for at in addresses.dis]
             self.senders += dis
-            if wanted.orders is not None:
-                self.orders = OrderPort(*parse_address(wanted.orders, "tcp", "--orders"), _connect(session))
+            if addresses.orders is not None:
+                self.orders = OrderPort(*parse_address(addresses.orders, "tcp", "--orders"), _connect(session))
         except ShipCollisionError:
             self.close()
             raise
