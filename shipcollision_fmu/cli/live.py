@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from datetime import datetime
 from pathlib import Path
 
 import click
 
-from ..errors import ScenarioError
+from ..errors import ScenarioError, ShipCollisionError
 from .console import say
 from .options import NUMBER, PATH, SCENARIO, WHOLE_NUMBER
 
@@ -90,7 +91,13 @@ def live(
         app = LiveApp(session, own, host=host, sets_pace=not instructor_only)
         at = listening.getsockname()[:2]
         addresses = OutletAddresses(nmea, nmea_tcp, dis, orders)
-        outlets = Outlets(session, own, addresses) if addresses else None
+        try:
+            outlets = Outlets(session, own, addresses) if addresses else None
+        except ShipCollisionError:
+            session.run.close()
+            with suppress(OSError):
+                folder.rmdir()  # empty, unless it was there
+            raise
 
         def tell() -> None:
             shown = f"[{at[0]}]" if ":" in at[0] else at[0]

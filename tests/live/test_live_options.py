@@ -1,0 +1,63 @@
+"""`shipcollision live` with protocols: it says where they are, sends from the start, and refuses what is no address."""
+
+from __future__ import annotations
+
+import json
+import socket
+import threading
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from shipcollision_fmu.cli import main
+
+
+def live(folder: Path, *arguments: str) -> Result:
+    common = ["live", "kvlcc2_crossing", "--no-browser", "--port", "0", "--out", str(folder / "run"), "--rate", "20"]
+    return CliRunner().invoke(main, [*common, *arguments])
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "line"),
+    [
+        (("--nmea", "here"), 2, "--nmea 'here' is no address: give one such as udp://127.0.0.1:10110, or 10110"),
+        (("--dis", "tcp://127.0.0.1:3000"), 2, "--dis 'tcp://127.0.0.1:3000' is no address: give one such as udp://"),
+        (("--orders", "99999"), 2, "--orders '99999': port 99999 must be 1 to 65535"),
+        (("--nmea-tcp", "no.such.host.invalid:4000"), 1, "--nmea-tcp no.such.host.invalid:4000: "),
+    ],
+)
+def test_what_is_no_address_is_refused(tmp_path: Path, arguments: tuple[str, ...], code: int, line: str) -> None:
+    result = live(tmp_path, *arguments)
+    assert result.exit_code == code, result.output
+    assert line in result.output
+    assert result.output.count("\n") == 1
+    assert not (tmp_path / "run").exists()
+
+
+def test_a_live_run_is_steered_by_a_program(tmp_path: Path) -> None:
+    """Its order is in the scenario that the run leaves behind; the sentences came to a receiver meanwhile."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as receiver, socket.socket() as probe:
+        receiver.bind(("127.0.0.1", 0))
+        receiver.settimeout(30.0)
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+        probe.close()
+        answers: list[object] = []
+
+        def steer() -> None:
+            receiver.recv(1000)  # it runs
+            with socket.create_connection(("127.0.0.1", port), timeout=10.0) as bridge:
+                bridge.sendall(json.dumps({"ship": "own", "rudder_deg": 12.5}).encode() + b"\n")
+                answers.append(json.loads(bridge.makefile().readline()))
+
+        program = threading.Thread(target=steer)
+        program.start()
+        nmea = f"udp://127.0.0.1:{receiver.getsockname()[1]}"
+        result = live(tmp_path, "--nmea", nmea, "--orders", str(port), "--duration", "30")
+        program.join(30.0)
+    assert result.exit_code == 0, result.output
+    assert f"NMEA of own and AIS to {nmea}" in result.output
+    assert f"orders at TCP port {port}" in result.output
+    assert answers == [{"ok": True}]
+    assert "rudder_deg = 12.5" in (tmp_path / "run" / "scenario.toml").read_text(encoding="utf-8")
