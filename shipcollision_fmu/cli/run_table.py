@@ -40,10 +40,12 @@ def summarise_run(run: Run) -> Iterator[str]:
     energy = summary["energy"]
     before, after, lost = (x / 1e6 for x in (energy["before"]["total"], energy["after"]["total"], energy["dissipated"]))
     yield f"kinetic energy {before:.1f} MJ before, {after:.1f} MJ after:"
-    between = "sailing" if any(ship["hydrodynamics"] for ship in summary["ships"].values()) else "coasting"
+    ships = summary["ships"].values()
+    between = "sailing" if any(ship["hydrodynamics"] for ship in ships) else "coasting"
+    between += " and from recorded tracks" if any("track" in ship for ship in ships) else " between contacts"
     rest = after + lost - before
     rest = 0.0 if abs(rest) < 0.05 else rest
-    yield f"  {lost:.1f} MJ dissipated in contact, {rest:+.1f} MJ from {between} between contacts"
+    yield f"  {lost:.1f} MJ dissipated in contact, {rest:+.1f} MJ from {between}"
     yield from _warn_of_heel(run)
     if summary["solver"]["unconverged"]:
         yield f"  the contact solver missed its residual {summary['solver']['unconverged']} times: see solver.residual"

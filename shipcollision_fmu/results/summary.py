@@ -1,7 +1,8 @@
 """summary.json: the balance of a run, of impulses, momentum and energy.
 
     ledger     per ship: impulse issued by the collision FMU, impulse applied by the ship, and the difference, pending;
-               cumulative, in b about CO [N s, N m s]. An impulse that jacobi issues in the last step stays pending
+               cumulative, in b about CO [N s, N m s]. An impulse that jacobi issues in the last step stays pending. A
+               ship that follows a recorded track applies all: its track takes it
     momentum   M nu of every ship, summed: linear in n [N s], angular in n about the scenario's origin [N m s]. nu is in
                b, or in level axes for 3 and 4 degrees of freedom (ship/kinetic_energy.py)
     closed     of momentum: whether the ships' linear momentum must be the same after as before. An obstacle takes some;
@@ -22,7 +23,7 @@ The summary depends neither on the machine's speed nor on whether FMUs or models
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from functools import reduce
 from importlib.metadata import PackageNotFoundError, version
 from operator import add  # sum() rounds otherwise from Python 3.12 on
@@ -70,7 +71,7 @@ def build_summary(
         "clearance_range": scenario.collision.clearance_range or CollisionParameters([]).clearance_range,
         "ledger": {
             name: {"issued": issued.tolist(), "applied": applied.tolist(), "pending": (issued - applied).tolist()}
-            for name, issued, applied in zip(ships, record.issued_at_end, record.applied, strict=True)
+            for name, issued, applied in _list_ledgers(scenario, record)
         },
         "momentum": {
             "before": _momentum(ships, free, before),
@@ -95,6 +96,12 @@ def build_summary(
         data["reference"] = {"source": scenario.reference.source, "time": scenario.reference.time}
         data["paper"] = compare_published(scenario.reference, record.states, ships)
     return data
+
+
+def _list_ledgers(scenario: Scenario, record: Record) -> Iterator[tuple[str, Array, Array]]:
+    """Name, impulse issued and impulse applied of each ship. A recorded track takes all at once."""
+    for name, issued, applied in zip(scenario.ships, record.issued_at_end, record.applied, strict=True):
+        yield name, issued, issued if name in scenario.tracks else applied
 
 
 def _is_momentum_closed(scenario: Scenario, ships: Mapping[str, Ship], record: Record) -> bool:

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from shipcollision_fmu import load_scenario, simulate
+from shipcollision_fmu.cli.run_table import summarise_run
 from shipcollision_fmu.cosim.run import RUN_FILES
 from shipcollision_fmu.errors import ScenarioError
 from shipcollision_fmu.packaging.system_structure import build_system_structure
@@ -46,6 +47,9 @@ def test_a_recorded_ship_hits_where_its_track_says_so(tmp_path: Path) -> None:
     gained = collision["delta_v"]["own"]
     assert gained[1] == pytest.approx(SPEED, abs=0.05)  # plastic, and the other gives way by nothing
     assert run.summary["momentum"]["closed"] is False
+    ledger = run.summary["ledger"]["target"]
+    assert ledger["applied"] == ledger["issued"] != [0.0] * 6 == ledger["pending"]
+    assert any(line.endswith("MJ from coasting and from recorded tracks") for line in summarise_run(run))
     assert run.summary["ships"]["target"]["track"] == {"mmsi": MMSI}
 
 
