@@ -96,7 +96,9 @@ def test_a_missing_extra_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(extra, "find_spec", lambda name: None)
     result = called()
     assert result.exit_code == 1
-    assert result.stderr.startswith("error: a live run needs starlette, uvicorn, websockets, which is missing: run `")
+    assert result.stderr.startswith(
+        "error: a live run needs starlette, uvicorn, websockets, pyais, pynmeagps, which is missing: run `"
+    )
     assert "shipcollision-fmu[live]" in result.stderr
 
 
