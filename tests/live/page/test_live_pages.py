@@ -277,6 +277,14 @@ def test_on_a_phone_nothing_is_cut_off_and_fingers_hit(browser: Chrome, server: 
             TOUCH,
         )
         assert small == []
+        if role == "bridge":  # however many alarms there are, they are one bar over the picture
+            page.run(
+                "for (const key of 'abcd') live.session.alarms.set(key, true, 'alarm', () => 'Words of alarm ' + key)"
+            )
+            page.wait("return document.querySelectorAll('#alarms li').length >= 4")
+            bar = page.run("return document.querySelector('.alarm-bar').getBoundingClientRect()")
+            assert bar["right"] <= PHONE[0]
+            assert bar["height"] < 1.2 * TOUCH
         browser.get("about:blank")
 
 
