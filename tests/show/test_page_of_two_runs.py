@@ -65,7 +65,7 @@ def test_the_page_shows_both_runs(browser: Chrome, runs: tuple[Path, Path]) -> N
     fast, slow = runs
     result = compared(fast, "--compare", slow)
     assert (result.exit_code, result.stdout) == (0, f"{fast / 'compare.html'}: open it in a browser\n")
-    page = Page(browser, fast / "compare.html", "lang=en")
+    page = Page(browser, fast / "compare.html", "lang=en", (700, 440))
     time = 1.0
     drawn = page.slide(time)
     for folder, found in ((fast, {n: p["position"] for n, p in drawn["poses"].items()}), (slow, drawn["others"])):
@@ -99,9 +99,7 @@ def test_the_page_shows_both_runs(browser: Chrome, runs: tuple[Path, Path]) -> N
 @pytest.mark.needs("pybullet")
 def test_two_runs_are_within_four_megabytes(guan2014: Path) -> None:
     scene = load_scene(guan2014)
-    page = build_comparison(scene, "one", scene, "two")
-    assert len(page.encode()) < 4e6
-    assert build_comparison(scene, "one", load_scene(guan2014), "two") == page
+    assert len(build_comparison(scene, "one", scene, "two").encode()) < 4e6
 
 
 def test_what_cannot_be_compared_is_refused(runs: tuple[Path, Path], tmp_path: Path) -> None:

@@ -20,10 +20,14 @@ EBML = bytes.fromhex("1a45dfa3")
 """First bytes of a WebM file: RFC 8794, section 11.2.1."""
 
 
+@pytest.fixture(scope="module")
+def path(guan2014: Path) -> Path:
+    return write_page(guan2014)
+
+
 @pytest.fixture
-def page(browser: Chrome, guan2014: Path) -> Page:
-    browser.get("about:blank")
-    return Page(browser, write_page(guan2014), "lang=en", (500, 440))
+def page(browser: Chrome, path: Path) -> Page:
+    return Page(browser, path, "lang=en&t=0", (500, 440))
 
 
 def test_a_video_of_the_picture_is_saved(page: Page, tmp_path: Path) -> None:
