@@ -114,7 +114,7 @@ def test_scratches_have_grown_as_far_as_they_have(page: Page, folder: Path, scen
 
 
 def test_the_impact_is_seen_where_it_happens(page: Page, folder: Path, scene: Scene) -> None:
-    """At the contact point: the struck ship's red side before, a bright flash during, and fire or smoke to the end."""
+    """At the contact point or up to 9 m above: a ship before, a bright flash during, and fire or smoke to the end."""
     times = moments(scene, folder)
     effect = scene.effects[0]
     page.run("replay.camera('impact')")
@@ -122,7 +122,9 @@ def test_the_impact_is_seen_where_it_happens(page: Page, folder: Path, scene: Sc
     def seen(at: float) -> tuple[float, float, float]:
         pose = page.slide(at)["poses"][effect.ship]
         R = rotation_from_quaternion(pose["quaternion"])
-        return page.colour(np.array(pose["position"]) + R @ (effect.point + 0.3 * effect.outwards))
+        place = effect.point + 0.3 * effect.outwards
+        above = [np.array(pose["position"]) + R @ (place - [0.0, 0.0, up]) for up in (0.0, 3.0, 6.0, 9.0)]
+        return max(page.colour(point) for point in above)  # a bow that strikes has a forecastle, over which fire rises
 
     before = seen(times["before"])
     during = seen(times["during"])
