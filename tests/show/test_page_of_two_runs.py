@@ -93,7 +93,7 @@ def test_the_page_shows_both_runs(browser: Chrome, runs: tuple[Path, Path]) -> N
     page.run("replay.showOther(false); replay.drawn()")
     assert page.fingerprint() != both  # the outlines are in the picture
     assert page.complaints() == []
-    assert "fast: ships, solid lines" in page.run("return document.querySelector('.title').innerText")
+    assert "fast: ships, solid lines" in page.run("return document.querySelector('.panel').innerText")
 
 
 @pytest.mark.needs("pybullet")

@@ -15,6 +15,7 @@ const ROWS = [
 ];
 const CLEARANCE = { words: "least_clearance", unit: "m", of: (value) => value, digits: 2 };
 
+/** Nodes: how each run is drawn, and the table. */
 export function makeComparison(first, second) {
   const names = (pair) => (({ ship_a, ship_b }) => `${ship_a} \u2013 ${ship_b}`)(pair.find((event) => event !== null));
   const line = (row, pair) => element("tr", {}, element("th", { scope: "row" }, inWords(element("span"), { text: row.words }), ` ${row.unit}`),
@@ -24,5 +25,7 @@ export function makeComparison(first, second) {
   const whole = element("tbody", {}, line(CLEARANCE, [first.least_clearance, second.least_clearance]));
   const head = element("tr", {}, element("td"), ...[first, second].map(({ label }) => element("th", { scope: "col", class: "number", text: label })),
     inWords(element("th", { scope: "col", class: "number" }), { text: "difference" }));
-  return inWords(element("table", { class: "comparison" }, element("thead", {}, head), ...bodies, whole), { "aria-label": "comparison" });
+  const run = (words, label) => inWords(element("p", { class: "run" }), { text: words }, { run: label });
+  const table = inWords(element("table", { class: "comparison" }, element("thead", {}, head), ...bodies, whole), { "aria-label": "comparison" });
+  return [run("first_run", first.label), run("second_run", second.label), table];
 }

@@ -37,8 +37,6 @@ function makeTitle(data) {
   });
   return element("header", { class: "title" }, makeLanguageSwitch(), element("h1", { text: data.name }),
     element("p", { text: data.description }),
-    ...(data.other ? [inWords(element("p", { class: "run" }), { text: "first_run" }, { run: data.label }),
-      inWords(element("p", { class: "run" }), { text: "second_run" }, { run: data.other.label })] : []),
     ...(data.is_native ? [inWords(element("p"), { text: "native_run" })] : []),
     element("ul", {}, ...ships));
 }
@@ -91,7 +89,7 @@ async function start() {
   }
   const panel = inWords(element("aside", { class: "panel" },
     section("collisions", element("div", { class: "events" }, makeEvents(data, clock, digits, jump))),
-    ...(data.other ? [section("comparison", makeComparison(data, data.other))] : []),
+    ...(data.other ? [section("comparison", ...makeComparison(data, data.other))] : []),
     section("track_plot", makeTrackPlot(tracks, clock)),
     section("curves", makePlots(data, clock)),
     element("footer", { text: `shipcollision-fmu ${data.version}` })), { "aria-label": "panel" });
