@@ -18,9 +18,9 @@ Singles = npt.NDArray[np.float32]
 
 GRAVITY = 9.81
 """[m/s2]"""
-DEEP = np.array([0.035, 0.185, 0.265], dtype=np.float32)
-ZENITH = np.array([0.36, 0.60, 0.86], dtype=np.float32)
-HORIZON = np.array([0.82, 0.89, 0.94], dtype=np.float32)
+DEEP = np.array([0.03, 0.16, 0.25], dtype=np.float32)
+ZENITH = np.array([0.33, 0.52, 0.80], dtype=np.float32)
+HORIZON = np.array([0.78, 0.86, 0.92], dtype=np.float32)
 HAZE = 9000.0
 """Distance [m] at which the sea has taken on most of the horizon's colour."""
 VISIBILITY = 5.0

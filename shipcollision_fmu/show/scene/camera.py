@@ -19,7 +19,7 @@ __all__ = ["ANGLE", "Camera", "place_camera"]
 
 ANGLE = 32.0
 """Vertical angle of view [deg]: about that of osgviewer."""
-HEIGHT = 24.0
+HEIGHT = 14.0
 """Elevation of the eye over the target [deg]."""
 BEARINGS = 72
 """Number of bearings that are searched for a gap: steps of 5 deg."""

@@ -178,30 +178,65 @@ export class Cameras {
     return target.clone().addScaledVector(direction, distance);
   }
 
-  /** Whether a ship, taken for a box, stands between two points in the world. */
-  hides({ node, info }, from, to) {
-    const box = new THREE.Box3(new THREE.Vector3(-0.48 * info.L_oa, -0.48 * info.B, -info.height), new THREE.Vector3(0.48 * info.L_oa, 0.48 * info.B, 1));
-    const origin = node.worldToLocal(from.clone()), end = node.worldToLocal(to.clone());
-    const ray = new THREE.Ray(origin, end.clone().sub(origin).normalize());
-    const met = box.containsPoint(origin) ? origin : ray.intersectBox(box, new THREE.Vector3());
-    return met !== null && met.distanceTo(origin) < end.distanceTo(origin);
+  /** Calls `look` with the ships posed as they are at a time, and puts them back. */
+  posedAt(time, look) {
+    const kept = this.ships.map(({ node }) => [node.position.clone(), node.quaternion.clone()]);
+    for (const { node, track } of this.ships) {
+      track.at(time - this.data.start, node.position, node.quaternion);
+      node.updateWorldMatrix(true, true);
+    }
+    const found = look();
+    this.ships.forEach(({ node }, i) => {
+      node.position.copy(kept[i][0]);
+      node.quaternion.copy(kept[i][1]);
+      node.updateWorldMatrix(true, true);
+    });
+    return found;
   }
 
-  /** The horizontal direction from a place of impact in which the opened side is seen and no ship stands in the way. */
-  openSide(effect, struck, point, distance) {
-    const outwards = new THREE.Vector3(...effect.outwards).transformDirection(struck.node.matrixWorld).setY(0).normalize();
-    const beside = point.clone().addScaledVector(outwards, 0.12 * struck.info.B + 3);
-    let best = outwards;
-    let highest = -Infinity;
-    for (let i = -8; i <= 8; i++) {
-      const from = outwards.clone().applyAxisAngle(UP, 0.16 * i);
-      const eye = point.clone().addScaledVector(from, distance).setY(point.y + CLOSE * distance);
-      const along = beside.clone().lerp(eye, 0.2);
-      const hidden = this.ships.filter((ship) => this.hides(ship, eye, ship === struck ? beside : along)).length;
-      const score = -2 * hidden - Math.abs(Math.abs(0.16 * i) - 0.75) + 1e-3 * i;
-      if (score > highest) [best, highest] = [from, score];
+  isFarFrom(node, info, point) {
+    return node.getWorldPosition(new THREE.Vector3()).distanceTo(point) > 2 * info.L_oa + 200;
+  }
+
+  /** How many of some points in the world a hull or what stands on it hides from an eye. */
+  countHidden(eye, points) {
+    const solids = [];
+    for (const { node, info } of this.ships) {
+      if (this.isFarFrom(node, info, points[0])) continue;
+      node.traverse((mesh) => {
+        if (mesh.isMesh && mesh.material.isMeshStandardMaterial && mesh.userData.scratch === undefined) solids.push(mesh);
+      });
     }
-    return best;
+    return points.filter((point) => {
+      const way = point.clone().sub(eye);
+      const ray = new THREE.Raycaster(eye, way.clone().normalize(), 0, way.length() - 0.2);
+      return ray.intersectObjects(solids, false).length > 0;
+    }).length;
+  }
+
+  /** The direction from a place of impact in which the opened side is seen best: low, if no ship stands in the way. */
+  openSide(effect, struck, distance) {
+    const tried = [];
+    for (const rise of [CLOSE, 0.22]) {
+      for (let i = -7; i <= 7; i++) {
+        tried.push({ turn: 0.16 * i, rise, score: -Math.abs(Math.abs(0.16 * i) - 0.75) - 6 * (rise - CLOSE) + 1e-3 * i });
+      }
+    }
+    const outwards = new THREE.Vector3();
+    for (const later of [0.05, 0.6, 3]) {
+      this.posedAt(Math.max(this.data.start, effect.time + later), () => {
+        outwards.set(...effect.outwards).transformDirection(struck.node.matrixWorld).setY(0).normalize();
+        const point = struck.node.localToWorld(new THREE.Vector3(...effect.point)).addScaledVector(outwards, 0.4);
+        const low = point.clone().setY(0.5 * point.y);
+        for (const one of tried) {
+          const eye = low.clone().addScaledVector(outwards.clone().applyAxisAngle(UP, one.turn), distance).setY(low.y + one.rise * distance);
+          one.score -= this.countHidden(eye, [point, low]);
+        }
+      });
+    }
+    const { turn, rise } = tried.reduce((a, b) => (b.score > a.score ? b : a));
+    outwards.set(...effect.outwards).transformDirection(struck.node.matrixWorld).setY(0).normalize();
+    return { from: outwards.applyAxisAngle(UP, turn), rise };
   }
 
   closeUp(mode, time) {
@@ -212,8 +247,9 @@ export class Cameras {
       const effect = this.effectAt(time);
       const struck = this.ships.find(({ info }) => info.name === effect.ship);
       distance = Math.min(170, Math.max(25, 0.52 * struck.info.L_oa));
-      out.copy(this.openSide(effect, struck, target, distance));
-      height = CLOSE;
+      const { from, rise } = this.openSide(effect, struck, distance);
+      out.copy(from);
+      height = rise;
     } else {
       const { node, info } = this.ships[Number(mode.slice(5))];
       out.set(-1, 0.75, 0).transformDirection(node.matrixWorld);

@@ -11,6 +11,7 @@ const PAUSE = "M5.5 4h3.2v12H5.5zM11.3 4h3.2v12h-3.2z";
 const BACK = "M5 4h2v12H5zM16 4v12L8 10z";
 const FORWARD = "M13 4h2v12h-2zM4 4l8 6-8 6z";
 const WAVES = "M2 7c2-2 4-2 5.3 0s3.4 2 5.3 0 3.4-2 5.4 0v2c-2-2-3.500-2-5.400 0s-4 2-5.300 0-3.300-2-5.300 0zM2 12c2-2 4-2 5.3 0s3.4 2 5.3 0 3.4-2 5.4 0v2c-2-2-3.500-2-5.400 0s-4 2-5.300 0-3.300-2-5.300 0z";
+const SLOW = "M10 3a7.500 7.500 0 1 0 7.500 7.500H16A6 6 0 1 1 10 4.500zM9.200 6.500h1.600v4l2.700 1.600-.8 1.300-3.500-2.100zM12 3.300l1.500.6-.5 1.400-1.500-.6zm3.300 2.200 1 1.200-1.200 1-1-1.200z";
 const MOON = "M12.500 2.500a8 8 0 1 0 5 11.500 6.500 6.500 0 0 1-5-11.500z";
 const PANEL = "M2.500 3.500h15v13h-15zM12 5v10h4V5z";
 const FULL = "M3 3h5v2H5v3H3zM12 3h5v5h-2V5h-3zM3 12h2v3h3v2H3zM15 12h2v5h-5v-2h3z";
@@ -78,6 +79,14 @@ export function makeControls(data, clock, viewer, digits, actions) {
   onLanguage(() => name(sky, "sky", "D"));
   const plain = button("plain", "S", WAVES, () => setPlain(plain.getAttribute("aria-pressed") !== "true"), { id: "plain", "aria-pressed": "false" });
 
+  const slow = button("slow_motion", "M", SLOW, () => setSlow(!clock.isSlow), { id: "slow", "aria-pressed": "true" });
+  const rate = inWords(element("span", { class: "rate" }), { title: "rate_of_play" });
+
+  function setSlow(isSlow) {
+    slow.setAttribute("aria-pressed", String(isSlow));
+    clock.setSlow(isSlow);
+  }
+
   function setPlain(isPlain) {
     plain.setAttribute("aria-pressed", String(isPlain));
     document.body.classList.toggle("plain", isPlain);
@@ -97,6 +106,7 @@ export function makeControls(data, clock, viewer, digits, actions) {
     shown.textContent = clockTime(time, digits);
     speed.value = String(current);
     slider.setAttribute("aria-valuetext", clockTime(time, digits));
+    rate.textContent = clock.rate < 0.99 * current ? `${clock.rate.toFixed(2)}\u00d7` : "";
     if (isPlaying !== playing) {
       isPlaying = playing;
       name(play, playing ? "pause" : "play", "space");
@@ -110,14 +120,15 @@ export function makeControls(data, clock, viewer, digits, actions) {
     element("div", { class: "transport" },
       button("previous_collision", "P", BACK, actions.previous), play, button("next_collision", "N", FORWARD, actions.next)),
     element("div", { class: "timeline" }, slider, marks),
-    element("div", { class: "clock" }, shown, total),
-    element("div", { class: "choices" }, speed, camera, sky, plain,
+    element("div", { class: "clock" }, shown, total, rate),
+    element("div", { class: "choices" }, speed, camera, sky, slow, plain,
       button("theme", "T", MOON, toggleTheme, { id: "theme" }),
       button("panel", "V", PANEL, actions.panel), full, record, button("help", "?", HELP, actions.help)),
   );
   return {
     node,
     setPlain,
+    setSlow,
     togglePlain: () => plain.click(),
     nextCamera() {
       camera.selectedIndex = (camera.selectedIndex + 1) % camera.options.length;

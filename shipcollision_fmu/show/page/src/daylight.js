@@ -5,7 +5,8 @@ import * as THREE from "three";
 /**
  * Of each hour: `turn` of the sun from behind the shoulder of whoever looks first, and its `height` [rad]; `zenith`,
  * `horizon` and `glow` of the sky; `disc`: radiance of sun or moon; `deep` and `scatter` of the water; `foam`; `cloud`
- * lit and `shade`; strength and colour of the lights on ships: `sun`, `above`, `below`; `stars` from 0 to 1.
+ * lit and `shade`; strength and colour of the lights on ships: `sun`, `above`, `below`, `fill`;
+ * `stars` and `lamps` (ships' lights) from 0 to 1.
  */
 const HOURS = {
   day: {
@@ -18,13 +19,13 @@ const HOURS = {
     turn: 2.62, height: 0.085, zenith: [0.045, 0.085, 0.22], horizon: [0.34, 0.27, 0.33], glow: [1.15, 0.42, 0.12], spread: 3.2,
     disc: [1.0, 0.55, 0.22], shine: 5.0, deep: [0.006, 0.018, 0.034], scatter: [0.02, 0.05, 0.05], foam: [0.42, 0.37, 0.40],
     cloud: [1.0, 0.46, 0.26], shade: [0.15, 0.13, 0.20], cover: 0.56,
-    sun: [1.0, 0.58, 0.30], power: 2.6, above: [0.50, 0.47, 0.62], below: [0.30, 0.20, 0.18], fill: 1.25, stars: 0.12, lamps: 0.7,
+    sun: [1.0, 0.58, 0.30], power: 2.6, above: [0.50, 0.47, 0.62], below: [0.30, 0.20, 0.18], fill: 1.25, stars: 0.12, lamps: 0.45,
   },
   night: {
-    turn: 2.75, height: 0.19, zenith: [0.0022, 0.0048, 0.0125], horizon: [0.010, 0.0165, 0.028], glow: [0.03, 0.038, 0.05], spread: 10,
+    turn: 2.75, height: 0.19, zenith: [0.0026, 0.0058, 0.015], horizon: [0.013, 0.022, 0.038], glow: [0.03, 0.038, 0.05], spread: 10,
     disc: [0.75, 0.82, 0.95], shine: 0.42, deep: [0.0006, 0.0016, 0.003], scatter: [0.001, 0.003, 0.004], foam: [0.035, 0.045, 0.06],
     cloud: [0.035, 0.043, 0.058], shade: [0.004, 0.007, 0.013], cover: 0.36,
-    sun: [0.72, 0.83, 1.0], power: 0.30, above: [0.35, 0.48, 0.75], below: [0.10, 0.14, 0.2], fill: 0.10, stars: 1, lamps: 1,
+    sun: [0.72, 0.83, 1.0], power: 0.6, above: [0.45, 0.58, 0.85], below: [0.2, 0.26, 0.36], fill: 0.36, stars: 1, lamps: 1,
   },
 };
 
@@ -37,7 +38,7 @@ const colour = () => ({ value: new THREE.Color() });
 export const LIGHT = {
   uSun: { value: new THREE.Vector3(0, 1, 0) }, uZenith: colour(), uHorizon: colour(), uGlow: colour(), uSpread: { value: 1 },
   uDisc: colour(), uShine: { value: 1 }, uDeep: colour(), uScatter: colour(), uFoam: colour(), uCloud: colour(), uShade: colour(),
-  uClouds: { value: 0.5 }, uStars: { value: 0 }, uLit: colour(),
+  uClouds: { value: 0.5 }, uStars: { value: 0 }, uLamps: { value: 0 }, uLit: colour(),
 };
 
 /** Sets all uniforms for an hour, seen first from the bearing `from` [rad] in the page's world; returns the hour. */
@@ -52,6 +53,7 @@ export function setHour(name, from) {
   LIGHT.uShine.value = hour.shine;
   LIGHT.uClouds.value = hour.cover;
   LIGHT.uStars.value = hour.stars;
+  LIGHT.uLamps.value = hour.lamps;
   LIGHT.uLit.value.setRGB(...hour.foam).multiplyScalar(1.1); // of smoke, spray and dust
   return hour;
 }

@@ -8,10 +8,13 @@ import { randomNumbers } from "./random.js";
 const COUNT = { explosion: 64, debris: 90, fire: 72, smoke: 130, dust: 46, splash: 120 };
 const LINGER = { explosion: 3, debris: 9, fire: 2, smoke: 16, dust: 1.4, splash: 1.7 }; // after the last particle is sent out [s]
 
+const NEARER = { explosion: 2.5, fire: 1.6, dust: 1.6 };
+
 const COMMON = /* glsl */ `
   attribute vec4 aSeed;
   uniform float uAge, uDuration, uSize, uHeight;
   uniform vec3 uOut, uLit;
+  uniform float uNearer; // [size]
   varying vec2 vCorner;
   varying vec4 vColour;   // colour, opacity
   varying float vGlow;    // 1: light, 0: paint
@@ -113,7 +116,10 @@ const vertexShader = (motion) => /* glsl */ `
     vec4 view = modelViewMatrix * vec4(place, 1.0);
     float spin = 6.2831853 * aSeed.w + (aSeed.z - 0.5) * 0.4 * uAge;
     mat2 twist = mat2(cos(spin), sin(spin), -sin(spin), cos(spin));
-    view.xy += twist * position.xy * radius;
+    // It bursts out of the plating: drawn nearer to the eye by what a bow or a bulwark beside it takes up.
+    float nearer = 1.0 - min(uNearer * uSize / length(view.xyz), 0.5);
+    view.xyz *= nearer;
+    view.xy += twist * position.xy * radius * nearer;
     gl_Position = radius > 0.0 ? projectionMatrix * view : vec4(2.0, 2.0, 2.0, 1.0);
   }`;
 
@@ -160,6 +166,7 @@ function makeEffect(effect) {
     uniforms: {
       uLit: LIGHT.uLit,
       uAge: { value: 0 },
+      uNearer: { value: NEARER[effect.kind] ?? 0 },
       uDuration: { value: effect.duration },
       uSize: { value: effect.size },
       uHeight: { value: -effect.point[2] },

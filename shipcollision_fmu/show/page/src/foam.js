@@ -18,17 +18,25 @@ export const FIELD_GLSL = /* glsl */ `
 
 const LEAST = 260, MOST = 4500; // half the width of the texture [m]
 
-/** `ships`: [{node, info, track}]; returns the uniforms for the sea and what draws the texture. */
+/**
+ * `ships`: [{node, info, track}]; returns the uniforms for the sea, what draws the texture, and the bow waves, which stand in the
+ * picture itself.
+ */
 export function makeFoam(ships, renderer) {
   const target = new THREE.WebGLRenderTarget(1024, 1024, { type: THREE.HalfFloatType, depthBuffer: false });
   const cover = { value: new THREE.Vector4(0, 0, 1000, 2) };
-  const parts = ships.flatMap((ship) => [makeWake(ship, cover), makeHullFoam(ship, cover)]);
+  const waves = { value: 1 };
+  const parts = ships.flatMap((ship) => [makeWake(ship, cover, waves), makeHullFoam(ship, cover)]);
   const scene = new THREE.Scene().add(...parts.map(({ mesh }) => mesh));
   const camera = new THREE.Camera();
   const black = new THREE.Color(0, 0, 0);
   return {
+    raised: parts.flatMap(({ raised }) => raised ?? []),
     uniforms: { uField: { value: target.texture }, uCover: cover },
-    setPlain: (isPlain) => target.setSize(...(isPlain ? [512, 512] : [1024, 1024])),
+    setPlain(isPlain) {
+      waves.value = isPlain ? 0 : 1;
+      target.setSize(...(isPlain ? [256, 256] : [1024, 1024]));
+    },
     /** At a time since the start, around a point in the page's world seen from a distance [m]. */
     draw(time, middle, distance) {
       const half = Math.min(MOST, Math.max(LEAST, 1.5 * distance));

@@ -21,7 +21,7 @@ import { drawsInSoftware, makeViewer } from "./viewer.js";
 
 const SLACK = 1e-6;
 
-/** What the address asks for: #t=12.5&camera=impact&theme=dark&plain=yes&bare&play; plain=no insists on the full picture */
+/** What the address asks for: #t=12.5&camera=impact&theme=dark&plain=yes&sky=dusk&slow=no&bare&play; plain=no insists on the full picture */
 function asked() {
   return new URLSearchParams(location.hash.slice(1));
 }
@@ -48,7 +48,7 @@ async function start() {
   if (hash.get("lang") in LANGUAGES) setLanguage(hash.get("lang"), false);
   else document.documentElement.lang = language();
   const digits = data.end - data.start < 600 ? 2 : 1;
-  const clock = new Clock(data.start, Math.max(data.end, data.other?.end ?? data.end));
+  const clock = new Clock(data.start, Math.max(data.end, data.other?.end ?? data.end), data.events.map((event) => event.time));
   const canvas = inWords(element("canvas", { id: "picture", tabindex: "0", role: "img" }), { "aria-label": "replay_picture" });
   const stage = element("main", { class: "stage" }, canvas, makeTitle(data));
   document.body.append(stage);
@@ -74,6 +74,8 @@ async function start() {
     record: stageTools.record,
     camera: () => controls.nextCamera(),
     plain: () => controls.togglePlain(),
+    sky: () => controls.nextSky(),
+    slow: () => controls.setSlow(!clock.isSlow),
   };
   const controls = makeControls(data, clock, viewer, digits, actions);
   const jump = (event) => (go(event.time), controls.chooseCamera("impact"));
@@ -100,6 +102,7 @@ async function start() {
   const alive = element("div", { class: "sr-only", role: "status" });
   document.body.append(alive);
   clock.watch(({ time, playing }) => {
+    viewer.setPlaying(playing);
     viewer.show(time);
     if (!playing) alive.textContent = clockTime(time, digits);
   });
@@ -108,12 +111,13 @@ async function start() {
     const wishes = asked();
     if (wishes.has("plain")) controls.setPlain(wishes.get("plain") !== "no");
     if (SKIES.some(([value]) => value === wishes.get("sky"))) controls.chooseSky(wishes.get("sky"));
+    if (wishes.has("slow")) controls.setSlow(wishes.get("slow") !== "no");
     if (wishes.has("t")) clock.seek(Number(wishes.get("t")));
     const camera = wishes.get("camera");
     if (viewer.cameras.choices.some(([value]) => value === camera)) controls.chooseCamera(camera);
     if (wishes.has("play")) clock.play();
   }
-  if (plain) controls.setPlain(true);
+  controls.setPlain(plain);
   obey();
   window.addEventListener("hashchange", obey);
 
@@ -134,14 +138,19 @@ async function start() {
     },
     plain: (isPlain) => controls.setPlain(isPlain),
     sky: (name) => controls.chooseSky(name),
+    slow: (isSlow) => controls.setSlow(isSlow),
+    get rate() {
+      return clock.rate;
+    },
     /** Draws now and says what is in the picture. */
     drawn() {
       viewer.draw();
       const points = data.scratches.flatMap((scratch) => scratch.times).filter((time) => time <= clock.time + SLACK);
       return {
-        time: clock.time, poses: viewer.poses(), scratchPoints: points.length,
+        time: clock.time, poses: viewer.poses(), eye: viewer.eye(), scratchPoints: points.length,
         scratchTriangles: viewer.shown.triangles, effects: viewer.shown.effects,
         others: ghosts?.positions(),
+        sparks: viewer.shown.sparks, lights: viewer.shown.lights,
       };
     },
     project: (point) => viewer.project(point),

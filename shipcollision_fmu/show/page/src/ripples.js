@@ -61,6 +61,9 @@ export function makeRipples() {
   return texture;
 }
 
+/** Uniforms of all that looks like water: the time of the run [s] and the small waves. */
+export const WATER = { uTime: { value: 0 }, uRipples: { value: null } };
+
 export const RIPPLES_GLSL = /* glsl */ `
   uniform sampler2D uRipples;
   // Slopes with a root mean square of 1, and height from -1 to 1.

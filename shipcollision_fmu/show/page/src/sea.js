@@ -4,7 +4,7 @@
 import * as THREE from "three";
 import { LIGHT } from "./daylight.js";
 import { FIELD_GLSL } from "./foam.js";
-import { makeRipples, RIPPLES_GLSL } from "./ripples.js";
+import { makeRipples, RIPPLES_GLSL, WATER } from "./ripples.js";
 import { SKY_GLSL } from "./sky.js";
 
 const RADIUS = 60000; // [m]
@@ -78,10 +78,11 @@ const vertexShader = (count) => /* glsl */ `
     gl_Position = projectionMatrix * viewMatrix * world;
   }`;
 
+// The plain sea has two layers of small waves, no ships in its mirror and no waves of ships, for processors that draw.
 const fragmentShader = (count, isPlain) => /* glsl */ `
   precision highp float;
   uniform float uTime, uHaze, uShine;
-  uniform vec3 uDeep, uScatter, uFoam, uDisc;
+  uniform vec3 uDeep, uScatter, uFoam, uDisc, uZenith, uHorizon, uGlow;
   varying vec3 vWorld;
   varying vec3 vSwell;
   ${SKY_GLSL}
@@ -116,26 +117,35 @@ const fragmentShader = (count, isPlain) => /* glsl */ `
     vec3 view = away / distance_;
     vec2 p = vWorld.xz;
     vec2 drift = vec2(0.94, 0.34) * uTime;
-    vec3 fine = ripple((p - 1.9 * drift) / 23.0), middle = ripple((mat2(0.8, 0.6, -0.6, 0.8) * p - 4.1 * drift) / 89.0);
+    vec3 fine = ripple((p - 1.9 * drift) / 23.0);
+    ${isPlain ? /* glsl */ `
+    vec3 middle = ripple((p.yx - 3.0 * drift) / 151.0);
+    vec2 slope = 0.06 * fine.xy + 0.05 * middle.yx;
+    float height = 0.2 * middle.z;` : /* glsl */ `
+    vec3 middle = ripple((mat2(0.8, 0.6, -0.6, 0.8) * p - 4.1 * drift) / 89.0);
     middle.xy = mat2(0.8, -0.6, 0.6, 0.8) * middle.xy;
     vec2 slope = vSwell.xy + 0.055 * fine.xy + 0.050 * middle.xy;
     float height = vSwell.z + 0.18 * middle.z;
-    ${isPlain ? "" : /* glsl */ `
     vec3 finest = ripple((mat2(0.6, -0.8, 0.8, 0.6) * p - 0.8 * drift) / 5.3), broad = ripple((p - 7.0 * drift) / 410.0);
     finest.xy = mat2(0.6, 0.8, -0.8, 0.6) * finest.xy;
     slope += 0.045 * finest.xy + 0.022 * broad.xy;
     float gusts = 0.72 + 0.5 * broad.z + 0.28; // wind is not the same everywhere
     slope *= clamp(gusts, 0.6, 1.35);`}
     vec4 field = fieldAt(p);
-    slope += fieldSlope(p, field);
+    ${isPlain ? "" : "slope += fieldSlope(p, field);"}
     float rough = mix(0.05, 0.145, 1.0 - exp(-distance_ / 900.0)); // slopes that are too small to be seen from here
     vec3 normal = normalize(vec3(-slope.x, 1.0, -slope.y));
     float facing = max(dot(-view, normal), 0.02);
-    float fresnel = 0.02 + 0.98 * pow(1.0 - facing, 5.0 * exp(-2.7 * rough)) / (1.0 + 22.7 * rough * sqrt(rough));
+    ${isPlain ? "float away_ = 1.0 - facing, fresnel = 0.02 + 0.7 * away_ * away_ * away_ * away_;"
+      : "float fresnel = 0.02 + 0.98 * pow(1.0 - facing, 5.0 * exp(-2.7 * rough)) / (1.0 + 22.7 * rough * sqrt(rough));"}
     vec3 mirrored = reflect(view, normal);
     mirrored.y = abs(mirrored.y) + 0.6 * rough;
     mirrored = normalize(mirrored);
-    vec3 reflection = skyAt(mirrored, ${isPlain ? "3.0" : "2.2 + 8.0 * rough"});
+    ${isPlain ? /* glsl */ `
+    float towards = max(dot(mirrored, uSun), 0.0), high = 1.0 - mirrored.y;
+    towards *= towards;
+    vec3 reflection = mix(mix(uZenith, uHorizon, high * high * high), uGlow, 0.4 * towards * towards * high);`
+      : "vec3 reflection = skyAt(mirrored, 2.2 + 8.0 * rough);"}
     ${isPlain ? "" : /* glsl */ `
     vec4 ship = mirroredShip(vWorld, normalize(mirrored + vec3(-0.6 * slope.x, 0.0, -0.6 * slope.y)));
     reflection = mix(reflection, ship.rgb * uFoam, ship.a);`}
@@ -153,13 +163,14 @@ const fragmentShader = (count, isPlain) => /* glsl */ `
     colour += uDisc * uShine * min(0.03 * glitter * grazing / max(middle_.y * 4.0 * facing, 0.25), 2.4) * smoothstep(-0.02, 0.06, uSun.y);
     colour *= 1.0 - 0.55 * field.b;
     // Foam breaks up into a lace as it fades; a few crests break by themselves.
-    float net = 0.5 * lace(p / 9.0 + 0.02 * slope) + 0.32 * lace(p.yx / 3.1 + 0.37) + 0.18 * lace(p / 31.0);
-    float foam = field.r * (1.0 - 0.25 * field.b);
+    ${isPlain ? "float net = 0.5 + 0.35 * fine.z;" : "float net = 0.46 * lace(p / 12.0 + 0.02 * slope) + 0.28 * lace(p.yx / 4.3 + 0.37) + 0.26 * lace(p / 37.0);"}
+    float foam = field.r;
     ${isPlain ? "" : `foam += 0.42 * smoothstep(0.62, 1.0, height * 0.55 + 0.45 * fine.z + 0.35 * broad.z) * exp(-distance_ / 1500.0);`}
-    foam = smoothstep(0.0, 0.42, foam - 0.62 + 0.62 * net) * min(1.0, 2.2 * foam);
+    foam = smoothstep(0.0, 0.55, foam - 0.55 + 0.6 * net) * min(1.0, 1.8 * foam);
     colour = mix(colour, uFoam * (0.78 + 0.3 * clamp(dot(normal, uSun), 0.0, 1.0) + 0.15 * net), clamp(foam, 0.0, 0.94));
-    vec3 horizon = skyAt(normalize(vec3(view.x, 0.012, view.z)), 3.0);
-    colour = mix(colour, horizon, 1.0 - exp(-pow(distance_ / (0.75 * uHaze), 1.2)));
+    ${isPlain ? "vec3 horizon = reflection;" : "vec3 horizon = skyAt(normalize(vec3(view.x, 0.01, view.z)), 2.0);"}
+    float haze = distance_ / (0.5 * uHaze);
+    colour = mix(colour, horizon, 1.0 - exp(-haze));
     gl_FragColor = vec4(colour, 1.0);
     #include <tonemapping_fragment>
     #include <colorspace_fragment>
@@ -182,14 +193,13 @@ const flatVertexShader = /* glsl */ `
 export function makeSea(ships, sky, field) {
   const places = ships.map(() => new THREE.Vector4()); // x, z, and where ahead is in them
   const uniforms = {
-    ...LIGHT, ...sky, ...field,
-    uRipples: { value: makeRipples() },
-    uTime: { value: 0 },
+    ...LIGHT, ...sky, ...field, ...WATER,
     uHaze: { value: 9000 },
     uPlaces: { value: places },
     uSizes: { value: ships.map(({ halfLength, halfBreadth, height }) => new THREE.Vector3(halfLength, halfBreadth, height)) },
     uColours: { value: ships.map(({ colour }) => new THREE.Color(colour).multiplyScalar(0.6)) },
   };
+  const ripples = (WATER.uRipples.value = makeRipples());
   const material = new THREE.ShaderMaterial({ uniforms, vertexShader: vertexShader(ships.length), fragmentShader: fragmentShader(ships.length, false) });
   const plain = new THREE.ShaderMaterial({ uniforms, vertexShader: flatVertexShader, fragmentShader: fragmentShader(ships.length, true) });
   const rings = makeRings(), disc = new THREE.CircleGeometry(RADIUS, 96).rotateX(-Math.PI / 2);
@@ -198,10 +208,11 @@ export function makeSea(ships, sky, field) {
   mesh.frustumCulled = false;
   return {
     mesh,
-    uniforms,
     setPlain(isPlain) {
       mesh.material = isPlain ? plain : material;
       mesh.geometry = isPlain ? disc : rings;
+      ripples.anisotropy = isPlain ? 1 : 8; // which costs a processor most of its time
+      ripples.needsUpdate = true;
     },
     /** `poses`: of each ship, where midship is and where ahead is, in the page's world; `haze`: how far one sees [m]. */
     update(time, camera, poses, haze) {

@@ -91,7 +91,7 @@ function makeDome(uniforms) {
           vec3 d = normalize(vDirection);
           vec3 colour = skyAt(d, 0.0);
           float towards = dot(d, uSun);
-          colour += uDisc * uShine * (1.6 * smoothstep(0.99978, 0.99986, towards) + 0.04 * pow(max(towards, 0.0), 900.0));
+          colour += uDisc * uShine * (1.6 * smoothstep(0.999935, 0.999955, towards) + 0.05 * pow(max(towards, 0.0), 1800.0));
           gl_FragColor = vec4(colour, 1.0);
           #include <tonemapping_fragment>
           #include <colorspace_fragment>
@@ -129,7 +129,7 @@ function makeStars() {
         vLight = aLight * uStars;
         vec4 place = projectionMatrix * mat4(mat3(viewMatrix)) * vec4(position, 1.0);
         gl_Position = place.xyww;
-        gl_PointSize = 1.2 + 1.8 * aLight;
+        gl_PointSize = 1.6 + 2.2 * aLight;
       }`,
     fragmentShader: /* glsl */ `
       varying float vLight;
@@ -143,7 +143,7 @@ function makeStars() {
   return stars;
 }
 
-/** The sky around everything, and its lights; `setSky(name, from)` makes it day, dusk or night. */
+/** The sky around everything, and its lights; `setSky(name, from, isPlain)` makes it day, dusk or night. */
 export function makeSky(renderer) {
   const bake = new THREE.WebGLRenderTarget(1024, 256, {
     type: THREE.HalfFloatType, generateMipmaps: true, minFilter: THREE.LinearMipmapLinearFilter, wrapS: THREE.RepeatWrapping, depthBuffer: false,
@@ -162,7 +162,8 @@ export function makeSky(renderer) {
     nodes: [dome, stars, sun, sun.target, ambient],
     sun,
     uniforms, // of whoever mirrors the sky
-    setSky(name, from) {
+    setSky(name, from, isPlain) {
+      const width = isPlain ? 640 : 2048;
       const hour = setHour(name, from);
       sun.color.setRGB(...hour.sun);
       sun.intensity = hour.power;
@@ -170,6 +171,7 @@ export function makeSky(renderer) {
       ambient.groundColor.setRGB(...hour.below);
       ambient.intensity = hour.fill;
       stars.visible = hour.stars > 0;
+      if (bake.width !== width) bake.setSize(width, width / 4);
       renderer.setRenderTarget(bake);
       renderer.render(easel, new THREE.Camera());
       renderer.setRenderTarget(null);

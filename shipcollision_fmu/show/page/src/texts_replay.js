@@ -2,6 +2,8 @@
 import { addTexts } from "./texts.js";
 
 export const REPLAY = {
+  slow_motion: ["Slow motion around impacts", "Zeitlupe um Zusammenstöße", "Sakte film rundt sammenstøt", "碰撞慢动作"],
+  rate_of_play: ["Seconds of the run per second", "Sekunden des Laufs je Sekunde", "Sekunder av kjøringen per sekund", "每秒播放的模拟秒数"],
   // Page
   replay_picture: ["The ships, at the time of the slider", "Die Schiffe zur Zeit des Schiebers", "Skipene ved tiden på glideren", "滑块所示时刻的船舶"],
   native_run: ["Native run: its FMUs ran without Python.", "Nativer Lauf: seine FMUs liefen ohne Python.", "Nativ kjøring: FMU-ene kjørte uten Python.", "原生运行：其 FMU 不使用 Python。"],

@@ -6,9 +6,12 @@ import { LIGHT } from "./daylight.js";
 import { addEffects } from "./effects.js";
 import { makeFoam } from "./foam.js";
 import { makeLabels } from "./labels.js";
+import { addLights } from "./lights.js";
+import { makePace } from "./pace.js";
 import { growScratches } from "./scratches.js";
 import { makeSea } from "./sea.js";
 import { makeSky, SUN } from "./sky.js";
+import { addSparks } from "./sparks.js";
 import { playClip, toWorld } from "./tracks.js";
 
 const SHADOW_REACH = 420; // around what the camera looks at [m]
@@ -63,7 +66,7 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
     halfLength: 0.48 * info.L_oa, halfBreadth: 0.47 * info.B, height: info.height, colour: info.colour,
   })), sky.uniforms, foam.uniforms);
   world.fog = new THREE.Fog(0xffffff, 4000, 22000);
-  world.add(...sky.nodes, sea.mesh);
+  world.add(...sky.nodes, sea.mesh, ...foam.raised);
   const { shadow } = sky.sun;
   shadow.mapSize.set(2048, 2048);
   shadow.bias = -0.0005;
@@ -77,10 +80,14 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
       node.receiveShadow = true;
     }
   });
+  const panes = new Set(); // windows, lit when it is dark
+  gltf.scene.traverse(({ material }) => material?.name === "windows" && panes.add(material));
   const nodeOf = (name) => ships.find(({ info }) => info.name === name).node;
   const labels = makeLabels(ships, canvas);
   canvas.after(labels.node);
+  const lights = addLights(gltf.scene);
   const showScratches = growScratches(gltf.scene);
+  const showSparks = addSparks(gltf.scene);
   const effects = [addEffects(data.effects, nodeOf)];
 
   const moved = []; // what else follows the time
@@ -88,7 +95,10 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
   let time = data.start;
   let wanted = false;
   let shadowOf = "";
-  const shown = { triangles: 0, effects: 0, frames: 0 };
+  let hour = "day", shownHour = "";
+  let plain = !isSmooth;
+  const pace = makePace();
+  const shown = { triangles: 0, effects: 0, sparks: 0, lights: lights.count, frames: 0 };
   const cameras = new CamerasOf(canvas, ships, data, () => want());
 
   function pose() {
@@ -96,16 +106,20 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
     for (const move of moved) move(time);
     gltf.scene.updateMatrixWorld(true);
     shown.triangles = showScratches(time - data.start);
+    shown.sparks = showSparks(time - data.start);
     shown.effects = effects.reduce((count, showAt) => count + showAt(time), 0);
   }
 
   function draw() {
     wanted = false;
+    if (hour !== shownHour) paintSky();
+    if (pace.next(performance.now())) setSharpness();
     pose();
     cameras.follow(time);
     const { camera, controls } = cameras;
     foam.draw(time - data.start, controls.target, camera.position.distanceTo(controls.target));
     const haze = Math.max(9000, 4 * camera.position.distanceTo(controls.target)); // it must not hide what is looked at
+    lights.update(time);
     sea.update(time, camera, ships.map(({ node }) => ({
       position: node.getWorldPosition(new THREE.Vector3()),
       ahead: new THREE.Vector3(1, 0, 0).transformDirection(node.matrixWorld),
@@ -121,10 +135,16 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
     shown.frames++;
   }
 
-  function setSky(name) {
-    sky.setSky(name, bearing);
+  function paintSky() {
+    shownHour = hour;
+    sky.setSky(hour, bearing, plain);
     world.fog.color.copy(LIGHT.uHorizon.value);
+    for (const pane of panes) pane.emissive.setRGB(1.0, 0.74, 0.38).multiplyScalar(0.55 * LIGHT.uLamps.value);
     shadowOf = "";
+  }
+
+  function setSky(name) {
+    hour = name;
     want();
   }
 
@@ -142,11 +162,16 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
     want();
   }
 
+  function setSharpness() {
+    renderer.setPixelRatio(plain ? pace.share : Math.min(window.devicePixelRatio, 2));
+    resize();
+    want();
+  }
+
   pose();
   resize();
   cameras.choose("all", time);
   const bearing = bearingOf(cameras);
-  setSky("day");
   new ResizeObserver(resize).observe(canvas);
 
   return {
@@ -179,19 +204,27 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
     setSky,
     /** Plain: a flat sea with smaller waves in its light, no shadows, and no more pixels than the screen's own. For weak computers. */
     setPlain(isPlain) {
+      plain = isPlain;
       sea.setPlain(isPlain);
       foam.setPlain(isPlain);
       sky.sun.castShadow = !isPlain;
-      shadowOf = "";
-      renderer.setPixelRatio(isPlain ? 1 : Math.min(window.devicePixelRatio, 2));
-      resize();
-      want();
+      shownHour = ""; // drawn anew, in the detail that is wanted now
+      setSharpness();
+    },
+    /** While the run plays, a plain picture may have fewer pixels, so that it keeps its pace; at rest it has all. */
+    setPlaying(isPlaying) {
+      if (pace.setPlaying(isPlaying)) setSharpness();
     },
     /** Where a point in n [m] is in the picture: [x, y] in CSS pixels from the canvas's top left. */
     project([north, east, down]) {
       const [n0, e0, d0] = data.origin;
       const point = toWorld(new THREE.Vector3(north - n0, east - e0, down - d0)).project(cameras.camera);
       return [((point.x + 1) / 2) * canvas.clientWidth, ((1 - point.y) / 2) * canvas.clientHeight];
+    },
+    /** Place of the eye in n [m]. */
+    eye() {
+      const { x, y, z } = cameras.camera.position;
+      return [x, z, -y].map((value, i) => value + data.origin[i]);
     },
     /** Position in n [m] and quaternion of R_nb of each ship as it is drawn. */
     poses() {

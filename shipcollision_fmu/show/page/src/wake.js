@@ -2,6 +2,8 @@
 // track, the churned water behind her stern, and bow wave, foam and shade along her waterline. All are functions of the
 // track up to the time that is shown.
 import * as THREE from "three";
+import { LIGHT } from "./daylight.js";
+import { WATER } from "./ripples.js";
 import { toWorld } from "./tracks.js";
 import { findWaterline } from "./waterline.js";
 
@@ -15,7 +17,7 @@ const ADDING = {
 const TO_FIELD = "gl_Position = vec4((place - uCover.xy) / uCover.z, 0.0, 1.0);";
 
 /** A strip along the track: Kelvin's waves and the wake of the stern. */
-export function makeWake({ track, info }, cover) {
+export function makeWake({ track, info }, cover, waves) {
   const places = new Float32Array(SECTIONS * 2 * 3), water = new Float32Array(SECTIONS * 2 * 4);
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(places, 3));
@@ -25,7 +27,7 @@ export function makeWake({ track, info }, cover) {
   geometry.setIndex(index);
   const material = new THREE.ShaderMaterial({
     ...ADDING,
-    uniforms: { uCover: cover, uSize: { value: new THREE.Vector2(info.L_oa, info.B) } },
+    uniforms: { uCover: cover, uWaves: waves, uSize: { value: new THREE.Vector2(info.L_oa, info.B) } },
     vertexShader: /* glsl */ `
       attribute vec4 aWater;
       uniform vec4 uCover;
@@ -38,6 +40,7 @@ export function makeWake({ track, info }, cover) {
     fragmentShader: /* glsl */ `
       uniform vec4 uCover;
       uniform vec2 uSize;
+      uniform float uWaves; // 0: foam alone
       varying vec4 vWater;
       void main() {
         float x = max(vWater.x, 0.1), y = abs(vWater.y), age = vWater.z, speed = vWater.w;
@@ -45,7 +48,7 @@ export function makeWake({ track, info }, cover) {
         float old = age / ${SECONDS.toFixed(1)};
         // Kelvin (1887): of all waves that keep pace with the ship, those in phase at x, y have tan(theta) = t.
         float k = 9.81 / max(speed * speed, 1.0), edge = 8.0 * y * y / (x * x), height = 0.0;
-        if (edge < 1.0 && speed > 0.8) {
+        if (uWaves > 0.5 && edge < 1.0 && speed > 0.8) {
           float root = sqrt(1.0 - edge);
           float inside = smoothstep(1.0, 0.80, edge);
           float amplitude = 0.075 * speed * speed / 9.81 * min(1.0, B / 12.0) * inverse_sqrt_(1.0 + k * x * 0.25);
@@ -173,6 +176,9 @@ export function makeHullFoam(ship, cover) {
       }`,
   }));
   mesh.frustumCulled = false;
+  const raised = new THREE.Mesh(geometry, makeRaised(pose, flow, mesh.material.uniforms.uEnds, reach));
+  raised.frustumCulled = false;
+  raised.renderOrder = -4;
   const now = new THREE.Vector3(), before = new THREE.Vector3(), q = new THREE.Quaternion(), ahead = new THREE.Vector3();
   const bearing = (quaternion) => {
     ahead.set(1, 0, 0).applyQuaternion(quaternion);
@@ -180,6 +186,7 @@ export function makeHullFoam(ship, cover) {
   };
   return {
     mesh,
+    raised,
     update(time) {
       track.at(time - 0.25, before, q);
       const was = bearing(q);
@@ -192,4 +199,46 @@ export function makeHullFoam(ship, cover) {
       pose.set(now.x, now.z, c, s);
     },
   };
+}
+
+/** The bow wave itself: the band where the plating pushes the water up, raised and white, for the picture. */
+function makeRaised(pose, flow, ends, reach) {
+  return new THREE.ShaderMaterial({
+    transparent: true, depthWrite: false, side: THREE.DoubleSide,
+    uniforms: { uPose: { value: pose }, uFlow: { value: flow }, uEnds: ends, uReach: { value: reach }, uFoam: LIGHT.uFoam, uTime: WATER.uTime, uRipples: WATER.uRipples },
+    vertexShader: /* glsl */ `
+      attribute float aOut;
+      uniform vec4 uPose;
+      uniform vec3 uFlow;
+      uniform vec2 uEnds;
+      uniform float uReach;
+      varying vec4 vWave; // out, strength, and where on the ship
+      void main() {
+        vec2 p = position.xy;
+        vec2 velocity = vec2(uFlow.x - uFlow.z * p.y, uFlow.y + uFlow.z * p.x);
+        float push = max(dot(velocity, normal.xy), 0.0), from = (uEnds.y - p.x) / (uEnds.y - uEnds.x);
+        float head = min(0.55 * push * push / 19.62, 0.28 * uReach);
+        float run = 0.16 * length(velocity) * exp(-5.0 * from) * smoothstep(-0.2, 0.3, uFlow.x); // it runs on along the side
+        float height = max(head, min(run, 0.2 * uReach));
+        float out_ = max(aOut, 0.0);
+        vec2 place = uPose.xy + uPose.zw * p.x + vec2(-uPose.w, uPose.z) * p.y;
+        vWave = vec4(out_, height, p.x, out_ * uReach);
+        float y = height * (1.0 - out_) * (1.0 - 0.4 * out_) + 0.12 - 0.35 * out_;
+        gl_Position = projectionMatrix * viewMatrix * vec4(place.x, y, place.y, 1.0);
+      }`,
+    fragmentShader: /* glsl */ `
+      uniform vec3 uFoam;
+      uniform float uTime;
+      uniform sampler2D uRipples;
+      varying vec4 vWave;
+      void main() {
+        vec2 q = vec2(vWave.z + 2.5 * uTime, vWave.w * 1.6 - 1.2 * uTime);
+        float net = 0.6 * texture2D(uRipples, q / 9.0).a + 0.4 * texture2D(uRipples, q.yx / 4.0).b;
+        float opacity = smoothstep(0.05, 0.7, vWave.y) * smoothstep(1.0, 0.5, vWave.x) * smoothstep(0.1, 0.6, net + 0.45 - 0.8 * vWave.x);
+        if (opacity < 0.01) discard;
+        gl_FragColor = vec4(uFoam * (0.72 + 0.4 * net), min(opacity, 0.95));
+        #include <tonemapping_fragment>
+        #include <colorspace_fragment>
+      }`,
+  });
 }

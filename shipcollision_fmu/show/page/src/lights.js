@@ -1,0 +1,91 @@
+// Navigation lights: glowing points at the places that the .glb names, bright inside their sector and dark outside, and
+// below each its streak on the water.
+import * as THREE from "three";
+import { LIGHT } from "./daylight.js";
+
+const quad = new Float32Array([-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0]);
+
+const VERTEX = /* glsl */ `
+  uniform float uLamps, uMirror;
+  uniform vec2 uSector; // start and arc [rad] clockwise from ahead
+  varying vec2 vCorner;
+  varying float vLight;
+  void main() {
+    vCorner = position.xy;
+    vec3 eye = (inverse(modelMatrix) * vec4(cameraPosition, 1.0)).xyz; // from the light, in the ship's b
+    float bearing = mod(atan(eye.y, eye.x) - uSector.x, 6.2831853);
+    float seen = smoothstep(-0.03, 0.03, bearing) * smoothstep(uSector.y + 0.03, uSector.y - 0.03, bearing);
+    if (uSector.y > 6.2) seen = 1.0;
+    vec3 light = (modelMatrix * vec4(0.0, 0.0, 0.0, 1.0)).xyz;
+    vec3 away = light - cameraPosition;
+    float distance_ = length(away);
+    float radius = max(1.0, 0.0078 * distance_); // as large in the picture from far as from a few hundred metres
+    vLight = uLamps * mix(0.04, 1.0, seen);
+    vec3 place;
+    if (uMirror > 0.5) {
+      // On the water where the light would be mirrored, drawn out towards the eye by the waves.
+      float share = cameraPosition.y / max(cameraPosition.y + light.y, 0.1);
+      vec3 at = vec3(mix(cameraPosition.xz, light.xz, share), 0.0).xzy;
+      vec2 along = normalize(away.xz);
+      float reach = length(at.xz - light.xz) * 0.45 + radius;
+      at.xz += along * position.y * reach + vec2(-along.y, along.x) * position.x * radius * 1.1;
+      at.y = 0.35;
+      place = at;
+      vLight *= 0.5 * smoothstep(0.1, 0.9, seen);
+      gl_Position = projectionMatrix * viewMatrix * vec4(place, 1.0);
+    } else {
+      vec4 view = viewMatrix * vec4(light, 1.0);
+      view.xy += position.xy * radius * (0.5 + 0.5 * seen);
+      view.z += 1.5; // before the mast that bears it
+      gl_Position = projectionMatrix * view;
+    }
+    if (vLight < 0.004) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+  }`;
+
+const FRAGMENT = /* glsl */ `
+  uniform vec3 uColour;
+  uniform float uMirror, uTime;
+  varying vec2 vCorner;
+  varying float vLight;
+  void main() {
+    float r = length(vCorner), glow;
+    if (uMirror > 0.5) {
+      float waves = 0.5 + 0.5 * sin(24.0 * vCorner.y + 3.0 * sin(5.0 * vCorner.y + 1.3 * uTime) + 2.1 * uTime);
+      glow = 0.55 * smoothstep(1.0, 0.0, abs(vCorner.x)) * smoothstep(1.0, 0.1, abs(vCorner.y)) * (0.25 + 0.75 * waves);
+    } else {
+      glow = 2.4 * exp(-16.0 * r * r) + 0.30 * exp(-4.0 * r * r) * (1.0 - r);
+    }
+    if (r > 1.0 && uMirror < 0.5) discard;
+    vec3 colour = mix(uColour, vec3(1.0), uMirror > 0.5 ? 0.0 : 0.8 * exp(-60.0 * r * r));
+    gl_FragColor = vec4(colour * glow * vLight, 1.0);
+    #include <colorspace_fragment>
+  }`;
+
+/** Gives every light of the scene its glow and its streak; returns what keeps their waves moving, and their number. */
+export function addLights(root) {
+  const time = { value: 0 };
+  const found = [];
+  root.traverse((node) => {
+    if (typeof node.userData.light === "string") found.push(node);
+  });
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(quad, 3));
+  geometry.setIndex([0, 1, 2, 0, 2, 3]);
+  for (const node of found) {
+    const { colour, start, arc } = node.userData;
+    for (const mirror of [0, 1]) {
+      const mesh = new THREE.Mesh(geometry, new THREE.ShaderMaterial({
+        uniforms: {
+          uLamps: LIGHT.uLamps, uTime: time, uMirror: { value: mirror }, uColour: { value: new THREE.Color(colour) },
+          uSector: { value: new THREE.Vector2(start, arc).multiplyScalar(Math.PI / 180) },
+        },
+        vertexShader: VERTEX, fragmentShader: FRAGMENT, side: THREE.DoubleSide,
+        transparent: true, depthWrite: false, blending: THREE.AdditiveBlending,
+      }));
+      mesh.frustumCulled = false;
+      mesh.renderOrder = 5;
+      node.add(mesh);
+    }
+  }
+  return { count: found.length, update: (now) => (time.value = now) };
+}

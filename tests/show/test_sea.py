@@ -1,0 +1,166 @@
+"""Sea, sky, cameras and effects of the replay page: what must hold of pictures that are made for the eye."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from selenium.webdriver import Chrome
+
+from shipcollision_fmu.ship.frames import Array, rotation_from_quaternion
+from shipcollision_fmu.show.page import write_page
+from shipcollision_fmu.show.scene.scene import Scene, load_scene
+from tests.show.browser import Page
+from tests.show.conftest import MakeRun
+
+pytestmark = pytest.mark.needs("pybullet")
+
+LUMINANCE = """
+    const canvas = document.getElementById("picture"), gl = canvas.getContext("webgl2");
+    const pixels = new Uint8Array(4 * canvas.width * canvas.height);
+    gl.readPixels(0, 0, canvas.width, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+    let sum = 0;
+    for (let i = 0; i < pixels.length; i += 4) {
+      sum += 0.2126 * pixels[i] + 0.7152 * pixels[i + 1] + 0.0722 * pixels[i + 2];
+    }
+    return (4 * sum) / pixels.length;
+"""
+
+
+@pytest.fixture(scope="module")
+def scene(guan2014: Path) -> Scene:
+    return load_scene(guan2014)
+
+
+@pytest.fixture(scope="module")
+def opened(browser: Chrome, guan2014: Path) -> Page:
+    return Page(browser, write_page(guan2014), "plain=yes&camera=all&t=0", (640, 440))
+
+
+@pytest.fixture
+def page(opened: Page) -> Page:
+    """The page of the paper's run, in the plain picture, by day, seen as at first."""
+    opened.open()
+    opened.run("replay.sky('day'); replay.seek(0); replay.camera('all'); replay.drawn()")
+    return opened
+
+
+def eye(page: Page) -> Array:
+    return np.array(page.run("return replay.drawn().eye"))
+
+
+def place(page: Page, scene: Scene, ship: str, point: Array) -> Array:
+    """A point of a ship's b in n, as the ship is drawn."""
+    pose: dict[str, Any] = page.run("return replay.drawn().poses")[ship]
+    found: Array = np.array(pose["position"]) + rotation_from_quaternion(np.array(pose["quaternion"])) @ point
+    return found
+
+
+def test_day_dusk_and_night_are_darker_in_this_order(page: Page) -> None:
+    light = {}
+    for sky in ("day", "dusk", "night"):
+        page.run("replay.sky(arguments[0]); replay.drawn()", sky)
+        light[sky] = page.run(LUMINANCE)
+    assert light["day"] > 1.15 * light["dusk"]
+    assert light["dusk"] > 2.0 * light["night"]
+    assert light["night"] > 2.0
+    assert page.run("return document.getElementById('sky').value") == "night"
+    assert page.complaints() == []
+
+
+def test_the_first_view_is_low_with_sky_over_the_ships(page: Page, scene: Scene) -> None:
+    at = eye(page)
+    middle = np.mean([place(page, scene, ship.name, np.zeros(3)) for ship in scene.ships], axis=0)
+    away = middle - at
+    height, distance = -at[2], float(np.hypot(*away[:2]))
+    assert 3.0 < height < 0.15 * distance
+    horizon = at + 50_000.0 * away / distance
+    width, tall = page.run("const c = document.getElementById('picture'); return [c.clientWidth, c.clientHeight]")
+    x, y = page.run("return replay.project(arguments[0])", [float(horizon[0]), float(horizon[1]), 0.0])
+    assert abs(x - 0.5 * width) < 0.25 * width
+    assert 0.25 < y / tall < 0.5  # so much of the picture is sky
+
+
+def test_the_impact_is_seen_low_from_outside_the_opened_side(page: Page, scene: Scene) -> None:
+    page.run("replay.seek(arguments[0]); replay.camera('impact')", scene.events[0].time + 1.0)
+    effect = scene.effects[0]
+    point, beside = (place(page, scene, effect.ship, effect.point + k * effect.outwards) for k in (0.0, 1.0))
+    away = eye(page) - point
+    assert away[:2] @ (beside - point)[:2] > 0.3 * np.hypot(*away[:2])
+    assert -eye(page)[2] < 0.35 * np.hypot(*away[:2])
+    for ship in scene.ships:
+        origin, ahead = place(page, scene, ship.name, np.zeros(3)), place(page, scene, ship.name, np.array([1.0, 0, 0]))
+        along = (eye(page) - origin)[:2] @ (ahead - origin)[:2]
+        across = np.sqrt(max(0.0, float(np.sum((eye(page) - origin)[:2] ** 2)) - along**2))
+        assert abs(along) > 0.5 * ship.L_oa or across > 0.5 * ship.B
+
+
+@pytest.mark.parametrize("sky", ["dusk", "night"])
+def test_scrubbing_back_brings_the_same_sea_and_sky(page: Page, sky: str) -> None:
+    page.run("replay.sky(arguments[0]); replay.camera('impact')", sky)
+    page.slide(1.0)
+    first = page.fingerprint()
+    page.slide(4.0)
+    assert page.fingerprint() != first
+    page.slide(1.0)
+    assert page.fingerprint() == first
+
+
+def test_the_water_is_white_behind_a_ship_under_way_and_not_abeam(page: Page, scene: Scene) -> None:
+    own = scene.ships[0]
+    page.run("replay.camera('ship-0')")
+    page.slide(0.2)
+    astern, abeam = (
+        place(page, scene, own.name, np.array(point)) * [1, 1, 0]
+        for point in ([-0.54 * own.L_oa, 0, 0], [-0.54 * own.L_oa, 2.0 * own.B, 0])
+    )
+    assert sum(page.colour(astern, half=1)) > sum(page.colour(abeam, half=1)) + 60
+
+
+def test_an_impact_passes_in_slow_motion_and_the_clock_says_so(page: Page, scene: Scene) -> None:
+    page.run("replay.seek(arguments[0])", scene.events[0].time)
+    shown = "return document.querySelector('.clock .rate').textContent"
+    assert page.run("return replay.rate") == 0.25
+    assert page.run(shown) == "0.25\u00d7"
+    page.run("replay.slow(false)")
+    assert page.run("return replay.rate") == 1.0
+    assert page.run(shown) == ""
+    page.run("replay.slow(true); replay.seek(arguments[0])", scene.end)
+    assert page.run("return replay.rate") == 1.0
+
+
+def test_a_gentle_contact_raises_dust_and_spray_and_sets_nothing_on_fire(browser: Chrome, meeting: MakeRun) -> None:
+    folder = meeting()
+    scene = load_scene(folder)
+    start = min(effect.time for effect in scene.effects)
+    gentle = Page(browser, write_page(folder), "plain=yes", (500, 440))
+    assert {effect["kind"] for effect in gentle.run("return replay.data.effects")} == {"dust", "splash"}
+    assert gentle.slide(start - 0.01)["effects"] == 0
+    assert gentle.slide(start + 0.02)["effects"] == 2
+
+
+def test_sparks_fly_while_a_scratch_is_drawn(page: Page, scene: Scene) -> None:
+    scratch = scene.scratches[0]
+    drawn = [page.slide(t)["sparks"] for t in (scratch.times[0] - 0.1, scratch.times[-1], scratch.times[-1] + 3.0)]
+    assert drawn[0] == drawn[2] == 0
+    assert drawn[1] > 0
+
+
+def test_lights_burn_at_night_at_their_places(page: Page, scene: Scene) -> None:
+    """A masthead light shines out of the dark; by day it does not."""
+    ship = scene.ships[0]
+    assert page.run("return replay.drawn().lights") == sum(len(ship.lights) for ship in scene.ships) > 0
+    at = eye(page)
+    pose = page.run("return replay.drawn().poses")[ship.name]
+    toward = rotation_from_quaternion(np.array(pose["quaternion"])).T @ (at - np.array(pose["position"]))
+    seen = next(light for light in ship.lights if light.kind.startswith("mast") and light.is_seen_from(toward))
+    point = place(page, scene, ship.name, seen.point)
+    day = page.colour(point, half=1)
+    page.run("replay.sky('night'); replay.drawn()")
+    night = page.colour(point, half=1)
+    around = page.colour(point + np.array([0.0, 0.0, -12.0]), half=1)
+    assert min(night) > max(around) + 30
+    page.run("replay.sky('day'); replay.drawn()")
+    assert page.colour(point, half=1) == day
