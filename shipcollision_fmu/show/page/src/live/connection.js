@@ -1,6 +1,6 @@
 // The WebSocket to the server: messages in, requests with answers out. It connects again by itself.
 
-const SILENCE = 6; // looks without a message between them, after which the server is taken for lost: it sends 20 a second
+const SILENCE = 6; // looks without a message between them, after which it is lost: open, or not open yet
 const LOOK = 500; // between two looks [ms]; looks are counted, as a page that is busy itself hears nothing meanwhile
 const WAITS = [300, 600, 1200, 2500]; // before the next try [ms]
 const ANSWER = 5000; // longest wait for an answer [ms]
@@ -13,12 +13,12 @@ export class Connection {
     const scheme = location.protocol === "https:" ? "wss:" : "ws:";
     this.address = `${scheme}//${location.host}/ws?token=${encodeURIComponent(token)}&role=${role}`;
     this.connect();
-    setInterval(() => this.isOpen && ++this.silent > SILENCE && this.drop(), LOOK);
+    setInterval(() => this.socket !== null && ++this.silent > SILENCE && this.drop(), LOOK);
   }
 
   connect() {
     const socket = new WebSocket(this.address);
-    this.socket = socket;
+    Object.assign(this, { socket, silent: 0 });
     socket.onopen = () => {
       Object.assign(this, { tries: 0, isOpen: true, silent: 0 });
       this.hear("open", {});
@@ -37,7 +37,7 @@ export class Connection {
     const { socket } = this;
     socket.onclose = socket.onmessage = null;
     socket.close();
-    this.isOpen = false;
+    Object.assign(this, { socket: null, isOpen: false });
     for (const { reject } of this.asked.values()) reject(new Error("the connection was lost"));
     this.asked.clear();
     if (this.isOver) return;
