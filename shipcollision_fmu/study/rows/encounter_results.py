@@ -8,13 +8,24 @@ import numpy as np
 import numpy.typing as npt
 
 from ...batch.encounter_tables import Encounters
+from ...batch.encounters import run_encounters
 from ...cosim.run import Run
 from ...fmi.names import STATE
+from ...scenario.scenario import Scenario
+from .python_run import run_python
 from .results import MOTION, Results
 
-__all__ = ["put_encounters", "put_run"]
+__all__ = ["put_encounters", "put_run", "run_scenario"]
 
 Values = npt.NDArray[Any]
+
+
+def run_scenario(results: Results, place: int, scenario: Scenario, separation: float | None) -> None:
+    """Run the scenario of a case and put what comes of it at the place. Raises InputError, StepError."""
+    if results.engine == "native":
+        put_encounters(results, np.array([place]), run_encounters([scenario], separation=separation))
+    else:
+        put_run(results, place, run_python(scenario, separation))
 
 
 def put_encounters(results: Results, places: npt.NDArray[np.intp], tables: Encounters) -> None:

@@ -13,11 +13,10 @@ from ...scenario.scenario import Scenario
 from ...scenario.tables.collision import Collision
 from ..definition.study import Study
 from .cases import Cases
-from .encounter_results import put_encounters, put_run
+from .encounter_results import put_encounters, run_scenario
 from .fleet_ships import FleetShip
 from .impact_rows import PAIRS, as_cases
 from .pairs import group_pairs, refuse_all
-from .python_run import run_python
 from .results import Results
 from .ship_folder import ShipFolder
 
@@ -71,7 +70,7 @@ def _run_python(study: Study, own: FleetShip, target: FleetShip, places: Places,
                 continue
             try:
                 scenario = make_coasting_scenario(study, files, row, results.cases, int(place))
-                put_run(results, int(place), run_python(scenario, study.run.separation))
+                run_scenario(results, int(place), scenario, study.run.separation)
             except (InputError, StepError) as error:
                 results.refuse(int(place), folder.name_ships(str(error)))
 

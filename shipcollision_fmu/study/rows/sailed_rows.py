@@ -8,18 +8,14 @@ from __future__ import annotations
 from math import isfinite
 from typing import Any
 
-import numpy as np
-
-from ...batch.encounters import run_encounters
 from ...encounters.encounter import encounter
 from ...errors import InputError, StepError
 from ...scenario.scenario import Scenario
 from ..definition.study import Study
 from ..definition.variables import NUMBERS
 from .cases import Cases
-from .encounter_results import put_encounters, put_run
+from .encounter_results import run_scenario
 from .fleet_ships import find_ship
-from .python_run import run_python
 from .results import Results
 from .ship_folder import ShipFolder
 
@@ -35,12 +31,9 @@ def run_sailed(study: Study, cases: Cases, engine: str) -> Results:
     with ShipFolder() as folder:
         for place in range(len(cases)):
             try:
-                scenario = make_sailed_scenario(study, cases, place, folder)
-                if engine == "native":
-                    tables = run_encounters([scenario], separation=study.run.separation)
-                    put_encounters(results, np.array([place]), tables)
-                else:
-                    put_run(results, place, run_python(scenario, study.run.separation))
+                run_scenario(
+                    results, place, make_sailed_scenario(study, cases, place, folder), study.run.separation
+                )  # fmt: skip
             except (InputError, StepError) as error:
                 results.refuse(place, folder.name_ships(str(error)))
     return results

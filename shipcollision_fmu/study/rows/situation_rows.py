@@ -7,9 +7,6 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-import numpy as np
-
-from ...batch.encounters import run_encounters
 from ...encounters.traffic.situation import traffic_scenario
 from ...errors import InputError, StepError
 from ...scenario.scenario import Scenario, load_scenario
@@ -17,9 +14,8 @@ from ...scenario.tables.environment import CurrentTable, WindTable
 from ..definition.study import Study
 from ..definition.variables import SAILED
 from .cases import Cases
-from .encounter_results import put_encounters, put_run
+from .encounter_results import run_scenario
 from .fleet_ships import find_ship
-from .python_run import run_python
 from .results import Results
 from .ship_folder import ShipFolder
 
@@ -47,13 +43,8 @@ def run_situations(study: Study, cases: Cases, engine: str) -> Results:
             if isinstance(scenario, str):
                 results.refuse(place, scenario)
                 continue
-            scenario = draw_into(scenario, cases, place)
             try:
-                if engine == "native":
-                    tables = run_encounters([scenario], separation=study.run.separation)
-                    put_encounters(results, np.array([place]), tables)
-                else:
-                    put_run(results, place, run_python(scenario, study.run.separation))
+                run_scenario(results, place, draw_into(scenario, cases, place), study.run.separation)
             except (InputError, StepError) as error:
                 results.refuse(place, ships.name_ships(str(error)))
     return results
