@@ -196,7 +196,7 @@ export async function startBridge() {
     shown = state;
     if (viewer && !isChartLarge()) {
       addNewEffects(state);
-      viewer.setPlaying?.(!session.state.paused); // a plain picture may have fewer pixels while the ships move
+      viewer.setPlaying(!session.state.paused); // a plain picture may have fewer pixels while the ships move
       viewer.show(state.time);
     }
     if (now >= numbers.next) {
