@@ -110,28 +110,28 @@ def test_files_of_other_origin_are_kept(tmp_path: Path) -> None:
     assert "mine holds scenario.toml of other origin" in result.stderr
 
 
+COMMAND = """
+import signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell that starts the tests may have it ignored
+from shipcollision_fmu.__main__ import main
+sys.argv = ["shipcollision", "live", "--no-browser", "--port", "0", "--rate", "20", "--out", "run"]
+main()
+"""
+
+
 def test_ctrl_c_ends_and_stores_the_run(tmp_path: Path) -> None:
-    command = [
-        sys.executable,
-        "-m",
-        "shipcollision_fmu",
-        "live",
-        "--no-browser",
-        "--port",
-        "0",
-        "--rate",
-        "20",
-        "--out",
-        "run",
-    ]
+    command = [sys.executable, "-c", COMMAND]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None
-        bridge = process.stdout.readline().partition(": ")[2].strip()
-        assert process.stdout.readline().startswith("instructor: http://127.0.0.1:")
-        assert process.stdout.readline() == "Ctrl-C ends the run and stores it\n"
-        assert b"live.js" in urllib.request.urlopen(bridge, timeout=20).read()
-        process.send_signal(signal.SIGINT)
-        out, errors = process.communicate(timeout=60)
+        try:
+            bridge = process.stdout.readline().partition(": ")[2].strip()
+            assert process.stdout.readline().startswith("instructor: http://127.0.0.1:")
+            assert process.stdout.readline() == "Ctrl-C ends the run and stores it\n"
+            assert b"live.js" in urllib.request.urlopen(bridge, timeout=20).read()
+            process.send_signal(signal.SIGINT)
+            out, errors = process.communicate(timeout=60)
+        finally:
+            process.kill()
         assert (process.returncode, errors) == (0, "")
     assert out == "stored in run: run/scenario.toml gives the same run again\n"
     assert (tmp_path / "run" / "replay.html").is_file()
