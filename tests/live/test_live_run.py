@@ -274,7 +274,7 @@ def test_current_and_wind_that_are_refused(
 
 
 def test_ships_that_coast_take_no_orders_and_no_wind() -> None:
-    with closing(LiveRun(load_scenario("guan2014"))) as run:
+    with closing(LiveRun(load_scenario("guan2014_added_mass"))) as run:
         with pytest.raises(InputError, match="own takes no orders, it coasts, follows a track or has no rudder and"):
             run.bridges["own"].order(1.0, None, None, None)
         with pytest.raises(

@@ -366,6 +366,7 @@ def draw_message(rng: random.Random) -> str | bytes:
     return text
 
 
+@pytest.mark.slow
 def test_ten_thousand_random_messages_never_stop_it(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(access, "PER_SECOND", 1e9)
     monkeypatch.setattr(access, "AT_ONCE", 1e9)

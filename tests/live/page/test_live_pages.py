@@ -321,6 +321,7 @@ def test_a_server_that_is_gone_is_said_and_found_again(bridge: BridgePage) -> No
     bridge.driver.get("about:blank")
 
 
+@pytest.mark.slow
 def test_contact_is_seen_and_heard_at_once(browser: Chrome, scenario_file: Write) -> None:
     """Three times the same contact, by going back to the start: the median, as the machine may be busy meanwhile."""
     began: list[float] = []

@@ -180,6 +180,7 @@ def test_the_worst_ten_run_again_by_their_lines(finished: Path, folder: Path, mo
     assert re.findall(r'<a href="(replays/[^"]+)">', read_page(folder)) == [page]  # that of the others is a line still
 
 
+@pytest.mark.slow
 def test_the_page_leads_to_the_replays(folder: Path, browser: Chrome) -> None:
     """The links of the ten worst cases open pages that show their ships, from a file."""
     assert called("show", folder).exit_code == 0
@@ -235,6 +236,7 @@ def test_figures_of_an_earlier_report_do_not_stay(folder: Path) -> None:
     assert names >= {"mine.png", "exceedance_energy.txt", "exceedance_energy.svg"}
 
 
+@pytest.mark.slow
 def test_a_study_of_situations_is_shown(tmp_path: Path) -> None:
     test_situations.write_situations(tmp_path)
     more = 'friction = {distribution = "uniform", least = 0.1, most = 0.6}'
