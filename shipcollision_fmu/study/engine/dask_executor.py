@@ -76,7 +76,7 @@ class DaskExecutor:
         started without one has an address all the same."""
         link = str(self._client.dashboard_link)
         try:
-            with urlopen(link, timeout=LOOK):
+            with urlopen(f"{link}/metadata", timeout=LOOK):  # the page itself costs the scheduler as much as a batch
                 return link
         except (OSError, ValueError):
             return None
