@@ -64,6 +64,8 @@ class Page:
         self.driver.get(self._address)
         self.wait("return document.body?.dataset.ready")
         assert self.run("return document.body.dataset.ready") == "true", self.complaints()
+        for _ in range(2):  # what is drawn once its size is known comes after the first frame's scripts
+            self.wait_for_frame()
 
     def wait(self, script: str) -> None:
         """Until JavaScript returns something true."""

@@ -151,27 +151,54 @@ def test_the_impact_is_seen(guan2014: Path, tmp_path: Path, monkeypatch: pytest.
     assert said == []
 
 
+def painted(pixels: np.ndarray, name: str) -> np.ndarray:
+    """Middles (k, 2) of the pixels in a paint that no light changes."""
+    paint = np.array(convert_to_display(find_paint(name).colour)) * 255
+    rows, columns = np.nonzero(np.abs(pixels.astype(int) - paint).max(axis=2) <= 3)
+    return np.column_stack([columns, rows]) + 0.5
+
+
+def find_least(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Distance (k,) of each point of `a` to the nearest of `b`; none is near where there are none."""
+    return np.linalg.norm(a[:, None, :2] - b[:, :2], axis=2).min(axis=1, initial=np.inf)
+
+
 def test_the_end_is_seen(guan2014: Path, tmp_path: Path) -> None:
-    """After: the ships where the run ends, the scratch on the target's side. Without effects, which would hide it."""
+    """After: the ships where the run ends, and what the bow leaves to be seen of the scratch, there and nowhere else.
+    Without effects, which would hide it."""
     scene = replace(load_scene(guan2014), effects=())
-    paint = np.array(convert_to_display(find_paint("scratch").colour)) * 255
     scratch = next(scratch for scratch in scene.scratches if scratch.ship == "target")
     with viewer(scene, tmp_path) as (shown, said):
         eye = eye_at(tmp_path, scene.end + build_osg_files(scene).delay)
         reds, blues = (expected(scene, eye, scene.end, f"topsides {k}") for k in (1, 0))
-        seen = eye.project(placed(scene.ship("target"), scene.end, scratch.points))
+        line = eye.project(placed(scene.ship("target"), scene.end, scratch.points))
 
         def ended(pixels: np.ndarray) -> bool:
-            """Ships in their last places, the scratch drawn, and none where there is none."""
-            rows, columns = np.nonzero(np.abs(pixels.astype(int) - paint).max(axis=2) <= 3)
-            away = np.hypot(columns[:, None] + 0.5 - seen[:, 0], rows[:, None] + 0.5 - seen[:, 1]).min(axis=1)
             in_place = agreement(red(pixels), reds) > 0.93 and agreement(blue(pixels), blues) > 0.85
-            return in_place and 10 < len(rows) < 400 and bool(away.max() < 6.0)
+            scratched = painted(pixels, "scratch")
+            return in_place and len(scratched) > 0 and bool(find_least(scratched, line).max() < 6.0)
 
         assert ended(wait(shown, ended))
     assert said == []
     there = expected(scene, eye_at(tmp_path, 0.0), scene.start, "topsides 1")
     assert agreement(there, reds) < 0.8  # before the run the same picture would not do
+
+
+def test_the_whole_scratch_is_seen_without_the_ship_that_made_it(guan2014: Path, tmp_path: Path) -> None:
+    """Every point of its line, once the run is over, and none elsewhere."""
+    whole = load_scene(guan2014)
+    scratch = next(scratch for scratch in whole.scratches if scratch.ship == "target")
+    scene = replace(whole, ships=(whole.ship("target"),), scratches=(scratch,), events=(), effects=())
+    with viewer(scene, tmp_path) as (shown, said):
+        eye = eye_at(tmp_path, scene.end + build_osg_files(scene).delay)
+        line = eye.project(placed(scene.ship("target"), scene.end, scratch.points))
+
+        def ended(pixels: np.ndarray) -> bool:
+            scratched = painted(pixels, "scratch")
+            return bool(find_least(line, scratched).max() < 2.0 and find_least(scratched, line).max() < 6.0)
+
+        assert ended(wait(shown, ended))
+    assert said == []
 
 
 def test_osgconv_reads_it_and_makes_a_binary_scene(kvlcc2_crossing: Path, tmp_path: Path) -> None:
