@@ -5,12 +5,16 @@ from __future__ import annotations
 import base64
 import csv
 import json
+import re
+import shlex
+import subprocess
 import time
 from math import degrees
 from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
 from selenium.webdriver import ActionChains, Chrome, Keys
 from selenium.webdriver.common.by import By
 
@@ -31,6 +35,7 @@ from .foreign import with_many_collisions, with_names
 CENTIMETRE = 0.01
 SMALL = (500, 440)
 """Size of the window [pixels] where drawing takes long without a graphics card."""
+IMAGES = Path(__file__).parents[2] / "docs" / "images"
 TIMES = ("before", "during", "after")
 
 
@@ -387,3 +392,23 @@ def test_licences_of_what_is_bundled_are_in_the_page(guan2014: Path) -> None:
     assert "Copyright © 2010-20" in page  # three.js
     assert "Leon Sorokin" in page  # uPlot
     assert page.count("Permission is hereby granted") >= 2
+
+
+@pytest.mark.slow
+@pytest.mark.needs("chromium")
+def test_the_first_picture_is_the_one_that_its_command_makes(kvlcc2_crossing: Path, tmp_path: Path) -> None:
+    """docs/images/kvlcc2_crossing.jpg, by the command in docs/guide/pictures.md."""
+    write_page(kvlcc2_crossing)
+    guide = (IMAGES.parent / "guide" / "pictures.md").read_text(encoding="utf-8")
+    lines = re.search(r"^chromium .*?replay.html#[^\n]*$", guide, re.DOTALL | re.MULTILINE)
+    assert lines is not None
+    words = shlex.split(lines.group().replace("\\\n", "").replace("$PWD/runs/kvlcc2_crossing", str(kvlcc2_crossing)))
+    taken = tmp_path / "kvlcc2_crossing.png"
+    subprocess.run(
+        [*words, "--no-sandbox", f"--user-data-dir={tmp_path / 'profile'}"], cwd=tmp_path, check=True, timeout=300
+    )
+    there, made = (
+        np.asarray(Image.open(path).convert("RGB")).astype(int) for path in (IMAGES / "kvlcc2_crossing.jpg", taken)
+    )
+    assert there.shape == made.shape == (720, 1280, 3)
+    assert np.abs(there - made).mean() < 4.0

@@ -88,7 +88,7 @@ def test_hundred_collisions_and_odd_names(guan2014: Path, tmp_path: Path) -> Non
 
 
 @pytest.mark.slow
-def test_the_picture_of_the_readme_is_the_still_that_its_command_makes(scene: Scene) -> None:
+def test_the_picture_of_the_guide_is_the_still_that_its_command_makes(scene: Scene) -> None:
     """docs/images/guan2014.png, by `shipcollision show runs/guan2014 --still 1.4`; other versions of numpy and Pillow
     may round otherwise."""
     path = Path(__file__).parents[3] / "docs" / "images" / "guan2014.png"
