@@ -71,7 +71,7 @@ def test_run_stores_and_shows_what_happened(folder: Path, how: list[str]) -> Non
     assert "[m/s]" in result.stdout
     assert {path.name for path in (folder / "runs" / "encounter").iterdir()} == {
         "states.csv", "contacts.csv", "signals.csv", "events.json", "bodies.json", "summary.json", "timing.json",
-        "replay.html",
+        "machinery.csv", "surroundings.csv", "replay.html",
     }  # fmt: skip
     assert "open runs/encounter/replay.html in a browser" in result.stdout.splitlines()[-1]
 

@@ -25,8 +25,9 @@ _IN_CONTACTS = {
 
 
 def columns() -> str:
-    """The columns of states.csv, contacts.csv and signals.csv of a run of the published collision."""
+    """The columns of the tables: of runs of the published collision, and of a ship that sails."""
     run = simulate(load_scenario("guan2014"), in_process=True)
+    sailed = simulate(load_scenario("kvlcc2_crossing"), step=1.0, in_process=True)
     ship = {variable.name: variable for variable in MANOEUVRING.table(())}
     collision = {variable.name: variable for variable in COLLISION.table(SHIPS)}
     time = ("`time`", "s", "communication point; in contacts.csv the end of the step")
@@ -43,11 +44,21 @@ def columns() -> str:
     signals = [time]
     for column in _names(run.signals):
         signals.append((f"`{column}`", collision[column].unit or "", cell(collision[column].description)))
+    machinery, surroundings = [time], [("`time`", "s", "communication point from which the row counts")]
+    for column in _names(sailed.machinery):
+        name = column.partition(".")[2]
+        if column.startswith(f"{SHIPS[0]}."):
+            machinery.append((f"`{column}`", ship[name].unit or "", cell(ship[name].description)))
+    for column in _names(sailed.surroundings):
+        surroundings.append((f"`{column}`", ship[column].unit or "", cell(ship[column].description)))
     header = ("column", "unit", "meaning")
     return (
         f"### states.csv\n\nA row per communication point. Every ship has the columns of `{SHIPS[0]}`.\n\n"
         f"{table(header, states)}\n### contacts.csv\n\nA row per contact point and step.\n\n{table(header, contacts)}\n"
-        f"### signals.csv\n\nA row per communication point.\n\n{table(header, signals)}"
+        f"### signals.csv\n\nA row per communication point.\n\n{table(header, signals)}\n"
+        f"### machinery.csv\n\nA row per communication point. Every ship that sails has the columns of `{SHIPS[0]}`; "
+        f"without such a ship there are no rows.\n\n{table(header, machinery)}\n"
+        f"### surroundings.csv\n\nA row for the start, and one for each change.\n\n{table(header, surroundings)}"
     )
 
 

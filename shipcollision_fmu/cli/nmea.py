@@ -12,6 +12,11 @@ from .options import PATH
 __all__ = ["nmea"]
 
 FILE = "run.nmea"
+LEFT_OUT = (
+    ((b"RSA,", b"RPM,"), "left out: rudder and revolutions (RSA, RPM), which machinery.csv does not have of this ship"),
+    ((b"MWV,",), "left out: wind (MWV), as the folder has no surroundings.csv"),
+)
+"""Kinds of sentences, and the line where the log has none of them."""
 
 
 @click.command()
@@ -22,8 +27,8 @@ FILE = "run.nmea"
 def nmea(folder: Path, ship: str | None, tags: bool, out: Path | None) -> None:
     """Write a run's NMEA and AIS sentences.
 
-    DIR is its folder. Charting programs replay the log: own ship by RMC, GGA, VTG, HDT and ROT, all ships by AIS. A
-    scenario's [place] says where and when; without it the ships are at 54 N 7 E on 1 January 2026.
+    DIR is its folder. Charting programs replay the log: own ship by RMC, GGA, VTG, HDT, ROT, RSA, RPM and MWV, all
+    ships by AIS. A scenario's [place] says where and when; without it the ships are at 54 N 7 E on 1 January 2026.
     """
     from ..files import write_file
     from ..live.extra import require_protocols
@@ -33,4 +38,6 @@ def nmea(folder: Path, ship: str | None, tags: bool, out: Path | None) -> None:
     log, fleet = write_log(folder, ship, tags=tags)
     path = write_file(out if out is not None else folder / FILE, log)
     say(f"{path}: {log.count(bytes([10]))} sentences of {fleet.own}, and AIS of {len(fleet.identities)} ships")
-    say("not in a run's folder, so left out: rudder, revolutions and wind (RSA, RPM, MWV)")
+    for kinds, said in LEFT_OUT:
+        if not any(kind in log for kind in kinds):
+            say(said)

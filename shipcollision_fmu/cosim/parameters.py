@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from math import radians
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
 
 from ..collision.feedback import PRESCRIBED
 from ..collision.obstacles import format_obstacles
-from ..fmi.names import STATE
+from ..fmi.names import STATE, SURROUNDINGS
 from ..scenario.order_schedule import find_point
 from ..scenario.scenario import Scenario
 from ..scenario.tables.environment import EnvironmentChange, WindTable
@@ -15,6 +19,7 @@ from .component import Value
 
 __all__ = [
     "change_surroundings", "changed_surroundings", "collision_parameters", "ship_parameters", "surroundings",
+    "tabulate_surroundings",
 ]  # fmt: skip
 
 
@@ -38,6 +43,15 @@ def change_surroundings(values: list[float], change: EnvironmentChange) -> list[
     """The surroundings after a change of the surroundings `values`."""
     current = values[:2] if change.current is None else list(map(float, change.current))
     return [*current, *(values[2:] if change.wind is None else _wind_values(change.wind))]
+
+
+def tabulate_surroundings(scenario: Scenario) -> npt.NDArray[Any]:
+    """The same as a structured array: a row at time 0, and one at each time [s] from which another row counts."""
+    rows = {0: surroundings(scenario), **changed_surroundings(scenario)}
+    return np.array(
+        [(round(k * scenario.step, 9), *values) for k, values in rows.items() if k < scenario.steps],
+        dtype=[(column, np.float64) for column in ("time", *SURROUNDINGS)],
+    )
 
 
 def _wind_values(wind: WindTable | None) -> list[float]:

@@ -6,7 +6,7 @@ and contact points only while there are any: reading all of them at every step w
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -14,10 +14,10 @@ import numpy as np
 import numpy.typing as npt
 
 from ..collision.interface import contact_point_count
-from ..fmi.names import CONTACT_INTEGERS, CONTACT_START, IMPULSE, STATE, contact_point, named
+from ..fmi.names import CONTACT_INTEGERS, CONTACT_START, IMPULSE, STATE, STEERING, contact_point, named
 from ..results.record import CONTACT_COLUMNS, SIGNALS, CollisionStart, Record
 from ..ship.frames import Array
-from .component import Group
+from .component import Component, Group
 from .master import System
 from .row_log import RowLog
 
@@ -61,13 +61,15 @@ class RecorderMark(NamedTuple):
 class Recorder:
     """Records a system at steps of `step` [s]: its ships by name, and the obstacles that they meet.
 
+    Of the ships that sail, `sailing` by name, rudder and revolutions are recorded as well.
+
     There is room for `steps` steps at first; more may come. With `spool`, a folder, tables are in temporary files.
     `starts` and `collisions` have the collisions so far by their number.
     """
 
     def __init__(
         self, system: System, names: list[str], step: float, steps: int, obstacles: Sequence[str] = (),
-        spool: Path | None = None,
+        sailing: Mapping[str, Component] | None = None, spool: Path | None = None,
     ) -> None:  # fmt: skip
         self._names, self._step = names, step
         self._bodies = [*names, *obstacles]  # as the collision FMU counts them
@@ -91,6 +93,8 @@ class Recorder:
         ]  # fmt: skip
         self._contact_rows = RowLog(contact_type, room=CONTACT_ROOM, spool=spool)
         self._issued_rows = RowLog(np.float64, 1 + 6 * len(names), CONTACT_ROOM, spool)
+        self._machines = {name: ship.reals(STEERING) for name, ship in (sailing or {}).items()}
+        self._machinery_rows = RowLog(np.float64, 1 + len(self._machines) * len(STEERING), steps + 1, spool)
         self._row = np.zeros(1 + len(names) * len(STATE))
         self.starts: dict[int, CollisionStart] = {}
         self.collisions: dict[int, CollisionSoFar] = {}
@@ -111,6 +115,10 @@ class Recorder:
         self._state_rows.append(row)
         self._signal_group.read()
         self._signal_rows.append((row[0], *self._signal_group.values))
+        if self._machines:
+            self._machinery_rows.append(
+                (row[0], *(value for group in self._machines.values() for value in _read(group)))
+            )
         self._counts.read()
         count, *nearest = self._counts.values
         if (clearance := self._signal_group.values[0]) < self._least:
@@ -142,13 +150,14 @@ class Recorder:
         """What is recorded so far, for go_back()."""
         return RecorderMark(
             len(self._state_rows), len(self._contact_rows), len(self._issued_rows), dict(self.starts),
-            dict(self.collisions),            self._least, list(self._nearest),
+            dict(self.collisions), self._least, list(self._nearest),
         )  # fmt: skip
 
     def go_back(self, mark: RecorderMark) -> None:
         """Forget what was recorded after a mark. The components are to be at the mark already."""
         self._state_rows.truncate(mark.rows)
         self._signal_rows.truncate(mark.rows)
+        self._machinery_rows.truncate(mark.rows if self._machines else 0)
         self._contact_rows.truncate(mark.contacts)
         self._issued_rows.truncate(mark.issued)
         self.starts, self.collisions = dict(mark.starts), dict(mark.collisions)
@@ -174,6 +183,10 @@ class Recorder:
         return Record(
             states=_table(self._state_rows.build_array(), state_columns),
             signals=signals,
+            machinery=_table(
+                self._machinery_rows.build_array(),
+                [column for name in self._machines for column in named(name, STEERING)],
+            ),
             contacts=self._contact_rows.build_array(),
             issued={int(row[0]): row[1:].reshape(-1, 6) for row in self._issued_rows.build_array()},
             starts=self.starts,
@@ -188,7 +201,7 @@ class Recorder:
 
     def close(self) -> None:
         """Remove the temporary files. The record stays valid."""
-        for log in (self._state_rows, self._signal_rows, self._contact_rows, self._issued_rows):
+        for log in (self._state_rows, self._signal_rows, self._machinery_rows, self._contact_rows, self._issued_rows):
             log.close()
 
     def _record_contacts(self, k: int, count: int) -> None:

@@ -18,6 +18,7 @@ __all__ = ["RUN_FILES", "Run"]
 
 RUN_FILES = (
     "states.csv", "contacts.csv", "events.json", "summary.json", "signals.csv", "bodies.json", "timing.json",
+    "machinery.csv", "surroundings.csv",
 )  # fmt: skip
 """Files of a run in its folder."""
 
@@ -29,6 +30,8 @@ class Run:
     states, contacts    NumPy structured arrays; the columns are those of states.csv and contacts.csv
     events, summary     contents of events.json and summary.json
     signals             structured array, that of signals.csv: clearance and dissipated energy over time
+    machinery           structured array, that of machinery.csv: rudder and revolutions of ships that sail
+    surroundings        structured array, that of surroundings.csv: current and wind from the times at which they change
     bodies              contents of bodies.json: hulls, inertias and obstacles
     timing              what differs between runs of the same scenario: mode, wall time [s], real-time factor
     """
@@ -38,6 +41,8 @@ class Run:
     events: dict[str, Any]
     summary: dict[str, Any]
     signals: npt.NDArray[Any]
+    machinery: npt.NDArray[Any]
+    surroundings: npt.NDArray[Any]
     bodies: dict[str, Any]
     timing: dict[str, Any] = field(compare=False)
 
@@ -49,6 +54,7 @@ class Run:
         texts = (
             csv_parts(self.states), csv_parts(self.contacts), json_text(self.events), json_text(self.summary),
             csv_parts(self.signals), json_text(self.bodies), json_text(self.timing),
+            csv_parts(self.machinery), csv_parts(self.surroundings),
         )  # fmt: skip
         write_files(Path(out), dict(zip(RUN_FILES, texts, strict=True)))
 

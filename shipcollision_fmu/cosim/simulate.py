@@ -30,6 +30,7 @@ from .factories import Factories, fmu_factories, model_factories
 from .fmu_files import ready_fmus
 from .interrupt import delay_interrupts
 from .native_fmu_files import write_native_fmus
+from .parameters import tabulate_surroundings
 from .prepared_files import PreparedFiles, prepare_files
 from .run import RUN_FILES, Run
 from .stepper import Stepper
@@ -135,6 +136,8 @@ def build_run(
         events=events,
         summary=build_summary(scenario, ships, record, events, engine),
         signals=record.signals,
+        machinery=record.machinery,
+        surroundings=tabulate_surroundings(scenario),
         bodies=build_bodies(ships, free, scenario.obstacles),
         timing={
             "mode": mode,

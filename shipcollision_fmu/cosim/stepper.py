@@ -37,8 +37,13 @@ class Stepper:
         self.system, helms = connect(scenario, ships, *factories, prepared)
         steered = [name for name in scenario.ships if name not in scenario.tracks]
         self.helms: dict[str, Helm] = dict(zip(steered, helms, strict=True))  # by name
+        sailing = {
+            name: component
+            for (name, start), component in zip(scenario.ships.items(), self.system.ships, strict=True)
+            if start.hydrodynamics and name in steered
+        }
         self.recorder = Recorder(
-            self.system, list(scenario.ships), scenario.step, scenario.steps, list(scenario.obstacles), spool
+            self.system, list(scenario.ships), scenario.step, scenario.steps, list(scenario.obstacles), sailing, spool
         )
         self.k, self.step = 0, scenario.step
         self.most_recorded = MAXIMUM_STEPS

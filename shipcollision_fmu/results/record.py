@@ -35,6 +35,8 @@ class Record:
 
     states     structured array, a row per communication point: time and 12 states per ship
     signals    structured array, a row per communication point: time and SIGNALS
+    machinery  structured array, a row per communication point: time, rudder [rad] and revolutions [1/s] of each ship
+               that sails; no rows where none does
     contacts   structured array, a row per contact point and step; time is the step's end
     issued     by communication point k that ends a step with contact: cumulative impulses (ships, 6) after the step
     starts     by number of the collision
@@ -49,6 +51,7 @@ class Record:
 
     states: npt.NDArray[Any]
     signals: npt.NDArray[Any]
+    machinery: npt.NDArray[Any]
     contacts: npt.NDArray[Any]
     issued: dict[int, Array]
     starts: dict[int, CollisionStart]

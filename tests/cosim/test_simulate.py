@@ -83,7 +83,8 @@ def test_running_twice_gives_the_same_files(scenario_file: Write, tmp_path: Path
     first = compared_files(tmp_path / "first")
     assert first == compared_files(tmp_path / "second")
     assert sorted(first) == [
-        "bodies.json", "contacts.csv", "events.json", "signals.csv", "states.csv", "summary.json",
+        "bodies.json", "contacts.csv", "events.json", "machinery.csv", "signals.csv", "states.csv", "summary.json",
+        "surroundings.csv",
     ]  # fmt: skip
     assert json.loads((tmp_path / "first" / "timing.json").read_text())["mode"] == "FMU"
 

@@ -193,7 +193,9 @@ def test_every_column_and_key_of_a_run_is_on_its_page() -> None:
     text = page("reference/run-folder.md")
     first = f"{SHIPS[0]}."
     columns = [column for column in run.states.dtype.names if column == "time" or column.startswith(first)]
-    for name in (*columns, *run.contacts.dtype.names, *run.signals.dtype.names, *run.summary, *run.timing):
+    sailed = simulate(load_scenario("kvlcc2_crossing"), step=1.0, in_process=True)
+    conning = (*sailed.machinery.dtype.names[:3], *sailed.surroundings.dtype.names)
+    for name in (*columns, *run.contacts.dtype.names, *run.signals.dtype.names, *conning, *run.summary, *run.timing):
         assert f"`{name}`" in text, name
 
 

@@ -22,12 +22,19 @@ import pytest
 from shipcollision_fmu import simulate
 from shipcollision_fmu.live.protocols.feeds import Fleet, NmeaFeed
 from shipcollision_fmu.live.protocols.run_log import list_samples, make_fleet, write_log
-from shipcollision_fmu.live.protocols.sample import Sample, Wind
+from shipcollision_fmu.live.protocols.sample import Sample
+from shipcollision_fmu.scenario.scenario import parse_scenario
 from shipcollision_fmu.scenario.tracks.tangent_plane import TangentPlane
 from shipcollision_fmu.show.scene.run_folder import read_run_folder
 
 KNOT = 1852.0 / 3600.0
-WIND = Wind(9.7, radians(250.0))
+ORDERS = "  { time = 60.0, rudder_deg = 35.0 },\n  { time = 80.0, rudder_deg = -12.3, rev_per_s = 0.517 },\n"
+ENVIRONMENT = """
+[environment]
+wind = {speed = 9.7, from_deg = 250.0}
+changes = [{time = 70.0, wind = {speed = 14.2, from_deg = 10.0}}]
+"""
+SCENARIOS = Path(__file__).parents[2] / "models" / "scenarios"
 LATITUDE, LONGITUDE = 54.0, 7.0
 
 
@@ -49,16 +56,17 @@ class Log(NamedTuple):
 
 @pytest.fixture(scope="module")
 def log(tmp_path_factory: pytest.TempPathFactory) -> Log:
-    """The shipped crossing, with rudder, revolutions and wind that change, which its folder does not hold."""
+    """The shipped crossing in a wind that changes; own's rudder and revolutions change after the impact, too."""
     folder = tmp_path_factory.mktemp("crossing")
-    simulate("kvlcc2_crossing", in_process=True, out=folder)
+    text = (SCENARIOS / "kvlcc2_crossing.toml").read_text(encoding="utf-8")
+    astern = "  { time = 10.0, rev_per_s = -0.8 },\n"
+    assert astern in text
+    simulate(parse_scenario(text.replace(astern, astern + ORDERS) + ENVIRONMENT, "windy"), in_process=True, out=folder)
     run = read_run_folder(folder)
     fleet = make_fleet(run)
     feed, sent = NmeaFeed(fleet), list[Sent]()
     for sample in list_samples(run):
-        own = sample.ships["own"]._replace(rudder=0.6 * sin(sample.time), rev_per_s=1.2 * cos(0.1 * sample.time))
-        full = sample._replace(ships={**sample.ships, "own": own}, wind=WIND)
-        sent += [Sent(full, sentence) for sentence in feed.take(full)]
+        sent += [Sent(sample, sentence) for sentence in feed.take(sample)]
     return Log(folder, fleet, sent)
 
 
@@ -148,6 +156,7 @@ def test_gpsdecode_reads_ais(log: Log) -> None:
 
 def test_pynmea2_reads_what_gpsdecode_does_not_show(log: Log) -> None:
     seen = dict.fromkeys(("VTG", "ROT", "RSA", "RPM", "MWV", "RMC", "GGA", "HDT"), 0)
+    rudders: list[float] = []
     for sample, sentence in log.sent:
         kind = sentence[3:6].decode()
         if kind not in seen:
@@ -164,6 +173,7 @@ def test_pynmea2_reads_what_gpsdecode_does_not_show(log: Log) -> None:
             assert float(read.rate_of_turn) == pytest.approx(60.0 * degrees(ship.state.yaw_rate), abs=0.0501)
         elif kind == "RSA":
             assert ship.rudder is not None
+            rudders.append(ship.rudder)
             assert float(read.rsa_starboard) == pytest.approx(degrees(ship.rudder), abs=0.0501)
         elif kind == "RPM":
             assert ship.rev_per_s is not None
@@ -174,6 +184,8 @@ def test_pynmea2_reads_what_gpsdecode_does_not_show(log: Log) -> None:
             assert apart(float(read.heading), degrees(ship.state.heading) + turned(sample, "own")) <= 0.051
         else:
             assert (read.latitude, read.longitude) == pytest.approx(where(sample, "own"), abs=1e-7)
+    assert min(rudders) == pytest.approx(radians(-12.3))
+    assert max(rudders) == pytest.approx(radians(35.0))
     assert seen["HDT"] == seen["ROT"] >= 10 * seen["RMC"] - 10
     assert seen["RMC"] == seen["GGA"] == seen["VTG"] == seen["RPM"] == seen["MWV"] // 2
     assert seen["RSA"] >= 2 * seen["RMC"] - 1
@@ -182,7 +194,9 @@ def test_pynmea2_reads_what_gpsdecode_does_not_show(log: Log) -> None:
 def check_wind(read: Any, sample: Sample) -> None:
     """Felt wind is the wind over ground less the ship's velocity; angles are where it comes from, against the bow."""
     state = sample.ships["own"].state
-    over_ground = -WIND.speed * cos(WIND.comes_from), -WIND.speed * sin(WIND.comes_from)
+    assert sample.wind is not None
+    assert sample.wind == ((9.7, radians(250.0)) if sample.time < 70.0 else (14.2, radians(10.0)))
+    over_ground = -sample.wind.speed * cos(sample.wind.comes_from), -sample.wind.speed * sin(sample.wind.comes_from)
     v = over_ground
     if read.reference == "R":
         v = over_ground[0] - state.plan_velocity[0], over_ground[1] - state.plan_velocity[1]

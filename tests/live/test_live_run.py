@@ -15,7 +15,10 @@ from shipcollision_fmu.errors import InputError
 from shipcollision_fmu.live.session.live_run import MOST_MARKS, LiveRun
 from shipcollision_fmu.live.session.run_folder import write_run
 
-FILES = ("states.csv", "contacts.csv", "events.json", "signals.csv", "summary.json", "bodies.json")
+FILES = (
+    "states.csv", "contacts.csv", "events.json", "signals.csv", "summary.json", "bodies.json", "machinery.csv",
+    "surroundings.csv",
+)  # fmt: skip
 
 
 @pytest.fixture

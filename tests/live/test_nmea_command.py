@@ -43,6 +43,29 @@ def test_the_log_has_place_time_and_identity(folder: Path) -> None:
     assert "ais" not in summary["ships"]["target"]
 
 
+def test_rudder_revolutions_and_wind_are_those_of_the_folder(tmp_path: Path) -> None:
+    simulate("kvlcc2_crossing", in_process=True, out=tmp_path)
+    result = nmea(tmp_path, "--ship", "target")
+    assert result.output.count("\n") == 1
+    log = (tmp_path / "run.nmea").read_bytes()
+    assert b"$IIRSA,-20.0,A,,V*" in log  # ordered at 45 s
+    assert b"$IIRPM,S,0,46.1,,A*" in log  # 0.769 1/s
+    assert log.count(b"MWV,") == 2 * log.count(b"RPM,") == 2 * 151
+
+
+def test_what_the_folder_does_not_hold_is_left_out_and_said(folder: Path) -> None:
+    """Barges that coast have no rudder; another master need not write the wind."""
+    assert nmea(folder).output.splitlines()[1:] == [
+        "left out: rudder and revolutions (RSA, RPM), which machinery.csv does not have of this ship"
+    ]
+    (folder / "surroundings.csv").unlink()
+    assert nmea(folder).output.splitlines()[2:] == ["left out: wind (MWV), as the folder has no surroundings.csv"]
+    (folder / "surroundings.csv").write_text("time,wind.speed,wind.direction\n")
+    result = nmea(folder)
+    assert result.exit_code == 2
+    assert "surroundings.csv: has no row for the start of the run: give a folder that `shipcollision" in result.output
+
+
 def test_another_ship_may_be_own_and_tags_give_the_time(folder: Path, tmp_path: Path) -> None:
     assert nmea(folder, "--ship", "target", "--tags", "--out", tmp_path / "log.txt").exit_code == 0
     first = (tmp_path / "log.txt").read_bytes().splitlines()[0]

@@ -41,6 +41,7 @@ def record(
     return Record(
         states=states,
         signals=np.zeros(6, dtype=[("time", float), *((name, float) for name in SIGNALS)]),
+        machinery=np.zeros(0, dtype=[("time", float)]),
         contacts=np.array(rows, dtype=[*contact_type, *((column, float) for column in CONTACT_COLUMNS)]),
         issued={k: np.array(value) for k, value in issued.items()},
         starts=impacts or {row[3]: CollisionStart(0.2, 1.0, 0.0, (0.0, 9.0, 0.0)) for row in rows},

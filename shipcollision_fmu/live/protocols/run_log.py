@@ -1,6 +1,6 @@
 """The sentences of a finished run as a file, from the run's folder alone.
 
-Rudder, revolutions and wind are not in the folder, so RSA, RPM and MWV are left out.
+Without machinery.csv there is no RSA and no RPM, without surroundings.csv no MWV: another master need not write them.
 """
 
 from __future__ import annotations
@@ -17,10 +17,11 @@ from ...errors import InputError
 from ...scenario.tables.place import EVERYWHERE, Place
 from ...scenario.tracks.tangent_plane import TangentPlane
 from ...ship.ship_state import ShipState
+from ...show.scene.machinery import read_machinery, read_wind
 from ...show.scene.run_folder import RunFolder, read_run_folder
 from .feeds import Fleet, NmeaFeed
 from .identity import Hull, make_identity
-from .sample import Sample, ShipSample
+from .sample import Sample, ShipSample, Wind
 
 __all__ = ["list_samples", "make_fleet", "write_log"]
 
@@ -58,10 +59,17 @@ def make_fleet(run: RunFolder, own: str | None = None) -> Fleet:
 
 
 def list_samples(run: RunFolder) -> Iterator[Sample]:
-    """The run at its communication points."""
+    """The run at its communication points. Raises InputError for tables that are not whole."""
     names = list(run.bodies.ships)
-    for time, row in zip(run.times.tolist(), run.states.tolist(), strict=True):
-        yield Sample(time, {name: ShipSample(ShipState(*state)) for name, state in zip(names, row, strict=True)})
+    machinery = {name: table.tolist() for name, table in read_machinery(run).items()}
+    table = read_wind(run)
+    wind = None if table is None else table.tolist()
+    for k, (time, row) in enumerate(zip(run.times.tolist(), run.states.tolist(), strict=True)):
+        ships = {
+            name: ShipSample(ShipState(*state), *(machinery[name][k] if name in machinery else ()))
+            for name, state in zip(names, row, strict=True)
+        }
+        yield Sample(time, ships, None if wind is None else Wind(*wind[k]))
 
 
 def _tag(time: datetime) -> bytes:

@@ -30,7 +30,7 @@ from ...fmi.names import STATE
 from ...ship.frames import Array
 from ...ship.tables.table import Row, Table
 
-__all__ = ["FILES", "Bodies", "Events", "RunFolder", "read_run_folder"]
+__all__ = ["FILES", "REMEDY", "Bodies", "Events", "RunFolder", "read_columns", "read_run_folder", "read_text"]
 
 FILES = ("states.csv", "contacts.csv", "signals.csv", "events.json", "bodies.json", "summary.json")
 SIGNALS = ("clearance", "energy.dissipated")
@@ -165,9 +165,9 @@ def read_run_folder(path: str | Path) -> RunFolder:
     events = _parse(folder / "events.json", texts, Events)
     rows = summary.steps + 1
     state_columns = [f"{ship}.{state}" for ship in bodies.ships for state in STATE]
-    states = _read_columns(folder / "states.csv", texts, ("time", *state_columns), rows)
-    signals = _read_columns(folder / "signals.csv", texts, ("time", *SIGNALS), rows)
-    contacts = _read_columns(folder / "contacts.csv", texts, CONTACT_NUMBERS, None)
+    states = read_columns(folder / "states.csv", texts["states.csv"], ("time", *state_columns), rows)
+    signals = read_columns(folder / "signals.csv", texts["signals.csv"], ("time", *SIGNALS), rows)
+    contacts = read_columns(folder / "contacts.csv", texts["contacts.csv"], CONTACT_NUMBERS, None)
     times = states[:, 0]
     _check_times(folder, times, signals[:, 0])
     _check_triangles(folder, bodies)
@@ -190,17 +190,20 @@ def _read_texts(folder: Path) -> dict[str, str]:
         else:
             fault = f"has no {' and no '.join(missing)}, so it is not the whole folder of a run"
         raise InputError(f"{folder} {fault}: {REMEDY}")
-    texts = {}
-    for name in FILES:
-        try:
-            texts[name] = (folder / name).read_text(encoding="utf-8")
-        except (OSError, UnicodeDecodeError) as error:
-            said = getattr(error, "strerror", None) or error  # an OSError's own text has the path again
-            raise InputError(f"{folder / name} cannot be read ({said}): {REMEDY}") from None
-        if not texts[name].endswith("\n"):
-            fault = "ends in the middle of a line" if texts[name].strip() else "is empty"
-            raise InputError(f"{folder / name}: {fault}: {REMEDY}")
-    return texts
+    return {name: read_text(folder / name) for name in FILES}
+
+
+def read_text(path: Path) -> str:
+    """The text of a file of a run. Raises InputError for one that cannot be read or is cut short."""
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        said = getattr(error, "strerror", None) or error  # an OSError's own text has the path again
+        raise InputError(f"{path} cannot be read ({said}): {REMEDY}") from None
+    if not text.endswith("\n"):
+        fault = "ends in the middle of a line" if text.strip() else "is empty"
+        raise InputError(f"{path}: {fault}: {REMEDY}")
+    return text
 
 
 def _parse(path: Path, texts: dict[str, str], model: type[Content]) -> Content:
@@ -214,9 +217,8 @@ def _parse(path: Path, texts: dict[str, str], model: type[Content]) -> Content:
         raise InputError(f"{path}: {where}: {first['msg']}: {REMEDY}") from None
 
 
-def _read_columns(path: Path, texts: dict[str, str], columns: Sequence[str], rows: int | None) -> Array:
+def read_columns(path: Path, text: str, columns: Sequence[str], rows: int | None) -> Array:
     """The named columns of a table as (rows, columns); other columns may hold text."""
-    text = texts[path.name]
     header_line, _, body = text.partition("\n")
     header = next(csv.reader([header_line]), [])
     absent = [column for column in columns if column not in header]
