@@ -5,7 +5,7 @@
     scratches.py    lines of contact points on the hulls       effects.py    explosion, debris, fire, smoke
     surface.py      triangle surfaces                          solids.py     boxes, prisms, rods
     looks.py        all that is drawn of a ship                ship_style.py how ships of a type look
-    hull_shell.py   the hull as drawn                          hull_rings.py, hull_lines.py  its form
+    hull_shell.py   the hull as drawn                          hull_rings.py, hull_ends.py, hull_lines.py  its form
     lettering.py    names, draught marks                       appendages.py rudders, propellers, anchors
     fittings.py     arrangement by type of ship                outfit.py, cargo.py  houses, masts, boats; cargo on deck
     lights.py       navigation lights

@@ -1,13 +1,13 @@
-"""Under water the ends of the drawn hull are finer than the hull that touches: bulb, run, skeg and counter.
+"""Under water the ends of the drawn hull are finer still: bulb, run, skeg and counter.
 
-All of it lies within the hull that touches, whose sides go straight down to the keel. Both are the same surface along
-the midbody, and everywhere above the depth FROM T. With x the station, y the half breadth, v from 0 there to 1 at the
+All of it lies within the hull that touches. Both are the same surface along the midbody. The lines start from the rings
+of hull_ends.py and leave them at the depth FROM T. With x the station, y the half breadth, v from 0 there to 1 at the
 keel:
 
     run      y = y(z) (1 - (1 - s(u)) v^(0.7 + 2.3 u)),   u = 0 at the transom, 1 at the run's end; s from SKEG to 1
     counter  abaft the stern post the hull ends at the depth T (0.16 + 0.26 u/u_post)
     stem     goes back by BULB L_oa g(v) (1 - b(v)),  g from 0 at the waterline to 1 at v = 0.3
-    bulb     b(v) = sqrt(1 - ((v - 0.68)/0.27)^2), half as broad as BULB_BREADTH B
+    bulb     b(v) = sqrt(1 - ((v - 0.68)/0.27)^2), half as broad as BULB_BREADTH B, up to the stem that touches
 """
 
 from __future__ import annotations
@@ -29,15 +29,22 @@ POST = 0.045
 SKEG = 0.035
 BULB = 0.022
 BULB_BREADTH = 0.115
+LONGEST_BULB = 0.045
+"""Distance of the bulb's tip before the stem above it, over L_oa."""
 ENTRANCE = 0.30
 """Share by which the entrance above the bulb is narrower than the hull that touches."""
 
 
 @dataclass(frozen=True, eq=False)
 class UnderwaterLines:
-    """The form under water of a hull; `has_bulb` or a stem that cuts away below."""
+    """The form under water of a hull; `has_bulb` or a stem that cuts away below.
+
+    rings     the drawn hull's, with its ends by hull_ends.py
+    touching  those of the hull that touches, beyond which nothing goes
+    """
 
     rings: HullRings
+    touching: HullRings
     has_bulb: bool
 
     @property
@@ -89,16 +96,17 @@ class UnderwaterLines:
         back = BULB * self.length
         g = _ease(v / 0.3) if self.has_bulb else 0.8 * v**1.5
         b = float(np.sqrt(max(0.0, 1.0 - ((v - 0.68) / 0.27) ** 2))) if self.has_bulb else 0.0
-        front, line = stem - back * g * (1.0 - b), stem - back * g
+        line = stem - back * g
+        front = line + b * (min(float(self.touching.at(z)[0, 0]), line + LONGEST_BULB * self.length) - line)
         s = (stem - x) / (stem - shoulder)
         x = front - (front - shoulder) * s
         s = max(0.0, (line - x) / (line - shoulder))
         y = self._breadth(corners, stem - (stem - shoulder) * s) * (1.0 - ENTRANCE * g * (1.0 - s) ** 2)
         if b > 0.0:
-            centre = stem - 1.2 * back
+            centre = line - 0.2 * back
             ahead = min(1.0, max(0.0, (x - centre) / (front - centre)))
             bulb = 0.5 * BULB_BREADTH * 2.0 * float(self.rings.edge[:, 1].max()) * b * float(np.sqrt(1.0 - ahead**2))
-            y = min(max(y, bulb), self._breadth(corners, x))
+            y = min(max(y, bulb), self._breadth(self.touching.at(z), x))
         return x, y
 
     @staticmethod

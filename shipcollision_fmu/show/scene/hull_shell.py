@@ -1,7 +1,7 @@
 """The hull as drawn: plating by paint, forecastle, bulwark, deck with sheer, rudder and propeller, marks.
 
     above the deck       sheer, forecastle and bulwark rise on the deck's edge, not beyond it
-    deck to waterline    the surface that touches, by hull_rings.py
+    deck to waterline    the surface that touches, by hull_rings.py, but for the ends, by hull_ends.py
     below the waterline  within the hull that touches, by hull_lines.py
 
 A hull of another shape (a box, a user's mesh) is drawn as it is, in bands.
@@ -25,10 +25,13 @@ __all__ = ["WeatherDeck", "cut_bare_hull", "make_shell"]
 
 UNDER = (0.06, FROM, 0.17, 0.24, 0.32, 0.42, 0.52, 0.61, 0.68, 0.75, 0.83, 0.90, 0.95, 0.98, 1.0)
 """Shares of the depth at which the hull is drawn under water."""
-NEAR_STEM = (0.01, 0.025, 0.05, 0.08, 0.12, 0.17, 0.23)
-"""Shares of the bow's length at which sections lie beside the hull's own corners: a bulb needs them."""
 GAP = 0.02
 """[m] Distance of two sections at a step."""
+CLOSE = 0.004
+"""Least distance of two rows of the side, over the freeboard."""
+SAME = 5e-4
+"""Sections closer than this are one, but for the two at the stern post, in corner numbers. Closer ones would leave
+holes in single precision."""
 BOOT_TOP = (0.10, 0.025)
 """Upper and lower edge of the boot topping above the load line, over T."""
 
@@ -111,14 +114,17 @@ class WeatherDeck:
         return np.vstack([np.column_stack([x, y]), np.column_stack([x, -y])[::-1]])
 
 
-def make_shell(rings: HullRings, style: Style) -> list[Shape]:
+def make_shell(lines: UnderwaterLines, style: Style) -> list[Shape]:
     """The hull by paint: topsides, boot-top, antifouling, deck, bulwark."""
-    deck, lines = WeatherDeck(rings, style), UnderwaterLines(rings, style.has_bulb)
+    rings = lines.rings
+    deck = WeatherDeck(rings, style)
     places, before_post = _place_sections(deck, lines)
-    load = find_load_line(rings, style)
-    z_boot = [max(rings.z_deck, load - share * rings.z_keel) for share in BOOT_TOP]
-    stripe = [rings.z_deck + share * (z_boot[0] - rings.z_deck) for share in STRIPE if style.has_stripe]
-    levels = [rings.z_deck, *stripe, *z_boot, *([0.0] if z_boot[-1] < 0.0 else [])]
+    bands = _list_bands(rings, style)
+    edges = [rings.z_deck, *(z for _, z in bands)]
+    between = [
+        z for z in rings.corners[:, 0, 2] if z <= 0.0 and np.abs(z - np.array(edges)).min() > -CLOSE * rings.z_deck
+    ]
+    levels = sorted({*edges, *between})
     grid = np.array([
         [
             _above_deck(deck, place),
@@ -128,17 +134,24 @@ def make_shell(rings: HullRings, style: Style) -> list[Shape]:
         for place, before in zip(places, before_post, strict=True)
     ])  # fmt: skip
     deck_rows = np.array([_rows_on_deck(deck, lines, point) for point in grid[:, 0]])
-    paints = ["topsides", "topsides", "boot-top", "antifouling"]
-    if stripe:
-        paints[1:1] = ["topsides", "stripe"]
+    rows = [0, *(1 + int(np.argmin(np.abs(np.array(levels) - z))) for _, z in bands), grid.shape[1] - 1]
+    paints = [*(paint for paint, _ in bands), "antifouling"]
     shapes = join_shapes(
-        (paint, _plate(grid[:, i : i + 2] if i + 1 < len(paints) else grid[:, i:])) for i, paint in enumerate(paints)
+        (paint, _plate(grid[:, i : j + 1])) for paint, (i, j) in zip(paints, pairwise(rows), strict=True)
     )
     bottom = _span(grid[:, -1], downwards=True)
     cap, wall = _plate(np.stack([deck_rows[:, 0], grid[:, 0]], axis=1)), _plate(deck_rows[:, ::-1])
     shapes += [("antifouling", bottom), ("topsides", cap), ("bulwark", wall)]
     shapes = join_shapes([*shapes, (style.deck, _span(deck_rows[:, 1], downwards=False))])
     return [(paint, drop_flat_triangles(surface)) for paint, surface in shapes]
+
+
+def _list_bands(rings: HullRings, style: Style) -> list[tuple[str, float]]:
+    """Paints above the antifouling from the deck down, each with the height of its lower edge."""
+    load = find_load_line(rings, style)
+    z_boot = [max(rings.z_deck, load - share * rings.z_keel) for share in BOOT_TOP]
+    stripe = [rings.z_deck + share * (z_boot[0] - rings.z_deck) for share in STRIPE if style.has_stripe]
+    return [*zip(["topsides", "stripe"], stripe, strict=False), ("topsides", z_boot[0]), ("boot-top", z_boot[1])]
 
 
 def cut_bare_hull(hull: Surface, T: float) -> list[Shape]:
@@ -159,10 +172,7 @@ def find_load_line(rings: HullRings, style: Style) -> float:
 def _place_sections(deck: WeatherDeck, lines: UnderwaterLines) -> tuple[list[float], list[bool]]:
     """Places of the sections along the deck's edge from the stem, and whether each lies before the stern post."""
     rings, L = deck.rings, deck.length
-    waterline = rings.at(0.0)
-    bow = waterline[0, 0] - max(0.0, lines.aft + 0.65 * L)
     stations = [
-        *(waterline[0, 0] - share * bow for share in (*NEAR_STEM, 0.35, 0.5, 0.7, 0.85, 1.0)),
         *(lines.aft + share * RUN * L for share in np.linspace(0.0, 1.0, 15)[1:]),
         *(lines.aft + share * POST * L for share in (0.3, 0.6, 0.85)),
     ]
@@ -172,12 +182,14 @@ def _place_sections(deck: WeatherDeck, lines: UnderwaterLines) -> tuple[list[flo
         stations += [deck.aft + (share + step) * L for step in (-0.03, 0.0, 0.03)]
     if deck.style.sheer_fore:
         stations += [deck.aft + share * L for share in np.linspace(0.0, 1.0, 21)]
-    numbers = np.arange(len(waterline), dtype=float)
-    places = [*numbers, *np.interp([-x for x in stations], -rings.edge[:, 0], numbers)]
+    numbers = np.arange(len(rings.edge), dtype=float)
     post = float(np.interp(-lines.post, -rings.edge[:, 0], numbers))
-    places = [place for place in places if abs(place - post) > 1e-3]
-    both = sorted([*((float(place), float(place) < post) for place in set(places)), (post, True), (post + 1e-6, False)])
-    return [place for place, _ in both], [before for _, before in both]
+    places = [post, *numbers.tolist()]  # and of the others those that are at none of these
+    for place in np.interp(-np.array(stations), -rings.edge[:, 0], numbers).tolist():
+        if min(abs(place - other) for other in places) > SAME:
+            places.append(place)
+    places = sorted([*(place for place in places if place == post or abs(place - post) > SAME), post + 0.2 * SAME])
+    return places, [place <= post for place in places]
 
 
 def _above_deck(deck: WeatherDeck, place: float) -> tuple[float, float, float]:

@@ -134,6 +134,7 @@ def _faces_inwards(corners: Array) -> bool:
 
 def _lay_on_transom(rings: HullRings, strokes: Array, width: float, z: float) -> Surface:
     """Strokes in the middle of the transom, read from astern, where port is on the left."""
-    x = np.full(strokes.shape[:2], float(rings.edge[-1, 0]) - LIFT)
-    corners = np.stack([x, strokes[..., 0] - 0.5 * width, z - strokes[..., 1]], axis=-1)
+    heights = z - strokes[..., 1]
+    x = np.vectorize(lambda at: float(rings.at(at)[-1, 0]) - LIFT)(heights)
+    corners = np.stack([x, strokes[..., 0] - 0.5 * width, heights], axis=-1)
     return make_faces(corners)

@@ -8,6 +8,7 @@ import numpy as np
 
 from .appendages import make_anchors, make_propellers, make_rudders
 from .fittings import SHORTEST, Fitting, make_fittings
+from .hull_ends import shape_ends
 from .hull_lines import UnderwaterLines
 from .hull_rings import read_rings
 from .hull_shell import BOOT_TOP, WeatherDeck, cut_bare_hull, find_load_line, make_shell
@@ -37,18 +38,18 @@ class Looks:
 def make_looks(name: str, body: ShipBody, hull: Surface) -> Looks:
     """What is drawn of a ship; the same for the same name and body."""
     low, high = hull.vertices.min(axis=0), hull.vertices.max(axis=0)
-    rings = read_rings(hull.vertices) if body.shape == "parametric" else None
-    if rings is None or rings.z_deck >= 0.0 or rings.z_keel <= 0.0:
+    touching = read_rings(hull.vertices) if body.shape == "parametric" else None
+    if touching is None or touching.z_deck >= 0.0 or touching.z_keel <= 0.0:
         top = float(low[2])
         lights = [] if body.shape == "box" else place_lights(
             body.L_oa, float(high[0]), float(low[0]), body.B, top, float(low[0] + 0.3 * (high[0] - low[0])), top
         )  # fmt: skip
         return Looks(hull, tuple(cut_bare_hull(hull, body.T)), (), tuple(lights))
-    depth = rings.z_keel - rings.z_deck
-    kind = choose_type(body.kind, body.L_oa, body.B, depth)
+    kind = choose_type(body.kind, body.L_oa, body.B, touching.z_keel - touching.z_deck)
     style = choose_style(kind)
-    deck, lines = WeatherDeck(rings, style), UnderwaterLines(rings, style.has_bulb)
-    shell = make_shell(rings, style)
+    rings = shape_ends(touching, style.ends)
+    deck, lines = WeatherDeck(rings, style), UnderwaterLines(rings, touching, style.has_bulb)
+    shell = make_shell(lines, style)
     plating = join_surfaces([surface for paint, surface in shell if paint in PLATED])
     load = find_load_line(rings, style)
     z_boot = load - BOOT_TOP[0] * rings.z_keel

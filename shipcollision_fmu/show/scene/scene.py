@@ -67,7 +67,7 @@ class Ship:
     """A ship: its name in the scenario, the model's name and kind, dimensions [m], track, and in b:
 
     hull       the surface that touches
-    plating    the hull's outside as drawn, on which scratches lie: from the waterline to the deck it is that surface
+    plating    the hull's outside as drawn, on which scratches lie: between the ends it is that surface
     shell      the hull as drawn, by paint (hull_shell.py)
     fittings   all that stands on deck; contact ignores it
     lights     of rule 21

@@ -11,7 +11,18 @@ from typing import NamedTuple
 from ...ship.loading.dimensions_estimate import FORMS
 from ...ship.ship_type import CARGO_VESSEL, find_ship_type, names_a_type
 
-__all__ = ["Style", "choose_style", "choose_type"]
+__all__ = ["Ends", "Style", "choose_style", "choose_type"]
+
+
+class Ends(NamedTuple):
+    """flare, tuck: shares by which the waterline is narrower than the deck at stem and transom; knuckle: depth below
+    the deck above which the bow has no flare, over the freeboard; rakes from the vertical."""
+
+    stem_rake_deg: float = 22.0
+    flare: float = 0.22
+    knuckle: float = 0.0
+    transom_rake_deg: float = 8.0
+    tuck: float = 0.12
 
 
 class Style(NamedTuple):
@@ -30,25 +41,34 @@ class Style(NamedTuple):
     deck: str = "deck-red"
     has_stripe: bool = False
     depth_over_draught: float = 1.4
+    ends: Ends = Ends()
 
 
-_WORKING = Style(0.0, 0.0, 0.10, 0.02, 1.1, 0.0, 1.05, has_bulb=False, deck="deck")
+_WORKING = Style(0.0, 0.0, 0.10, 0.02, 1.1, 0.0, 1.05, has_bulb=False, deck="deck",
+                 ends=Ends(16.0, 0.12, 0.3, 10.0, 0.08))  # fmt: skip
+_BROAD = Ends(11.0, 0.07, tuck=0.15)
+_OFFSHORE = Ends(24.0, 0.26, 0.3, 5.0, 0.04)
+_PASSENGERS = Ends(30.0, 0.28, 0.22, 5.0, 0.06)
 
 _STYLES = {
-    "container ship, loaded": Style(3.0, 0.07, deck="deck"), "cargo vessel, container on deck": Style(),
-    "tanker, loaded": Style(0.0, 0.0, 0.03, 0.0, 1.4, 0.93),
-    "tanker, in ballast": Style(0.0, 0.0, 0.03, 0.0, 1.4, 0.93),
-    "liquefied natural gas tanker": Style(0.0, 0.0, 0.03, 0.0, 1.4, 0.92),
-    "ferry": Style(0.0, 0.0, bulwark_fore=0.80, propellers=2, deck="deck", has_stripe=True),
-    "car carrier": Style(0.0, 0.0, bulwark_fore=0.93, deck="deck"),
-    "passenger liner": Style(0.0, 0.0, 0.04, 0.0, bulwark_fore=0.80, propellers=2, deck="deck", has_stripe=True),
-    "destroyer": Style(0.0, 0.0, 0.10, 0.0, 0.2, 2.0, has_bulb=False, propellers=2, deck="deck-grey"),
-    "tug": _WORKING._replace(propellers=2), "fishing vessel": _WORKING._replace(sheer_fore=0.14),
-    "offshore supply vessel": Style(0.0, 0.0, 0.08, 0.0, 1.2, 0.6, propellers=2),
-    "diving support vessel": Style(0.0, 0.0, 0.06, 0.0, 1.2, 0.6, propellers=2),
-    "research vessel": Style(0.0, 0.0, 0.07, 0.01, 1.1, 0.6), "tender": _WORKING,
+    "container ship, loaded": Style(3.0, 0.07, deck="deck", ends=Ends(28.0, 0.32, tuck=0.2)),
+    "cargo vessel, container on deck": Style(),
+    "tanker, loaded": Style(0.0, 0.0, 0.03, 0.0, 1.4, 0.93, ends=_BROAD),
+    "tanker, in ballast": Style(0.0, 0.0, 0.03, 0.0, 1.4, 0.93, ends=_BROAD),
+    "liquefied natural gas tanker": Style(0.0, 0.0, 0.03, 0.0, 1.4, 0.92, ends=Ends(15.0, 0.12)),
+    "ferry": Style(0.0, 0.0, bulwark_fore=0.80, propellers=2, deck="deck", has_stripe=True, ends=_PASSENGERS),
+    "car carrier": Style(0.0, 0.0, bulwark_fore=0.93, deck="deck", ends=Ends(22.0, 0.26, 0.4, 3.0, 0.06)),
+    "passenger liner": Style(0.0, 0.0, 0.04, 0.0, bulwark_fore=0.80, propellers=2, deck="deck", has_stripe=True,
+                             ends=_PASSENGERS),
+    "destroyer": Style(0.0, 0.0, 0.10, 0.0, 0.2, 2.0, has_bulb=False, propellers=2, deck="deck-grey",
+                       ends=Ends(38.0, 0.32, 0.2, 12.0, 0.08)),
+    "tug": _WORKING._replace(propellers=2),
+    "fishing vessel": _WORKING._replace(sheer_fore=0.14, ends=Ends(28.0, 0.26, 0.3, 10.0, 0.08)),
+    "offshore supply vessel": Style(0.0, 0.0, 0.08, 0.0, 1.2, 0.6, propellers=2, ends=_OFFSHORE),
+    "diving support vessel": Style(0.0, 0.0, 0.06, 0.0, 1.2, 0.6, propellers=2, ends=_OFFSHORE),
+    "research vessel": Style(0.0, 0.0, 0.07, 0.01, 1.1, 0.6, ends=_OFFSHORE), "tender": _WORKING,
     "drilling vessel": Style(propellers=2),
-    "speed boat": Style(0.0, 0.0, 0.05, 0.0, 0.2, 2.0, has_bulb=False, propellers=2),
+    "speed boat": Style(0.0, 0.0, 0.05, 0.0, 0.2, 2.0, has_bulb=False, propellers=2, ends=Ends(40.0, 0.32, 0.35)),
 }  # fmt: skip
 
 

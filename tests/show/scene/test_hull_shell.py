@@ -1,20 +1,26 @@
-"""The hull as drawn lies on the hull that touches wherever ships touch, and within it under water."""
+"""The hull as drawn lies on the hull that touches along the sides, and within it at the ends and under water."""
 
 from __future__ import annotations
+
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
 import trimesh
 
-from shipcollision_fmu.show.scene.hull_lines import FROM, RUN
+from shipcollision_fmu.show.scene.hull_ends import BOW, STERN, shape_ends
+from shipcollision_fmu.show.scene.hull_lines import RUN
 from shipcollision_fmu.show.scene.hull_rings import read_rings
 from shipcollision_fmu.show.scene.lettering import LIFT, find_letters, write_text
+from shipcollision_fmu.show.scene.ship_style import choose_style, choose_type
 from shipcollision_fmu.show.scene.solids import join_surfaces
 from shipcollision_fmu.show.scene.surface import Surface
 
 from .drawn_ships import KINDS, Drawn, draw_ship, to_solid
 
 CENTIMETRE = 0.01
+GUIDE = Path(__file__).parents[3] / "docs" / "guide" / "pictures.md"
 UNDER_WATER = 0.25
 """Largest distance under water of the drawn hull from the hull that touches, over B; docs/guide/pictures.md."""
 
@@ -29,16 +35,68 @@ def distance(surface: trimesh.Trimesh, points: np.ndarray) -> np.ndarray:
     return np.asarray(away)
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_from_the_waterline_to_the_deck_the_drawn_hull_is_the_hull_that_touches(kind: str) -> None:
-    """Both ways: nothing stands off, and nothing is missing."""
-    drawn = draw_ship(kind)
+def measure_sides(drawn: Drawn) -> tuple[np.ndarray, np.ndarray]:
+    """Points between waterline and deck of either hull (n, 3), and their distances from the other one [m]."""
     touches = trimesh.Trimesh(drawn.hull.vertices, drawn.hull.triangles, process=False)
+    found, away = [], []
     for one, other in ((skin(drawn), touches), (touches, skin(drawn))):
-        points, _ = trimesh.sample.sample_surface(one, 700, seed=3)
+        sampled, _ = trimesh.sample.sample_surface(one, 900, seed=3)
+        points = np.vstack([sampled, [[drawn.hull.vertices[:, 0].max(), 0.0, 0.0]]])[: None if one is touches else -1]
         side = points[(points[:, 2] <= 0.0) & (points[:, 2] > drawn.z_deck + CENTIMETRE)]
         assert len(side) > 40
-        assert distance(other, side).max() < CENTIMETRE
+        found.append(side)
+        away.append(distance(other, side))
+    return np.vstack(found), np.concatenate(away)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_sides_between_the_ends_and_the_edge_of_the_deck_are_those_of_the_hull_that_touches(kind: str) -> None:
+    """Both ways: nothing stands off, and nothing is missing."""
+    drawn = draw_ship(kind)
+    points, away = measure_sides(drawn)
+    share = points[:, 0] / drawn.L + 0.5
+    middle = (share > STERN) & (share < 1.0 - BOW)
+    assert middle.sum() > 40
+    assert away[middle].max() < CENTIMETRE
+    deck = drawn.hull.vertices[drawn.hull.vertices[:, 2] < drawn.z_deck + 1e-9]
+    edge = drawn.looks.plating.vertices[np.abs(drawn.looks.plating.vertices[:, 2] - drawn.z_deck) < 1e-9]
+    assert np.abs(deck[:, None] - edge[None]).max(axis=2).min(axis=1).max() < 1e-6
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_ends_above_water_are_within_the_hull_that_touches_by_no_more_than_stated(kind: str) -> None:
+    """docs/guide/pictures.md has the largest distance of each kind, for a ship of this size, in metres."""
+    drawn = draw_ship(kind)
+    rings = read_rings(drawn.hull.vertices)
+    assert rings is not None
+    dry = drawn.looks.plating.vertices
+    for x, y, z in dry[(dry[:, 2] <= 0.0) & (dry[:, 2] >= drawn.z_deck)]:
+        assert abs(y) <= float(rings.half_breadth(min(x, rings.at(z)[0, 0]), z)) + 1e-6
+        assert rings.at(z)[-1, 0] - 1e-6 <= x <= rings.at(z)[0, 0] + 1e-6
+    table = re.findall(r"^ *\| ([a-z ]+) \| (\d\.\d) m \|$", GUIDE.read_text(encoding="utf-8"), re.M)
+    stated = float(dict(table)[kind])
+    assert stated - 0.15 < measure_sides(drawn)[1].max() <= stated
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_the_stem_is_raked_the_bow_flares_up_to_its_knuckle_and_the_transom_is_raked(kind: str) -> None:
+    drawn = draw_ship(kind)
+    rings = read_rings(drawn.hull.vertices)
+    assert rings is not None
+    style = choose_style(choose_type(kind, drawn.L, drawn.B, float(np.ptp(drawn.hull.vertices[:, 2]))))
+    shaped = shape_ends(rings, style.ends)
+    heights = shaped.z_deck * np.linspace(1.0, 0.0, 41)
+    stem = np.array([shaped.at(z)[0, 0] for z in heights])
+    transom = np.array([shaped.at(z)[-1, 0] for z in heights])
+    assert stem[0] == pytest.approx(rings.edge[0, 0], abs=1e-6)
+    assert stem[0] - stem[-1] > 0.1 * -shaped.z_deck
+    assert (np.diff(stem) < 0.0).all()
+    assert (np.diff(transom) > 0.0).all()
+    half = np.array([float(shaped.half_breadth(0.42 * drawn.L, z)) for z in heights])
+    above = heights < (1.0 - style.ends.knuckle) * shaped.z_deck - 1e-6
+    assert half[-1] < half[0] - 0.01 * drawn.B
+    lean = -np.diff(half) / np.diff(heights)
+    assert lean[: max(above.sum() - 1, 0)].max(initial=0.0) < lean[above.sum() :].max()
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -54,12 +112,11 @@ def test_under_water_it_is_within_the_hull_that_touches(kind: str) -> None:
         assert rings.at(z)[-1, 0] - CENTIMETRE <= x <= rings.at(z)[0, 0] + CENTIMETRE
     touches = trimesh.Trimesh(drawn.hull.vertices, drawn.hull.triangles, process=False)
     points, _ = trimesh.sample.sample_surface(skin(drawn), 600, seed=3)
-    away = distance(touches, points)
-    wet, T = points[:, 2] > 0.0, float(drawn.hull.vertices[:, 2].max())
+    away, wet = distance(touches, points), points[:, 2] > 0.0
     assert 0.03 < away[wet].max() / drawn.B < UNDER_WATER
     share = points[:, 0] / drawn.L + 0.5
     middle = (share > RUN) & (share < 0.65)
-    assert away[wet & (middle | (points[:, 2] < FROM * T))].max() < CENTIMETRE
+    assert away[wet & middle].max() < CENTIMETRE
 
 
 @pytest.mark.parametrize("kind", KINDS)
