@@ -24,7 +24,7 @@ from ...ship.ship_type import find_ship_type
 from .run_folder import RunFolder
 from .scratches import Scratch
 
-__all__ = ["Effect", "EffectKind", "find_ignition", "make_effects"]
+__all__ = ["Effect", "EffectKind", "find_ignition", "make_effects", "point_outwards"]
 
 EffectKind = Literal["explosion", "debris", "fire", "smoke", "dust", "splash"]
 
@@ -89,7 +89,7 @@ def make_effects(run: RunFolder, scratches: tuple[Scratch, ...]) -> tuple[Effect
                     scratch_on_ship.ship,
                     event.id,
                     scratch_on_ship.points[0],
-                    scratch_on_ship.normals[0],
+                    point_outwards(scratch_on_ship.normals[0], scratch_on_ship.points[0]),
                     event.start + delay * intensity,
                     duration * intensity,
                     intensity,
@@ -98,6 +98,14 @@ def make_effects(run: RunFolder, scratches: tuple[Scratch, ...]) -> tuple[Effect
                 )
             )
     return tuple(sorted(found, key=lambda effect: (effect.time, effect.seed)))
+
+
+def point_outwards(normal: Array, point: Array) -> Array:
+    """The direction in which a point of a hull bursts open: its normal, and at the bottom that of the side above it.
+
+    Ships often touch first along the keel, where the nearest face may be the bottom.
+    """
+    return normal if abs(normal[2]) < 0.9 else np.array([0.0, np.copysign(1.0, point[1]), 0.0])
 
 
 def find_ignition(run: RunFolder, *names: str) -> float:

@@ -11,6 +11,7 @@ import pytest
 import trimesh
 
 from shipcollision_fmu.ship.frames import Array, rotation, rotation_from_quaternion
+from shipcollision_fmu.show.scene.effects import point_outwards
 from shipcollision_fmu.show.scene.hull_ends import BOW, STERN
 from shipcollision_fmu.show.scene.resample import choose_samples
 from shipcollision_fmu.show.scene.run_folder import STATE
@@ -92,6 +93,19 @@ def test_every_scratch_has_its_effects_at_its_first_point_on_the_struck_ship(fol
             assert np.linalg.norm(effect.point - event["first_point"]["b_b"]) < 0.1
             assert event["start"] <= effect.time <= event["start"] + 1.0
             assert 0.0 < effect.intensity <= 1.0
+
+
+@pytest.mark.parametrize(
+    ("normal", "y", "outwards"),
+    [
+        ([0.0, 0.0, 1.0], 13.48, [0.0, 1.0, 0.0]),
+        ([0.0, 0.0, 1.0], -13.48, [0.0, -1.0, 0.0]),
+        ([0.6, 0.8, 0.0], 9.0, [0.6, 0.8, 0.0]),
+    ],
+)
+def test_a_hull_struck_at_the_keel_opens_to_the_side(normal: list[float], y: float, outwards: list[float]) -> None:
+    """The camera of the impact stands there; below the bottom it would look from the far side."""
+    assert point_outwards(np.array(normal), np.array([0.0, y, 9.5])).tolist() == outwards
 
 
 def test_barges_that_meet_gently_raise_dust_and_spray_but_do_not_burn(meeting: MakeRun) -> None:

@@ -6,6 +6,8 @@ import { toWorld } from "./tracks.js";
 const UP = new THREE.Vector3(0, 1, 0);
 const LOW = (4.6 * Math.PI) / 180; // elevation of the first view: from a launch, with sky over the ships
 const CLOSE = 0.12; // and of the view of an impact [rad]
+const CREST = 1.2; // the highest wave that sea.js draws [m]
+const LOWEST = 2; // height of the eye [m]
 
 export class Cameras {
   constructor(canvas, ships, data, changed) {
@@ -38,7 +40,7 @@ export class Cameras {
       const effect = this.effectAt(time);
       const { node, info } = this.ships.find((ship) => ship.info.name === effect.ship);
       const point = node.localToWorld(new THREE.Vector3(...effect.point));
-      return point.setY(Math.min(point.y, 0.45 * info.height + 1)); // what opens is between deck and water
+      return point.setY(Math.min(Math.max(point.y, 0.3 * info.height), 0.45 * info.height + 1)); // what opens is between deck and water
     }
     return null;
   }
@@ -93,8 +95,10 @@ export class Cameras {
       this.lastSpan = span;
     }
     this.controls.update();
+    this.camera.position.y = Math.max(this.camera.position.y, LOWEST);
     const distance = this.camera.position.distanceTo(this.controls.target);
-    const near = Math.max(0.4, 0.03 * distance);
+    // No nearer than needed, for depth; and no farther than the water below the picture's lower edge, which would be missing.
+    const near = Math.max(0.4, Math.min(0.03 * distance, 0.6 * (this.camera.position.y - CREST)));
     if (Math.abs(this.camera.near - near) > 0.1 * near) {
       this.camera.near = near;
       this.camera.updateProjectionMatrix();
@@ -227,6 +231,7 @@ export class Cameras {
       this.posedAt(Math.max(this.data.start, effect.time + later), () => {
         outwards.set(...effect.outwards).transformDirection(struck.node.matrixWorld).setY(0).normalize();
         const point = struck.node.localToWorld(new THREE.Vector3(...effect.point)).addScaledVector(outwards, 0.4);
+        point.setY(Math.max(point.y, 0.3 * struck.info.height));
         const low = point.clone().setY(0.5 * point.y);
         for (const one of tried) {
           const eye = low.clone().addScaledVector(outwards.clone().applyAxisAngle(UP, one.turn), distance).setY(low.y + one.rise * distance);
