@@ -17,6 +17,7 @@ from ...errors import StudyError
 from ...files import is_file, write_files
 from ...scenario.scenario import Scenario
 from ...scenario.toml_writer import format_toml
+from ...ship.loading.toml import parse_toml
 from ..definition.study import Study
 from ..definition.variables import IMPACT, SAILED
 from .cases import Cases, draw_cases
@@ -65,17 +66,29 @@ def _make_scenario(study: Study, row: int, cases: Cases, ships: ShipFolder, fold
     return make(study, {"own": ships.write(own), "target": ships.write(target)}, found, cases, 0)
 
 
-def _describe(scenario: Scenario, study: Study, name: str, row: int) -> dict[str, str]:
-    """The texts of the scenario file and of the ship files beside it, by name."""
-    tables, files = scenario.model_dump(exclude_unset=True, exclude_none=True), {}
+def _describe(scenario: Scenario, study: Study, name: str, row: int) -> dict[str, str | bytes]:
+    """The scenario file and, beside it, the files of its ships and their meshes, by name."""
+    tables, files = scenario.model_dump(exclude_unset=True, exclude_none=True), dict[str, str | bytes]()
     tables["scenario"].update(name=name, description=f"Row {row} of the study {study.name}.")
     for role, table in tables["ships"].items():
         path = Path(scenario.ship_file(role))
         if is_file(path):
             table["ship"] = f"{name}_{role}.toml"
-            files[table["ship"]] = path.read_text(encoding="utf-8")
+            files |= _read_ship(path, f"{name}_{role}")
     groups = ((group, tables.get(group, {})) for group in ("ships", "obstacles"))
     named = {f"{group}.{key}": table for group, of in groups for key, table in of.items()}
     single = {group: tables[group] for group in ("scenario", "collision", "environment") if tables.get(group)}
     order = {"scenario": single.pop("scenario"), **named, **single}
     return {**files, f"{name}.toml": format_toml([f"Row {row} of the study {study.name}."], order)}
+
+
+def _read_ship(path: Path, name: str) -> dict[str, str | bytes]:
+    """A ship file and its mesh under a name. The mesh of a study is in a temporary folder of this process."""
+    text = path.read_text(encoding="utf-8")
+    tables = parse_toml(text, path.name, StudyError)
+    if "file" not in tables.get("hull", {}):
+        return {f"{name}.toml": text}
+    mesh = Path(tables["hull"]["file"])
+    own = f"{name}{mesh.suffix}"
+    tables["hull"]["file"] = own
+    return {f"{name}.toml": format_toml((), tables), own: (path.parent / mesh).read_bytes()}

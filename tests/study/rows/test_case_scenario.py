@@ -10,10 +10,12 @@ import pytest
 
 from shipcollision_fmu import load_scenario, run_encounters
 from shipcollision_fmu.errors import StudyError
+from shipcollision_fmu.ship.loading.library import read_ship_tables
 from shipcollision_fmu.study.definition.study import Study, parse_study
 from shipcollision_fmu.study.rows.case_scenario import write_case
 from shipcollision_fmu.study.rows.compute import compute_rows
 from tests.study.rows import test_situations
+from tests.study.rows.test_cases import HEAD, write_mesh_ship
 from tests.study.rows.test_levels import TEXT
 
 POOL = """[[own.sampled]]
@@ -39,6 +41,18 @@ def run(study: Study, row: int, folder: Path, separation: float | None = 8.0) ->
     scenario = load_scenario(path)
     assert scenario.name == path.stem == f"{study.name}_{row}"
     return line, run_encounters([scenario], separation=separation)
+
+
+def test_a_mesh_goes_with_the_case(tmp_path: Path) -> None:
+    """The case runs where neither the study's ship file nor this process' copy of the mesh is."""
+    write_mesh_ship(tmp_path)
+    study = parse_study(HEAD.format(rows=9, sampler="random").replace("kcs", "my.toml"), "s.toml", tmp_path)
+    path = write_case(study, 1, tmp_path / "case")
+    for role in ("own", "target"):
+        ship = read_ship_tables(path.parent / f"{path.stem}_{role}.toml")
+        assert Path(ship["hull"]["file"]).resolve() == path.parent / f"{path.stem}_{role}.obj"
+        assert Path(ship["hull"]["file"]).read_bytes() == (tmp_path / "box.obj").read_bytes()
+    assert run_encounters([load_scenario(path)]).encounters[0]["collisions"] >= 1
 
 
 @pytest.mark.parametrize("row", [3, 4, 5])

@@ -133,13 +133,18 @@ convex_hull = true
 """
 
 
-def test_a_mesh_travels_with_its_study(tmp_path: Path) -> None:
-    """A worker has neither the ship file nor the mesh file."""
+def write_mesh_ship(folder: Path) -> None:
+    """my.toml, a ship with the mesh box.obj beside it."""
     corners = [(x, y, z) for x in (-40.0, 40.0) for y in (-8.0, 8.0) for z in (-6.0, 3.0)]
     faces = ["1 2 4 3", "5 7 8 6", "1 5 6 2", "3 4 8 7", "1 3 7 5", "2 6 8 4"]
     lines = [*(f"v {x} {y} {z}" for x, y, z in corners), *(f"f {face}" for face in faces)]
-    (tmp_path / "box.obj").write_text("\n".join(lines))
-    (tmp_path / "my.toml").write_text(MESH_SHIP)
+    (folder / "box.obj").write_text("\n".join(lines))
+    (folder / "my.toml").write_text(MESH_SHIP)
+
+
+def test_a_mesh_travels_with_its_study(tmp_path: Path) -> None:
+    """A worker has neither the ship file nor the mesh file."""
+    write_mesh_ship(tmp_path)
     study = parse_study(HEAD.format(rows=9, sampler="random").replace("kcs", "my.toml"), "s.toml", tmp_path)
     sent = pickle.dumps(study)
     for file in ("box.obj", "my.toml"):
