@@ -7,13 +7,13 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ...cosim.simulate import simulate
-from ...errors import HostError, InputError, StepError
+from ...errors import HostError, InputError, StepError, StudyError
 from ...scenario.scenario import load_scenario
 from ...show.page import PAGE, write_page
 from ..definition.study import Study, read_study
 from ..rows.case_scenario import write_case
 from ..rows.compute import compute_rows
-from .study_table import StudyTable
+from .study_table import REMEDY, StudyTable
 
 __all__ = ["Replay", "find_replay", "read_own_study", "write_replay", "write_replays"]
 
@@ -71,9 +71,11 @@ def write_replays(
 def write_replay(table: StudyTable, study: Study, row: int) -> Replay:
     """The replay of a row, written into the folder of the study.
 
-    Raises StudyError for a row that is refused or that the study does not have; HostError where nothing can be written,
-    or where the engine of the study is missing.
+    Raises StudyError for a row that is refused, that is not computed yet, or that the study does not have; HostError
+    where nothing can be written, or where the engine of the study is missing.
     """
+    if 0 <= row < study.rows and not table.has_row(row):
+        raise StudyError(f"{table.folder}: row {row} is not computed yet: {REMEDY}")
     folder = table.folder / REPLAYS / f"row-{row}"
     path = write_case(study, row, folder)
     (again,) = compute_rows(study, row, 1, table.engine).encounters.to_pylist()

@@ -16,7 +16,7 @@ from ...ship.frames import Array
 from ...ship.loading.toml import parse_toml
 from ..engine.part_file import read_mark
 
-__all__ = ["StudyTable"]
+__all__ = ["REMEDY", "StudyTable"]
 
 REMEDY = "go on with `shipcollision study STUDY.toml --out DIR --resume`, then show it again"
 
@@ -73,6 +73,10 @@ class StudyTable:
         with pq.ParquetFile(self._parts[0]) as file:
             fields = [field for field in file.schema_arrow if field.type == pa.float64()]
         return [(field.name, (field.metadata or {}).get(b"unit", b"").decode()) for field in fields]
+
+    def has_row(self, row: int) -> bool:
+        """Whether the part of a row is written."""
+        return any(first <= row <= last for first, last in map(_parse_range, self._parts))
 
     def read_cases(self, rows: Sequence[int], columns: Sequence[str]) -> list[dict[str, Any]]:
         """The values of some rows by column, in the order of `rows`."""

@@ -201,6 +201,21 @@ def test_a_row_with_other_numbers_than_the_table_is_said(folder: Path) -> None:
     ).stdout  # fmt: skip
 
 
+def test_a_row_that_is_not_computed_yet_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The study is still running, or was interrupted."""
+    monkeypatch.setattr("shipcollision_fmu.study.engine.parts.PART_ROWS", {"impact": 200})
+    out = tmp_path / "harbour"
+    run_study(parse_study(TEXT, folder=tmp_path), out, workers=0)
+    (out / "encounters" / "part-000000000200-000000000399.parquet").unlink()
+    result = called("show", out, "--row", "200")
+    assert (result.exit_code, result.stderr) == (
+        2,
+        f"error: {out}: row 200 is not computed yet: go on with `shipcollision study STUDY.toml --out DIR --resume`, "
+        "then show it again\n",
+    )
+    assert not (out / "replays").exists()
+
+
 def test_rows_that_cannot_be_replayed_are_refused(folder: Path, tmp_path: Path) -> None:
     table = pq.read_table(folder / "encounters")
     row = table.filter(pc.equal(table["status"], "refused"))["row"][0].as_py()
