@@ -28,7 +28,7 @@ from .empirical import EmpiricalTable, read_empirical_table
 from .fleet import Fleet, digest_ships, make_fleet
 from .level_checks import check_level
 from .situations import read_situations
-from .study_file import Header, RunTable, StudyFile
+from .study_file import MOST_ROWS, Header, RunTable, StudyFile
 from .table_checks import check_columns
 from .variables import SAILED, WORDS
 
@@ -185,6 +185,8 @@ def _refuse_other_file(data: dict[str, Any], source: str) -> None:
 def _count_rows(file: StudyFile, situations: int, source: str) -> int:
     """The number of rows, a whole number of grids."""
     cells, rows = max(situations, 1) * prod(len(values) for values in file.grid.values()), file.study.rows
+    if cells > MOST_ROWS:
+        raise StudyError(f"{source}: [grid] has {cells} cells, the limit is {MOST_ROWS}: take fewer values of a key")
     if rows is None:
         if not file.grid and not situations:
             raise StudyError(f"{source}: [study] rows is missing: give the number of cases, or a table [grid]")

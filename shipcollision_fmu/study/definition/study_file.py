@@ -17,7 +17,7 @@ from .fleet_tables import FleetTable, check_limits
 from .situations import SituationsTable
 from .variables import NUMBERS, WORDS
 
-__all__ = ["SAMPLERS", "EncounterTable", "Header", "RunTable", "StudyFile", "TableFile"]
+__all__ = ["MOST_ROWS", "SAMPLERS", "EncounterTable", "Header", "RunTable", "StudyFile", "TableFile"]
 
 SAMPLERS = ("latin-hypercube", "random", "sobol")
 

@@ -46,6 +46,11 @@ REFUSALS: dict[str, tuple[tuple[str, str], str]] = {
     "rows as text": (("rows = 100", 'rows = "100"'), "[study] rows = '100' must be a whole number"),
     "rows as a float": (("rows = 100", "rows = 1e6"), "[study] rows = 1000000.0 must be a whole number"),
     "too many rows": (("rows = 100", "rows = 100_000_000_000"), "[study] rows = 100000000000 must be less than"),
+    "a grid of too many cells": (
+        ("rows = 100", "[grid]\nat = {least = -0.4, most = 0.4, count = 100000}\n"
+         "angle_deg = {least = 20, most = 160, count = 100000}\nheading_deg = [0, 90]"),
+        "[grid] has 20000000000 cells, the limit is 10000000000: take fewer values of a key",
+    ),
     "a negative seed": (("rows = 100", "rows = 100\nseed = -1"), "[study] seed = -1 must be greater than or equal"),
     "an unknown sampler": (
         ("rows = 100", 'rows = 100\nsampler = "halton"'), "[study] sampler = 'halton' must be 'latin-hypercube', ",
