@@ -27,8 +27,10 @@ def write_csv(folder: Path, study: Study) -> None:
                 for file in files:
                     writer.write_table(pq.read_table(file))
             aside.replace(path)
-        except OSError as error:
+        except BaseException as error:
             aside.unlink(missing_ok=True)
+            if not isinstance(error, OSError):
+                raise
             raise HostError(
                 f"cannot write {path}: {error.strerror or error}; the Parquet files are complete: make room on the "
                 "disk, then go on with --resume --csv"

@@ -68,7 +68,11 @@ class DaskExecutor:
         self._done: SimpleQueue[Future] = SimpleQueue()
         self._threads, self._looked, self._last_worker = 0, -LOOK, monotonic()
         self._client = cluster.connect(ANSWER)
-        self._prepare()
+        try:
+            self._prepare()
+        except BaseException:
+            self.close()
+            raise
 
     @property
     def dashboard(self) -> str | None:
@@ -134,17 +138,21 @@ class DaskExecutor:
         return done
 
     def _take(self, done: list[Future], check: Callable[[], None]) -> list[Outcome]:
-        """The outcomes of futures that are done."""
-        outcomes, finished = [], []
+        """The outcomes of futures that are done. Batches stay out until all of them are known: none is lost when the
+        scheduler goes away meanwhile."""
+        states = [future.status for future in done]
+        if not {"finished", "error"}.issuperset(states):
+            raise _SchedulerLostError
+        finished = [future for future, state in zip(done, states, strict=True) if state == "finished"]
+        failed = [future for future, state in zip(done, states, strict=True) if state == "error"]
+        try:
+            answers = self._gather(finished, check)
+        except KilledWorker:  # computed again, as the worker of the answer had gone: its future says so now
+            return self._take(done, check)
+        outcomes = [self._explain(self._out[future], future) for future in failed]
+        outcomes += [Outcome(self._out[future], answer) for future, answer in zip(finished, answers, strict=True)]
         for future in done:
-            if future.status == "finished":
-                finished.append(future)
-            elif future.status == "error":
-                outcomes.append(self._explain(self._out.pop(future), future))
-            else:
-                raise _SchedulerLostError
-        for future, answer in zip(finished, self._gather(finished, check), strict=True):
-            outcomes.append(Outcome(self._out.pop(future), answer))
+            del self._out[future]
         return outcomes
 
     def _gather(self, finished: list[Future], check: Callable[[], None]) -> list[Answer]:

@@ -33,7 +33,7 @@ __all__ = ["TABLES", "StudyFolder"]
 
 TABLES = ("encounters", "collisions")
 ASIDE = ".shipcollision-*"
-"""Folders of files that are being written; a client that was killed leaves some behind."""
+"""Folders and files that are being written; a client that was killed leaves some behind."""
 
 
 class StudyFolder:
@@ -81,7 +81,10 @@ class StudyFolder:
     def close(self) -> None:
         """Removes what was being written, by workers that were ended as well."""
         for aside in [*self.path.glob(ASIDE), *self.path.glob(f"*/{ASIDE}")]:
-            shutil.rmtree(aside, ignore_errors=True)
+            if aside.is_dir():
+                shutil.rmtree(aside, ignore_errors=True)
+            else:  # a table as CSV
+                aside.unlink(missing_ok=True)
 
     @property
     def aside(self) -> Path:

@@ -58,23 +58,16 @@ def _run(
     folder.check(resume, engine)
     tally = Tally()
     missing = list(_find_missing(folder, tally, notify))
-    with _open_executor(study, compute, folder, means if missing else HERE, notify) as executor:
-        folder.open()
-        loop = Loop(executor, BatchPlan(missing), Assembly(study.fingerprint), folder, tally, study.rows, progress)
-        there = tally.rows
-        try:
-            with delay_interrupts() as check:
-                loop.run(check)
-        except BaseException as reason:
-            with suppress(HostError):  # a full disk may have no room for this either
-                folder.write_status("interrupted", tally.as_counts())
-            if not isinstance(reason, KeyboardInterrupt):
-                raise
-            text = f"interrupted; {tally.rows} of {study.rows} rows are in {out}: go on with --resume"
-            raise type(reason)(text) from None
-    folder.write_status("complete", tally.as_counts())
-    if csv:
-        write_csv(folder.path, study)
+    there = tally.rows
+    try:
+        loop = _compute(study, compute, folder, means if missing else HERE, notify, missing, tally, progress)
+        folder.write_status("complete", tally.as_counts())
+        if csv:
+            write_csv(folder.path, study)
+    except KeyboardInterrupt as reason:
+        option = "--resume --csv" if csv else "--resume"
+        text = f"interrupted; {tally.rows} of {study.rows} rows are in {out}: go on with {option}"
+        raise type(reason)(text) from None
     computed, seconds = tally.rows - there, perf_counter() - begin
     return StudyResult(
         out,
@@ -88,6 +81,24 @@ def _run(
         loop.busy,
         loop.waited,
     )
+
+
+def _compute(
+    study: Study, compute: ComputeRows, folder: StudyFolder, means: Means, notify: Notify, missing: list[Part],
+    tally: Tally, progress: Progress | None,
+) -> Loop:  # fmt: skip
+    """The loop, after it has computed the missing parts."""
+    with _open_executor(study, compute, folder, means, notify) as executor:
+        folder.open()
+        loop = Loop(executor, BatchPlan(missing), Assembly(study.fingerprint), folder, tally, study.rows, progress)
+        try:
+            with delay_interrupts() as check:
+                loop.run(check)
+        except BaseException:
+            with suppress(HostError):  # a full disk may have no room for this either
+                folder.write_status("interrupted", tally.as_counts())
+            raise
+    return loop
 
 
 @contextmanager

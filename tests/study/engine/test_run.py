@@ -12,13 +12,14 @@ from pathlib import Path
 
 import pyarrow.parquet as pq
 import pytest
+from distributed import KilledWorker
 
 from shipcollision_fmu import __version__
 from shipcollision_fmu.errors import HostError, StudyError
 from shipcollision_fmu.files import write_files
 from shipcollision_fmu.study.engine.assembly import Assembly
 from shipcollision_fmu.study.engine.batches import Batch, BatchPlan
-from shipcollision_fmu.study.engine.dask_executor import DaskExecutor
+from shipcollision_fmu.study.engine.dask_executor import DaskExecutor, _SchedulerLostError
 from shipcollision_fmu.study.engine.executor import Failure, Outcome
 from shipcollision_fmu.study.engine.folder import StudyFolder
 from shipcollision_fmu.study.engine.folder_lock import hold_folder
@@ -279,6 +280,32 @@ def test_csv_has_the_same_rows(whole: Path, tmp_path: Path) -> None:
     )
 
 
+def test_an_interrupt_while_csv_is_written_says_that_all_rows_are_there(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupt(*arguments: object) -> None:
+        raise KeyboardInterrupt
+
+    out = tmp_path / "study"
+    monkeypatch.setattr("shipcollision_fmu.study.engine.csv_tables.pq.read_table", interrupt)
+    with pytest.raises(
+        KeyboardInterrupt, match=f"^interrupted; 1010 of 1010 rows are in {out}: go on with --resume --csv$"
+    ):
+        run(out, csv=True)
+    assert [path.name for path in out.glob(".shipcollision-*")] == []
+    monkeypatch.undo()
+    run(out, resume=True, csv=True)
+    assert len((out / "encounters.csv").read_text(encoding="utf-8").splitlines()) == 1 + STUDY.rows
+
+
+def test_a_csv_that_a_killed_client_has_begun_is_removed(tmp_path: Path) -> None:
+    out = tmp_path / "study"
+    run(out)
+    (out / ".shipcollision-encounters.csv").write_text("row")
+    run(out, resume=True)
+    assert list(out.glob(".shipcollision-*")) == []
+
+
 def test_progress_counts_rows_and_begins_with_those_that_are_there(tmp_path: Path) -> None:
     seen: list[tuple[int, int]] = []
 
@@ -420,3 +447,42 @@ def test_a_worker_that_lacks_a_package_is_named_with_the_remedy() -> None:
     executor, batch = object.__new__(DaskExecutor), Batch(get_part(0, 10, "sailed"), 0, 10)
     with pytest.raises(HostError, match=r"^a worker has no package 'shipcollision_fmu': run `python -m pip install '"):
         executor._explain(batch, Failed())  # type: ignore[arg-type]
+
+
+class Done:
+    """A future of Dask in a state."""
+
+    def __init__(self, status: str) -> None:
+        self.status = status
+
+    def exception(self, timeout: float) -> BaseException:
+        """That of a batch that has ended its workers."""
+        return MemoryError()
+
+
+def test_a_batch_that_failed_as_the_scheduler_went_away_is_not_lost() -> None:
+    """Both come at once: what failed is still out, and comes back with the others."""
+    executor = object.__new__(DaskExecutor)
+    part = get_part(0, 10, "sailed")
+    failed, lost = Done("error"), Done("lost")
+    executor._out = {failed: Batch(part, 0, 5), lost: Batch(part, 5, 5)}  # type: ignore[dict-item]
+    with pytest.raises(_SchedulerLostError):
+        executor._take([failed, lost], lambda: None)  # type: ignore[list-item]
+    assert sorted(batch.first for batch in executor._out.values()) == [0, 5]
+
+
+def test_an_answer_whose_second_computation_ends_its_workers_is_a_failure(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Dask computes an answer again whose worker went away before it was fetched."""
+    executor = object.__new__(DaskExecutor)
+    future, batch = Done("finished"), Batch(get_part(0, 10, "sailed"), 0, 10)
+    executor._out = {future: batch}  # type: ignore[dict-item]
+
+    def gather(finished: list[Done], check: Callable[[], None]) -> list[object]:
+        if finished:
+            future.status = "error"
+            raise KilledWorker("key", "worker", 3)
+        return []
+
+    monkeypatch.setattr(executor, "_gather", gather)
+    assert executor._take([future], lambda: None) == [Outcome(batch, failure=Failure.DEADLY)]  # type: ignore[list-item]
+    assert executor._out == {}
