@@ -65,6 +65,7 @@ def live(
     from ..cosim.run import RUN_FILES
     from ..files import check_writable
     from ..live.extra import require_live
+    from ..live.session.input_files import FOLDERS
     from ..live.session.run_folder import SCENARIO as SCENARIO_FILE
     from ..live.session.session import Session, check_rate
     from ..live.session.ship_limits import choose_own
@@ -83,7 +84,7 @@ def live(
         raise ScenarioError(f"--duration {duration:g} s must be greater than 0: give one such as 600")
     folder = out if out is not None else Path("runs") / f"{loaded.name}-live-{datetime.now():%Y%m%d-%H%M%S}"
     if not overwrite:
-        refuse_foreign_files(folder, (*RUN_FILES, *PICTURES, SCENARIO_FILE))
+        refuse_foreign_files(folder, (*RUN_FILES, *PICTURES, SCENARIO_FILE, *FOLDERS))
     check_writable(folder)
     listening = bind(host, port)
     with listening:

@@ -33,6 +33,7 @@ from ...scenario.scenario import Scenario, parse_scenario
 from ...scenario.tables.environment import EnvironmentChange
 from ...ship.loading.messages import describe_error
 from .bridge import Bridge
+from .input_files import read_input_files
 from .scenario_text import write_scenario
 from .ship_limits import find_limits
 from .snapshot import CollisionSnapshot, ContactSnapshot, EnvironmentSnapshot, ShipSnapshot, WindSnapshot
@@ -66,6 +67,7 @@ class LiveRun:
 
     def __init__(self, scenario: Scenario, spool: Path | None = None) -> None:
         self.scenario, self.ships = scenario, scenario.load_ships()
+        self.inputs = read_input_files(scenario)
         self._stack = ExitStack()
         try:
             factories = model_factories(tuple(scenario.ships), self._stack)
@@ -245,11 +247,11 @@ class LiveRun:
 
     def write_scenario(self) -> str:
         """The text of a scenario that gives this run again: orders, failures, current and wind as they were given."""
-        return write_scenario(self.scenario, self.recorded, self.bridges, self._changes)
+        return write_scenario(self.scenario, self.inputs, self.recorded, self.bridges, self._changes)
 
-    def finish(self) -> Run:
-        """The run so far."""
-        scenario = parse_scenario(self.write_scenario(), f"{self.scenario.name}, live")
+    def finish(self, folder: Path) -> Run:
+        """The run so far; its `inputs` are written into `folder`."""
+        scenario = parse_scenario(self.write_scenario(), f"{self.scenario.name}, live", folder)
         record = self._stepper.recorder.build_record(self._end)
         return build_run(scenario, self.ships, record, "live", perf_counter() - self._begin)
 

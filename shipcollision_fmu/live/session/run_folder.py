@@ -1,4 +1,5 @@
-"""The folder of a finished live run: the ordinary files of a run, scenario.toml, and replay.html."""
+"""The folder of a finished live run: the ordinary files of a run, scenario.toml with its ships and recordings, and
+replay.html. It needs no file elsewhere, so that it may be moved."""
 
 from __future__ import annotations
 
@@ -21,7 +22,8 @@ def write_run(run: LiveRun, out: Path) -> list[str]:
 
     Raises HostError when the folder cannot be written.
     """
-    finished = run.finish()
+    run.inputs.write(out)
+    finished = run.finish(out)
     finished.write(out)
     write_files(out, {SCENARIO: run.write_scenario()})
     if len(finished.states) > LARGEST_PAGE:

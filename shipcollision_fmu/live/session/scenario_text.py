@@ -1,6 +1,7 @@
 """The scenario file of a live run: the scenario that was loaded, with the orders, current and wind as they were given.
 
-Paths of ships become absolute; published results, which are those of another run, are left out.
+Ship files and recordings are those beside it (input_files.py). Published results are left out: they are of another
+run.
 """
 
 from __future__ import annotations
@@ -13,22 +14,25 @@ from ...scenario.scenario import Scenario
 from ...scenario.tables.environment import EnvironmentChange
 from ...scenario.toml_writer import format_toml
 from .bridge import Bridge, Logged
+from .input_files import InputFiles
 
 __all__ = ["write_scenario"]
 
 
 def write_scenario(
-    scenario: Scenario, steps: int, bridges: Mapping[str, Bridge], changes: Mapping[int, EnvironmentChange]
-) -> str:
-    """The text of the file. `changes` are those of current and wind, by communication point, that people made."""
+    scenario: Scenario, inputs: InputFiles, steps: int, bridges: Mapping[str, Bridge],
+    changes: Mapping[int, EnvironmentChange],
+) -> str:  # fmt: skip
+    """The text of the file, which lies beside `inputs`. `changes`: those of current and wind that people
+    made, by communication point."""
     tables = scenario.model_dump(exclude_unset=True, exclude_none=True)
     step = scenario.step
     tables["scenario"]["duration"] = find_time(steps, step)
     for name, table in tables["ships"].items():
         if "ship" in table:
-            table["ship"] = scenario.ship_file(name)
+            table["ship"] = inputs.ships[name]
         if "track" in table:
-            table["track"]["file"] = scenario.track_file(name)
+            table["track"]["file"] = inputs.recordings[name]
             table["track"].setdefault("until", scenario.scenario.duration)  # a track depends on where it is cut
         _write_ship(table, bridges[name], steps, step)
     environment = tables.get("environment", {})

@@ -5,7 +5,11 @@ import { LIGHT } from "./daylight.js";
 
 const quad = new Float32Array([-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0]);
 
+// Half the width of a glow in the picture [rad]: a light dazzles less the farther it is, down to a point that can still be seen.
+const SMALLEST = 0.0034, GLARE = 0.0085, FAR = 260; // [rad], [rad], [m]
+
 const VERTEX = /* glsl */ `
+  const float SMALLEST = ${SMALLEST.toFixed(4)}, GLARE = ${GLARE.toFixed(4)}, FAR = ${FAR.toFixed(1)};
   uniform float uLamps, uMirror;
   uniform vec2 uSector; // start and arc [rad] clockwise from ahead
   varying vec2 vCorner;
@@ -19,7 +23,7 @@ const VERTEX = /* glsl */ `
     vec3 light = (modelMatrix * vec4(0.0, 0.0, 0.0, 1.0)).xyz;
     vec3 away = light - cameraPosition;
     float distance_ = length(away);
-    float radius = max(1.0, 0.0078 * distance_); // as large in the picture from far as from a few hundred metres
+    float radius = max(0.5, (SMALLEST + GLARE / (1.0 + distance_ / FAR)) * distance_);
     vLight = uLamps * mix(0.04, 1.0, seen);
     vec3 place;
     if (uMirror > 0.5) {

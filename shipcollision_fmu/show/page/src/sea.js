@@ -90,7 +90,9 @@ const fragmentShader = (count, isPlain) => /* glsl */ `
   ${FIELD_GLSL}
   ${isPlain ? "" : shipsGlsl(count)}
   ${isPlain ? "" : /* glsl */ `
-  // How much of a ship, taken for a box, a mirrored ray meets, and its colour.
+  // The plan of what is mirrored, in half lengths and half breadths: a x + b y < c, from shoulder to stem and at the quarter.
+  const vec3 EDGES[3] = vec3[3](vec3(1.143, 1.0, 1.571), vec3(4.0, 1.0, 4.0), vec3(-0.833, 1.0, 1.583));
+  // How much of a ship, taken for such a prism, a mirrored ray meets, and its colour.
   vec4 mirroredShip(vec3 from, vec3 direction) {
     float nearest = 1e9;
     vec4 found = vec4(0.0);
@@ -98,15 +100,21 @@ const fragmentShader = (count, isPlain) => /* glsl */ `
       vec2 ahead = uPlaces[i].zw;
       mat2 toShip = mat2(ahead.x, -ahead.y, ahead.y, ahead.x);
       vec2 o = toShip * (from.xz - uPlaces[i].xy), d = toShip * direction.xz;
-      vec3 origin = vec3(o, from.y), ray = vec3(d, direction.y) + 1e-6; // never 0
       vec3 size = uSizes[i];
-      vec3 low = (vec3(-size.xy, 0.0) - origin) / ray, high = (size - origin) / ray;
+      vec3 origin = vec3(o, from.y) / size, ray = (vec3(d, direction.y) + 1e-6) / size; // never 0
+      vec3 low = (vec3(-1.0, -1.0, 0.0) - origin) / ray, high = (1.0 - origin) / ray;
       vec3 enter = min(low, high), leave = max(low, high);
       float t = max(max(enter.x, enter.y), enter.z), end = min(min(leave.x, leave.y), leave.z);
+      for (int k = 0; k < 6; k++) {
+        vec3 edge = EDGES[k / 2] * vec3(1.0, k % 2 == 0 ? 1.0 : -1.0, 1.0);
+        float towards = dot(edge.xy, ray.xy), to = (edge.z - dot(edge.xy, origin.xy)) / towards;
+        if (towards < 0.0) t = max(t, to);
+        else end = min(end, to);
+      }
       if (t < end && end > 0.0 && t < nearest) {
         nearest = t;
-        vec3 at = abs(origin + t * ray) / size; // fainter towards ends and top, where hulls are not boxes
-        found = vec4(uColours[i], 0.8 * smoothstep(1.02, 0.75, at.x) * smoothstep(1.05, 0.55, at.z));
+        vec3 at = abs(origin + t * ray); // fainter towards the top, where there is more than a hull
+        found = vec4(uColours[i], 0.8 * smoothstep(1.02, 0.85, at.x) * smoothstep(1.05, 0.55, at.z));
       }
     }
     return found;

@@ -119,14 +119,14 @@ export function makeWake({ track, info }, cover, waves) {
   };
 }
 
-const OFFSETS = [-1, 0, 0.18, 0.45, 1]; // of the reach of the foam beside a hull
+const OFFSETS = [-1, 0, 0.12, 0.3, 0.6, 1]; // of the reach of the foam beside a hull
 
 /** A band around the waterline: bow wave, foam and shade, from how fast the plating moves against the water. */
 export function makeHullFoam(ship, cover) {
   const { track, info } = ship;
   const { x, port, starboard } = findWaterline(ship);
   const loop = [...x.map((at, i) => [at, starboard[i]]), ...x.map((at, i) => [at, -port[i]]).reverse()];
-  const reach = Math.min(9, Math.max(1.5, 0.2 * info.B));
+  const reach = Math.min(13, Math.max(2, 0.32 * info.B));
   const places = [], normals = [], outs = [], index = [];
   loop.forEach(([px, py], i) => {
     const [ax, ay] = loop[(i + loop.length - 1) % loop.length], [bx, by] = loop[(i + 1) % loop.length];
@@ -148,30 +148,41 @@ export function makeHullFoam(ship, cover) {
   const pose = new THREE.Vector4(), flow = new THREE.Vector3();
   const mesh = new THREE.Mesh(geometry, new THREE.ShaderMaterial({
     ...ADDING,
-    uniforms: { uCover: cover, uPose: { value: pose }, uFlow: { value: flow }, uEnds: { value: new THREE.Vector2(x[0], x.at(-1)) } },
+    uniforms: {
+      uCover: cover, uPose: { value: pose }, uFlow: { value: flow }, uEnds: { value: new THREE.Vector2(x[0], x.at(-1)) },
+      uReach: { value: reach }, uRipples: WATER.uRipples,
+    },
     vertexShader: /* glsl */ `
       attribute float aOut;
       uniform vec4 uCover, uPose;
       uniform vec3 uFlow;
       uniform vec2 uEnds;
       varying vec4 vHull; // out, speed of the plating against the water, speed, share of the length from the bow
+      varying vec2 vPlace;
       void main() {
         vec2 p = position.xy;
         vec2 place = uPose.xy + uPose.zw * p.x + vec2(-uPose.w, uPose.z) * p.y;
         vec2 velocity = vec2(uFlow.x - uFlow.z * p.y, uFlow.y + uFlow.z * p.x);
         vHull = vec4(aOut, dot(velocity, normal.xy), length(velocity), (uEnds.y - p.x) / (uEnds.y - uEnds.x));
+        vPlace = place;
         ${TO_FIELD}
       }`,
     fragmentShader: /* glsl */ `
+      uniform float uReach;
+      uniform sampler2D uRipples;
       varying vec4 vHull;
+      varying vec2 vPlace;
       void main() {
         float out_ = max(vHull.x, 0.0), push = vHull.y, speed = vHull.z, from = vHull.w;
-        float near = (1.0 - out_) * (1.0 - out_);
+        // The edge of the foam is ragged: patches of the water that the ship passes keep it longer than others.
+        float patches = 0.6 * texture2D(uRipples, vPlace / 37.0).b + 0.4 * texture2D(uRipples, vPlace.yx / 13.0).b;
+        float ragged = max(0.0, out_ * (1.0 + 2.6 * (patches - 0.5)) + 0.25 * (patches - 0.5) * smoothstep(0.0, 0.2, out_));
+        float near = (1.0 - out_) * (1.0 - out_), thin = exp(-4.5 * ragged) * smoothstep(1.0, 0.55, out_);
         float height = 0.45 * push * abs(push) / 19.62 * exp(-2.5 * out_) * (1.0 - out_);
-        float foam = 1.1 * smoothstep(0.4, 3.2, push) * near;
-        foam += 0.55 * smoothstep(1.0, 8.0, speed) * exp(-2.2 * from) * near;
-        foam += 0.30 * smoothstep(0.3, 6.0, speed) * smoothstep(0.4, 0.0, out_);
-        foam += 0.14 * smoothstep(0.3, 0.0, out_); // the swell laps at the plating
+        float foam = 1.1 * smoothstep(0.4, 3.2, push) * exp(-2.4 * ragged) * smoothstep(1.0, 0.6, out_);
+        foam += 0.55 * smoothstep(1.0, 8.0, speed) * exp(-2.2 * from) * exp(-2.0 * ragged) * smoothstep(1.0, 0.5, out_);
+        foam += 0.34 * smoothstep(0.3, 6.0, speed) * thin;
+        foam += 0.14 * exp(-1.3 * uReach * out_); // the swell laps at the plating
         gl_FragColor = vec4(foam, clamp(height, -0.8, 1.6), vHull.x < 0.0 ? 1.0 : near, 0.35 * foam);
       }`,
   }));
@@ -213,6 +224,7 @@ function makeRaised(pose, flow, ends, reach) {
       uniform vec2 uEnds;
       uniform float uReach;
       varying vec4 vWave; // out, strength, and where on the ship
+      varying float vAbove; // the water [m]
       void main() {
         vec2 p = position.xy;
         vec2 velocity = vec2(uFlow.x - uFlow.z * p.y, uFlow.y + uFlow.z * p.x);
@@ -223,7 +235,8 @@ function makeRaised(pose, flow, ends, reach) {
         float out_ = max(aOut, 0.0);
         vec2 place = uPose.xy + uPose.zw * p.x + vec2(-uPose.w, uPose.z) * p.y;
         vWave = vec4(out_, height, p.x, out_ * uReach);
-        float y = height * (1.0 - out_) * (1.0 - 0.4 * out_) + 0.12 - 0.35 * out_;
+        float y = height * (1.0 - out_) * (1.0 - out_) + 0.12 - 0.35 * out_;
+        vAbove = y;
         gl_Position = projectionMatrix * viewMatrix * vec4(place.x, y, place.y, 1.0);
       }`,
     fragmentShader: /* glsl */ `
@@ -231,10 +244,12 @@ function makeRaised(pose, flow, ends, reach) {
       uniform float uTime;
       uniform sampler2D uRipples;
       varying vec4 vWave;
+      varying float vAbove;
       void main() {
         vec2 q = vec2(vWave.z + 2.5 * uTime, vWave.w * 1.6 - 1.2 * uTime);
         float net = 0.6 * texture2D(uRipples, q / 9.0).a + 0.4 * texture2D(uRipples, q.yx / 4.0).b;
         float opacity = smoothstep(0.05, 0.7, vWave.y) * smoothstep(1.0, 0.5, vWave.x) * smoothstep(0.1, 0.6, net + 0.45 - 0.8 * vWave.x);
+        opacity *= smoothstep(0.0, 0.45, vAbove + 0.5 * (net - 0.4)); // it thins out before it dips into the sea
         if (opacity < 0.01) discard;
         gl_FragColor = vec4(uFoam * (0.72 + 0.4 * net), min(opacity, 0.95));
         #include <tonemapping_fragment>
