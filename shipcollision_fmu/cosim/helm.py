@@ -52,7 +52,7 @@ class HelmState(NamedTuple):
 class Helm:
     """The helm of one ship, which writes its orders into `group`.
 
-    `orders` (those to come) and `headings` by communication point; `own` and `other` are the buffers of the two ships'
+    `orders` and `headings`, those to come, by communication point; `own` and `other` are the buffers of the two ships'
     states. From point `evades_until` on there is no evasion. `changes` are the surroundings by the communication point
     from which they act, written into `around`.
     """
@@ -84,7 +84,7 @@ class Helm:
         if k == self.evades_until:
             self.end_evasion()
         if k in self.headings:
-            self.state = self.state._replace(heading=self.headings[k], on_route=False, integral=0.0)
+            self.state = self.state._replace(heading=self.headings.pop(k), on_route=False, integral=0.0)
         assert self.own is not None
         own = ShipState(*self.own[: len(STATE)])
         other = None if self.other is None else ShipState(*self.other[: len(STATE)])

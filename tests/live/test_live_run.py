@@ -5,12 +5,14 @@ from __future__ import annotations
 import random
 from collections.abc import Iterator
 from contextlib import closing
+from math import sin
 from pathlib import Path
 
 import psutil
 import pytest
 
 from shipcollision_fmu import load_scenario, simulate
+from shipcollision_fmu.cosim.row_log import CHUNK
 from shipcollision_fmu.errors import InputError
 from shipcollision_fmu.live.session.live_run import MOST_MARKS, LiveRun
 from shipcollision_fmu.live.session.run_folder import write_run
@@ -239,6 +241,23 @@ def test_a_run_longer_than_its_scenario(timed: LiveRun, tmp_path: Path) -> None:
     assert_same_again(timed, tmp_path)
 
 
+def test_an_order_at_every_step(timed: LiveRun, tmp_path: Path) -> None:
+    """More orders than the chunk of the log in memory; a mark is in what is written, and one in what is held."""
+    while timed.k < 1200:
+        timed.bridges["own"].order(20.0 * sin(timed.k), None, None, None)
+        timed.bridges["target"].order(None, None if timed.k % 2 else 300.0, 0.5, None)
+        if timed.k in (300, 1150):
+            timed.mark(str(timed.k))
+        timed.advance()
+    assert len(timed.bridges["own"].log) > CHUNK
+    for name in ("1150", "300"):
+        timed.go_back(name)
+        timed.bridges["own"].order(-7.5, None, None, None)
+        advance(timed, timed.time + 3.0)
+    assert len(timed.bridges["own"].log) < 320
+    assert_same_again(timed, tmp_path)
+
+
 @pytest.mark.parametrize(
     ("order", "message"),
     [
@@ -313,9 +332,12 @@ def test_beyond_its_full_length_the_record_ends_and_the_run_goes_on(timed: LiveR
 
 @pytest.mark.slow
 def test_the_memory_of_a_long_run_stays(run: LiveRun) -> None:
-    """Ten minutes of simulated time, ships in contact for most of it, leave no more than the log of orders."""
+    """Ten minutes of simulated time, ships in contact for most of it, with an order at every step."""
     process = psutil.Process()
     advance(run, 120.0)
     before = process.memory_info().rss
-    advance(run, 720.0)
+    while run.time < 720.0:
+        run.bridges["own"].order(10.0 * sin(run.time), None, None, None)
+        run.bridges["target"].order(None, 250.0 + run.time % 60.0, None, None)
+        run.advance()
     assert process.memory_info().rss - before < 8e6

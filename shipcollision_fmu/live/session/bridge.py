@@ -14,6 +14,7 @@ from __future__ import annotations
 from ctypes import c_double
 from dataclasses import dataclass, field, replace
 from math import degrees, radians
+from pathlib import Path
 from typing import Any
 
 from ...cosim.component import Buffer, Component, Group
@@ -24,28 +25,13 @@ from ...fmi.names import STEERING
 from ...scenario.order_schedule import find_point
 from ...scenario.tables.orders import Order as TimedOrder
 from ...scenario.tables.ship_start import ShipStart
+from .order_log import Logged, OrderLog
 from .ship_limits import ShipLimits
 
-__all__ = ["Bridge", "Logged"]
+__all__ = ["Bridge"]
 
 LARGEST_RUDDER = 90.0
 """[deg] Limit of a rudder order in a scenario; degrees(radians(90)) may be a last bit beyond."""
-
-
-@dataclass(frozen=True)
-class Logged:
-    """An order at a communication point, as in a scenario: keys that are None stay as before."""
-
-    rudder_deg: float | None = None
-    heading_deg: float | None = None
-    rev_per_s: float | None = None
-
-    def followed_by(self, later: Logged) -> Logged:
-        """Both orders as one: those of `later` count."""
-        rudder, heading = self.rudder_deg, self.heading_deg
-        if later.rudder_deg is not None or later.heading_deg is not None:
-            rudder, heading = later.rudder_deg, later.heading_deg
-        return Logged(rudder, heading, self.rev_per_s if later.rev_per_s is None else later.rev_per_s)
 
 
 class _NoGroup:
@@ -64,9 +50,8 @@ class _NoGroup:
 class _Memory:
     """What changes while a run goes on."""
 
-    log: dict[int, Logged] = field(default_factory=dict)
     timed: tuple[tuple[int, Logged], ...] = ()
-    ordered: Logged = Logged(0.0, None, 0.0)
+    ordered: Logged = field(default_factory=lambda: Logged(0.0, None, 0.0))
     waiting: Logged | None = None
     failures: tuple[str, ...] = ()
     evasion_ended: int | None = None
@@ -76,7 +61,7 @@ class _Memory:
 class Bridge:
     """The bridge of one ship, whose helm is at communication point 0.
 
-    `limits` None: it takes no orders. A ship that follows a recorded track has no helm.
+    `limits` None: it takes no orders. `spool`: folder for the log. A ship that follows a recorded track has no helm.
     """
 
     def __init__(
@@ -88,9 +73,11 @@ class Bridge:
         helm: Helm | None,
         limits: ShipLimits | None,
         step: float,
+        spool: Path | None = None,
     ) -> None:
         self.name, self.limits, self._helm, self._step = name, limits, helm or Helm(_NoGroup()), step
         self._machines: Group = _NoGroup() if helm is None else ship.reals(STEERING)
+        self.log = OrderLog(spool)
         self._memory = _Memory(timed=tuple(_list_points(start.orders, step)))
         if limits is None or helm is None:
             return
@@ -116,11 +103,6 @@ class Bridge:
     @horn.setter
     def horn(self, on: bool) -> None:
         self._memory.horn = on
-
-    @property
-    def log(self) -> dict[int, Logged]:
-        """Orders by communication point."""
-        return self._memory.log
 
     @property
     def evasion_ended(self) -> int | None:
@@ -206,7 +188,8 @@ class Bridge:
         """The whole state of bridge and helm, for restore()."""
         helm = self._helm
         return {
-            "memory": replace(self._memory, log=dict(self._memory.log)),
+            "memory": replace(self._memory),
+            "logged": len(self.log),
             "helm": (dict(helm.orders), dict(helm.headings), helm.steering, helm.state, dict(helm.changes)),
             "last": helm.last_order,
             "values": (helm.group.values[:], helm.around.values[:] if helm.around is not None else []),
@@ -214,8 +197,9 @@ class Bridge:
 
     def restore(self, saved: dict[str, Any]) -> None:
         """Back to what save() gave, which stays as it is."""
-        helm, memory = self._helm, saved["memory"]
-        self._memory = replace(memory, log=dict(memory.log))
+        helm = self._helm
+        self._memory = replace(saved["memory"])
+        self.log.truncate(saved["logged"])
         orders, headings, helm.steering, helm.state, changes = saved["helm"]
         helm.orders, helm.headings, helm.changes = dict(orders), dict(headings), dict(changes)
         helm.last_order = saved["last"]
@@ -225,7 +209,7 @@ class Bridge:
 
     def _log(self, k: int, given: Logged) -> None:
         memory = self._memory
-        memory.log[k] = given
+        self.log.append(k, given)
         kept = Logged(memory.ordered.rudder_deg, None, memory.ordered.rev_per_s)
         memory.ordered = Logged(
             kept.rudder_deg if given.rudder_deg is None else given.rudder_deg,

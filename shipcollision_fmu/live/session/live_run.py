@@ -81,10 +81,12 @@ class LiveRun:
         self.bridges = {
             name: Bridge(
                 name, start, self.ships[name].L_pp, system.ships[i], self._stepper.helms.get(name),
-                find_limits(self.ships[name], bool(start.hydrodynamics)), scenario.step,
+                find_limits(self.ships[name], bool(start.hydrodynamics)), scenario.step, spool,
             )
             for i, (name, start) in enumerate(scenario.ships.items())
         }  # fmt: skip
+        for bridge in self.bridges.values():
+            self._stack.callback(bridge.log.close)
         self._coming = changed_surroundings(scenario)
         self._changes: dict[int, EnvironmentChange] = {}
         self._around = self._coming.get(0, surroundings(scenario))

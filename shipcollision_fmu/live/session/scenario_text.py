@@ -13,8 +13,9 @@ from ...scenario.order_schedule import find_point
 from ...scenario.scenario import Scenario
 from ...scenario.tables.environment import EnvironmentChange
 from ...scenario.toml_writer import format_toml
-from .bridge import Bridge, Logged
+from .bridge import Bridge
 from .input_files import InputFiles
+from .order_log import Logged
 
 __all__ = ["write_scenario"]
 
@@ -60,7 +61,7 @@ def _write_ship(table: dict[str, Any], bridge: Bridge, steps: int, step: float) 
             table["orders"] = kept
         return
     table.pop("orders", None)
-    given = [_write_order(find_time(k, step), order) for k, order in bridge.log.items() if k < max(steps, 1)]
+    given = [_write_order(find_time(k, step), order) for k, order in bridge.log.list_orders() if k < max(steps, 1)]
     if given:
         table["orders"] = given
     if bridge.evasion_ended is not None and bridge.evasion_ended < steps:
