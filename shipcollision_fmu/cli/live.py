@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from datetime import datetime
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
 from ..errors import ScenarioError, ShipCollisionError
 from .console import say
 from .options import NUMBER, PATH, SCENARIO, WHOLE_NUMBER
+
+if TYPE_CHECKING:
+    from ..live.protocols.outlets import Outlets
+    from ..live.server.app import LiveApp
+    from ..live.session.session import Session
+    from ..scenario.scenario import Scenario
 
 __all__ = ["live"]
 
@@ -61,76 +68,129 @@ def live(
       shipcollision live --nmea 10110 --orders 4711
       shipcollision live mine.toml --host 0.0.0.0 --no-browser
     """
-    from ..cosim.earlier_run import refuse_foreign_files
-    from ..cosim.run import RUN_FILES
-    from ..files import check_writable
     from ..live.extra import require_live
-    from ..live.session.input_files import FOLDERS
-    from ..live.session.run_folder import SCENARIO as SCENARIO_FILE
-    from ..live.session.session import Session, check_rate
+    from ..live.session.session import check_rate
     from ..live.session.ship_limits import choose_own
     from ..scenario.scenario import load_scenario
-    from ..show.outputs import PICTURES
 
     require_live()
-    from ..live.protocols.outlets import OutletAddresses, Outlets
-    from ..live.server.app import LiveApp
-    from ..live.server.serve import bind, serve
-
     loaded = load_scenario(scenario)
     own = choose_own(loaded, ship)
     check_rate(rate)
     if duration is not None and not duration > 0.0:
         raise ScenarioError(f"--duration {duration:g} s must be greater than 0: give one such as 600")
     folder = out if out is not None else Path("runs") / f"{loaded.name}-live-{datetime.now():%Y%m%d-%H%M%S}"
+    _refuse_folder(folder, overwrite)
+    offered = _Offered(own, nmea, nmea_tcp, dis, orders)
+    session = _run(
+        loaded, offered, folder, host, port, {"rate": rate, "duration": duration, "paused": paused},
+        sets_pace=not instructor_only, in_browser=browser,
+    )  # fmt: skip
+    _tell_of_end(session, folder)
+
+
+class _Offered(NamedTuple):
+    """The ship of the bridge, and what is sent and taken: addresses as options give them."""
+
+    own: str
+    nmea: tuple[str, ...]
+    nmea_tcp: str | None
+    dis: tuple[str, ...]
+    orders: str | None
+
+
+def _refuse_folder(folder: Path, overwrite: bool) -> None:
+    """Refuse a folder that cannot be written, or that has files of other origin."""
+    from ..cosim.earlier_run import refuse_foreign_files
+    from ..cosim.run import RUN_FILES
+    from ..files import check_writable
+    from ..live.session.input_files import FOLDERS
+    from ..live.session.run_folder import SCENARIO as SCENARIO_FILE
+    from ..show.outputs import PICTURES
+
     if not overwrite:
         refuse_foreign_files(folder, (*RUN_FILES, *PICTURES, SCENARIO_FILE, *FOLDERS))
     check_writable(folder)
-    listening = bind(host, port)
-    with listening:
-        session = Session(loaded, out=folder, rate=rate, duration=duration, paused=paused, spool=_make_spool(folder))
-        app = LiveApp(session, own, host=host, sets_pace=not instructor_only)
+
+
+def _run(
+    scenario: Scenario, offered: _Offered, folder: Path, host: str, port: int, pace: dict[str, Any], *,
+    sets_pace: bool, in_browser: bool,
+) -> Session:  # fmt: skip
+    """The session, after its end: pages at `host` and `port`, outlets as offered."""
+    from ..live.server.app import LiveApp
+    from ..live.server.serve import bind, serve
+    from ..live.session.session import Session
+
+    with bind(host, port) as listening, ExitStack() as stack:
+        session = Session(scenario, out=folder, spool=_make_spool(folder), **pace)
+        app = LiveApp(session, offered.own, host=host, sets_pace=sets_pace)
+        outlets = _open_outlets(session, offered, folder)
+        if outlets is not None:
+            stack.callback(outlets.close)
+            outlets.start()
         at = listening.getsockname()[:2]
-        addresses = OutletAddresses(nmea, nmea_tcp, dis, orders)
-        try:
-            outlets = Outlets(session, own, addresses) if addresses else None
-        except ShipCollisionError:
-            session.run.close()
-            with suppress(OSError):
-                folder.rmdir()  # empty, unless it was there
-            raise
+        serve(app, listening, lambda: _tell_of_start(app, at, offered, in_browser))
+    return session
 
-        def tell() -> None:
-            shown = f"[{at[0]}]" if ":" in at[0] else at[0]
-            bridge = f"http://{shown}:{at[1]}/?token={app.tokens.bridge}"
-            say(f"bridge of {own}: {bridge}")
-            say(f"instructor: http://{shown}:{at[1]}/instructor?token={app.tokens.instructor}")
-            for line in _describe_outlets(own, nmea, nmea_tcp, dis, orders):
-                say(line)
-            say("Ctrl-C ends the run and stores it")
-            if browser:
-                _open(bridge)
 
-        try:
-            if outlets is not None:
-                outlets.start()
-            serve(app, listening, tell)
-        finally:
-            if outlets is not None:
-                outlets.close()
+def _open_outlets(session: Session, offered: _Offered, folder: Path) -> Outlets | None:
+    """The outlets that are offered. Where an address cannot be used, the session and its new folder are given back."""
+    from ..live.protocols.outlets import OutletAddresses, Outlets
+
+    addresses = OutletAddresses(*offered[1:])
+    try:
+        return Outlets(session, offered.own, addresses) if addresses else None
+    except ShipCollisionError:
+        session.run.close()
+        with suppress(OSError):
+            folder.rmdir()  # empty, unless it was there
+        raise
+
+
+def _tell_of_start(app: LiveApp, at: tuple[str, int], offered: _Offered, in_browser: bool) -> None:
+    """Print the addresses, and open the bridge's."""
+    shown = f"[{at[0]}]" if ":" in at[0] else at[0]
+    bridge = f"http://{shown}:{at[1]}/?token={app.tokens.bridge}"
+    say(f"bridge of {offered.own}: {bridge}")
+    say(f"instructor: http://{shown}:{at[1]}/instructor?token={app.tokens.instructor}")
+    for line in _describe_outlets(offered):
+        say(line)
+    _warn_of_orders(offered.orders)
+    say("Ctrl-C ends the run and stores it")
+    if in_browser:
+        _open(bridge)
+
+
+def _describe_outlets(offered: _Offered) -> list[str]:
+    own = offered.own
+    lines = [f"NMEA of {own} and AIS to {address}" for address in offered.nmea]
+    lines += [f"NMEA of {own} and AIS for clients of TCP port {offered.nmea_tcp}"] if offered.nmea_tcp else []
+    lines += [f"DIS to {address}" for address in offered.dis]
+    return lines + ([f"orders at TCP port {offered.orders}"] if offered.orders else [])
+
+
+def _warn_of_orders(orders: str | None) -> None:
+    """Warn, where programs on other machines can reach the order port, which asks for no token."""
+    from ..live.protocols.addresses import is_loopback, parse_address
+
+    if orders is not None and not is_loopback(parse_address(orders, "tcp", "--orders")[0]):
+        say(f"warning: --orders {orders} has no token: whoever reaches this address may steer any ship", err=True)
+
+
+def _tell_of_end(session: Session, folder: Path) -> None:
+    """Print where the run is. Raises the session's error."""
+    from ..live.session.run_folder import SCENARIO as SCENARIO_FILE
+    from ..show.outputs import PAGE
+
     if session.error is not None:
         say(f"stored in {folder}")
         raise session.error
     say(f"stored in {folder}: {folder / SCENARIO_FILE} gives the same run again")
-
-
-def _describe_outlets(
-    own: str, nmea: tuple[str, ...], nmea_tcp: str | None, dis: tuple[str, ...], orders: str | None
-) -> list[str]:
-    lines = [f"NMEA of {own} and AIS to {address}" for address in nmea]
-    lines += [f"NMEA of {own} and AIS for clients of TCP port {nmea_tcp}"] if nmea_tcp else []
-    lines += [f"DIS to {address}" for address in dis]
-    return lines + ([f"orders at TCP port {orders}"] if orders else [])
+    if (folder / PAGE).is_file():
+        say(f"open {folder / PAGE} in a browser to see it")
+    else:
+        say(f"no page yet: `shipcollision show {folder}` writes it")
 
 
 def _make_spool(folder: Path) -> Path:

@@ -133,7 +133,9 @@ def test_ctrl_c_ends_and_stores_the_run(tmp_path: Path) -> None:
         finally:
             process.kill()
         assert (process.returncode, errors) == (0, "")
-    assert out == "stored in run: run/scenario.toml gives the same run again\n"
+    assert out == (
+        "stored in run: run/scenario.toml gives the same run again\nopen run/replay.html in a browser to see it\n"
+    )
     assert (tmp_path / "run" / "replay.html").is_file()
     simulate(load_scenario(tmp_path / "run" / "scenario.toml"), in_process=True, out=tmp_path / "again")
     for name in ("states.csv", "events.json", "summary.json"):

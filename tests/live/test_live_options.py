@@ -61,3 +61,30 @@ def test_a_live_run_is_steered_by_a_program(tmp_path: Path) -> None:
     assert f"orders at TCP port {port}" in result.output
     assert answers == [{"ok": True}]
     assert "rudder_deg = 12.5" in (tmp_path / "run" / "scenario.toml").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("address", "warns"),
+    [("0.0.0.0", True), ("[::]", True), ("127.0.0.1", False), ("localhost", False), (None, False)],
+)
+def test_an_order_port_for_other_machines_is_warned_of(tmp_path: Path, address: str | None, warns: bool) -> None:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    orders = str(port) if address is None else f"{address}:{port}"
+    result = live(tmp_path, "--orders", orders, "--duration", "0.1")
+    assert result.exit_code == 0, result.output
+    warning = f"warning: --orders {orders} has no token: whoever reaches this address may steer any ship\n"
+    assert result.stderr.count("warning") == warns
+    assert (warning in result.stderr) == warns
+
+
+def test_where_no_page_was_written_a_command_writes_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of a run that is too long for its page at once."""
+    monkeypatch.setattr("shipcollision_fmu.live.session.run_folder.LARGEST_PAGE", 1)
+    result = live(tmp_path, "--duration", "0.1")
+    folder = tmp_path / "run"
+    assert result.output.splitlines()[-1] == f"no page yet: `shipcollision show {folder}` writes it"
+    assert not (folder / "replay.html").exists()
+    assert CliRunner().invoke(main, ["show", str(folder)]).exit_code == 0
+    assert (folder / "replay.html").is_file()

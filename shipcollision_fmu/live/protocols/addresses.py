@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 import socket
+from ipaddress import ip_address
 from typing import Any
 
 from ...errors import HostError, InputError
 
-__all__ = ["LOOPBACK", "listen", "parse_address", "resolve"]
+__all__ = ["LOOPBACK", "is_loopback", "listen", "parse_address", "resolve"]
 
 LOOPBACK = "127.0.0.1"
 _FORM = re.compile(r"(?:(?P<scheme>udp|tcp)://)?(?:(?P<host>\[[0-9a-fA-F:]+\]|[^:/\s\[\]]+):)?(?P<port>\d{1,5})")
@@ -24,6 +25,15 @@ def parse_address(text: str, scheme: str, option: str) -> tuple[str, int]:
     if not 0 < port <= 65535:
         raise InputError(f"{option} {text!r}: port {port} must be 1 to 65535: give one such as {example}")
     return (found["host"] or LOOPBACK).strip("[]"), port
+
+
+def is_loopback(host: str) -> bool:
+    """Whether this machine alone reaches a host's address; False for a name that is not known."""
+    try:
+        found = {str(at[4][0]) for at in socket.getaddrinfo(host, None, type=socket.SOCK_STREAM)}
+    except OSError:
+        return False
+    return all(ip_address(address.partition("%")[0]).is_loopback for address in found)
 
 
 def resolve(host: str, port: int, option: str) -> tuple[int, Any]:
