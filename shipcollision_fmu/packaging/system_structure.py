@@ -88,6 +88,23 @@ def build_system_structure(
     Raises ScenarioError for a ship named COLLISION, for a foreign one that is not there, and for a contact response
     that needs Python in a native system; ShipError for a ship file.
     """
+    foreign = foreign or {}
+    _refuse_what_hosts_cannot_run(scenario, foreign)
+    packed = prepare_files(scenario) if native else _pack_files(scenario)
+    ships = _build_ships(scenario, packed, foreign, native)
+    collision = _build_collision(scenario, packed, foreign, native)
+    return SystemStructure(
+        scenario=scenario,
+        instances=tuple(_time_instance(instance, scenario, fmi) for instance in (*ships, collision)),
+        connections=tuple(_connect(scenario, foreign)),
+        orders=tuple(order for order in _list_orders(scenario) if order.ship not in foreign),
+        helm=tuple(_describe_helms(scenario, foreign)),
+        left_out=(*_describe_settings(scenario), *_describe_replaced(scenario, foreign, collision)),
+        replaced=tuple(foreign),
+    )
+
+
+def _refuse_what_hosts_cannot_run(scenario: Scenario, foreign: Mapping[str, ForeignShip]) -> None:
     if COLLISION in scenario.ships:
         raise ScenarioError(
             f"[ships.{COLLISION}] cannot be packaged: that is the name of the collision's own instance; rename the ship"
@@ -97,46 +114,33 @@ def build_system_structure(
             f"[ships.{name}] follows a recorded track, which only our own master does: remove track and give position, "
             "or take `shipcollision run`"
         )
-    ships, foreign = tuple(scenario.ships), foreign or {}
     for name in foreign:
-        if name not in ships:
-            raise ScenarioError(f"--replace {name}: {scenario.name} has no such ship: it has {', '.join(ships)}")
-    packed = _pack_files(scenario) if not native else prepare_files(scenario)
-    built: list[Instance] = []
+        if name not in scenario.ships:
+            known = ", ".join(scenario.ships)
+            raise ScenarioError(f"--replace {name}: {scenario.name} has no such ship: it has {known}")
+
+
+def _build_ships(
+    scenario: Scenario, packed: PreparedFiles, foreign: Mapping[str, ForeignShip], native: tuple[str, ...]
+) -> Iterator[Instance]:
     for name, ship in scenario.ships.items():
-        built.append(
-            build_replaced_ship(name, foreign[name], ships)
-            if name in foreign
-            else _build_ship(scenario, name, ship, packed, native)
-        )
-    collision = _build_collision(scenario, packed, foreign, native)
+        if name in foreign:
+            yield build_replaced_ship(name, foreign[name], tuple(scenario.ships))
+        else:
+            yield _build_ship(scenario, name, ship, packed, native)
+
+
+def _time_instance(instance: Instance, scenario: Scenario, fmi: int) -> Instance:
+    """An instance with the scenario's duration and step, for a version of FMI."""
     duration, step = scenario.scenario.duration, scenario.step
-    ours = {name: ship for name, ship in scenario.ships.items() if name not in foreign}
-    return SystemStructure(
-        scenario=scenario,
-        instances=tuple(
-            replace(instance, interface=replace(instance.interface, stop_time=duration, step_size=step), fmi=fmi)
-            for instance in (*built, collision)
-        ),
-        connections=tuple(
-            connection
-            for name in ships
-            for connection in (
-                connect_replaced_ship(name, foreign[name]) if name in foreign else _list_connections(scenario, name)
-            )
-        ),
-        orders=tuple(order for order in _list_orders(scenario) if order.ship not in foreign),
-        helm=tuple(phrase for name, start in ours.items() for phrase in _describe_helm(name, start)),
-        left_out=(
-            *_describe_settings(scenario),
-            *(
-                line
-                for name, one in foreign.items()
-                for line in describe_replaced_ship(name, one, collision.start, scenario.ships[name].start)
-            ),
-        ),
-        replaced=tuple(foreign),
-    )
+    return replace(instance, interface=replace(instance.interface, stop_time=duration, step_size=step), fmi=fmi)
+
+
+def _connect(scenario: Scenario, foreign: Mapping[str, ForeignShip]) -> Iterator[Connection]:
+    for name in scenario.ships:
+        yield from (
+            connect_replaced_ship(name, foreign[name]) if name in foreign else _list_connections(scenario, name)
+        )
 
 
 def _pack_files(scenario: Scenario) -> PreparedFiles:
@@ -209,15 +213,21 @@ def _list_changes(
         now = values
 
 
-def _describe_helm(name: str, start: ShipStart) -> list[str]:
-    phrases = []
-    if any(order.heading_deg is not None for order in start.orders):
-        phrases.append(f"[ships.{name}] steers a heading by autopilot")
-    if start.route is not None:
-        phrases.append(f"[ships.{name}] follows a route")
-    if start.evasion is not None:
-        phrases.append(f"[ships.{name}] evades {start.evasion.of}")
-    return phrases
+def _describe_helms(scenario: Scenario, foreign: Mapping[str, ForeignShip]) -> Iterator[str]:
+    for name, start in scenario.ships.items():
+        if name in foreign:
+            continue
+        if any(order.heading_deg is not None for order in start.orders):
+            yield f"[ships.{name}] steers a heading by autopilot"
+        if start.route is not None:
+            yield f"[ships.{name}] follows a route"
+        if start.evasion is not None:
+            yield f"[ships.{name}] evades {start.evasion.of}"
+
+
+def _describe_replaced(scenario: Scenario, foreign: Mapping[str, ForeignShip], collision: Instance) -> Iterator[str]:
+    for name, ship in foreign.items():
+        yield from describe_replaced_ship(name, ship, collision.start, scenario.ships[name].start)
 
 
 def _describe_settings(scenario: Scenario) -> tuple[str, ...]:
