@@ -5,6 +5,6 @@
     protocols/   NMEA 0183, AIS and DIS out, orders in by TCP; the log of a finished run
 
 Data flow: clients -> commands -> Session -> Snapshot -> clients; at the end an ordinary run folder and scenario.toml.
-Needs the extra `live`, but for session/. Imports from: cosim, results and show (pages, the scene), scenario, fmi
-(names), ship. Used by: cli.
+Needs the extra `live`, but for session/. Imports from: packaging (ship files), cosim, results and show (pages, the
+scene), scenario, fmi (names), ship. Used by: cli.
 """

@@ -10,5 +10,5 @@
     xml_file.py           XML documents and values in the spelling of the hosts
 
 Data flow: Scenario -> SystemStructure -> files. Imports from: cosim (parameters and prepared files of a scenario), fmi
-(FMUs, variable tables), collision (interface), scenario, ship (loading). Used by: cli.
+(FMUs, variable tables), collision (interface), scenario, ship (loading). Used by: live, cli.
 """
