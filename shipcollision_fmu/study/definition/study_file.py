@@ -17,7 +17,7 @@ from .fleet_tables import FleetTable, check_limits
 from .situations import SituationsTable
 from .variables import NUMBERS, WORDS
 
-__all__ = ["MOST_ROWS", "SAMPLERS", "EncounterTable", "Header", "RunTable", "StudyFile", "TableFile"]
+__all__ = ["MOST_ROWS", "SAMPLERS", "USUAL_TIME", "EncounterTable", "Header", "RunTable", "StudyFile", "TableFile"]
 
 SAMPLERS = ("latin-hypercube", "random", "sobol")
 
@@ -49,6 +49,9 @@ class Header(Table):
             raise ValueError(f"{name!r} cannot name a folder: take letters, digits, '_', '-' and '.'")
         return name
 
+
+USUAL_TIME = 1.0
+"""[s] from the start to the impact at level encounter: coasting ships that close have touched nothing before it."""
 
 OTHER_WORDS = {
     "duration": "a case ends `after` seconds after the impact, or so long after the last contact as `separation` says",
@@ -83,11 +86,10 @@ class RunTable(Table):
 
     @model_validator(mode="after")
     def _check_steps(self) -> RunTable:
-        steps = ((self.time or 0.0) + self.after) / self.step
+        steps = round(((self.time or USUAL_TIME) + self.after) / self.step)
         if steps > MAXIMUM_STEPS:
             raise ValueError(
-                f"[run] step = {self.step:g} s makes {steps:.2g} steps, the limit is {MAXIMUM_STEPS}: take a longer "
-                "step"
+                f"[run] step = {self.step:g} s makes {steps} steps, the limit is {MAXIMUM_STEPS}: take a longer step"
             )
         return self
 

@@ -12,6 +12,7 @@ from ...errors import InputError, ShipError, StepError
 from ...scenario.scenario import Scenario
 from ...scenario.tables.collision import Collision
 from ..definition.study import Study
+from ..definition.study_file import USUAL_TIME
 from .cases import Cases
 from .encounter_results import put_encounters, run_scenario
 from .fleet_ships import FleetShip
@@ -26,8 +27,6 @@ GIVEN = (
     "angle_deg", "at", "own_speed", "target_speed", "own_sway", "target_sway", "heading_deg", "friction", "restitution",
 )  # fmt: skip
 """Numbers that collide() takes."""
-USUAL_TIME = 1.0
-"""[s] from the start to the impact: coasting ships that close have touched nothing before it."""
 JUST_BEFORE = 1e-3
 """[s] Time from the start to the impact in the scenario of an impact, and its substep: hulls touch at the end of a
 substep. The energy of the first contact differs from that of the row by some 1e-5 of itself, in proportion to it."""

@@ -196,7 +196,11 @@ REFUSALS: dict[str, tuple[tuple[str, str], str]] = {
     "a time in minutes": ((SPEED, "[run]\nafter = 0.0"), "[run] after = 0.0 must be greater than 0"),
     "too many steps": (
         (SPEED, "[run]\nafter = 7200.0\nstep = 0.001"),
-        "[run] step = 0.001 s makes 7.2e+06 steps, the limit is 1000000: take a longer step",
+        "[run] step = 0.001 s makes 7201000 steps, the limit is 1000000: take a longer step",
+    ),
+    "a step that is too short with the usual time to the impact": (
+        ("[encounter]", "[run]\nstep = 0.001\nafter = 1000.0\n[encounter]"),
+        "[run] step = 0.001 s makes 1001000 steps, the limit is 1000000: take a longer step",
     ),
     # -- [grid]
     "an unknown axis": ((SPEED, "[grid]\nangel_deg = [30.0]"), "[grid] angel_deg is not a known key: did you mean"),
