@@ -27,6 +27,8 @@ MOST_INPUTS = 12
 """Bars of the tornado; weaker inputs are in its file of data."""
 DAMAGE = ("damage", "penetration", "breach")
 """Beginnings of the names of columns that get an exceedance curve beside those of energy and impulse."""
+LEAST_OF_A_WORD = 2
+"""Cases of a word on average. With one, a file of traffic that is run once, it explains all or nothing."""
 INPUTS = (*NUMBERS, "own_mass", "target_mass")
 WORDS = ("kind", "side", "situation")
 TITLES = {"at": "place (at)"}
@@ -119,8 +121,10 @@ def _make_tornado(table: StudyTable) -> Iterator[Chart]:
         x = table.read_codes(name) if name in WORDS else table.read_numbers(name)
         if not np.isfinite(x).all() or np.ptp(x) == 0.0:
             continue  # the same in every case, or without effect in some
+        if name in WORDS and len(x) < LEAST_OF_A_WORD * len(np.unique(x)):
+            continue  # what a word adds and what chance adds are not told apart
         names.append(TITLES.get(name, name.removesuffix("_deg").replace("_", " ")))
-        first_order.append(find_first_order(x, table.energy))
+        first_order.append(find_first_order(x, table.energy, are_words=name in WORDS))
         rank.append(np.nan if name in WORDS else find_rank_correlation(x, table.energy))
     if not names:
         return
@@ -129,7 +133,8 @@ def _make_tornado(table: StudyTable) -> Iterator[Chart]:
     data = {"input": titles, "variance_share": share, "rank_correlation": correlation}
     caption = (
         "Left: variance of the conditional means, Var(E[energy | input]) / Var(energy), from at most 40 bins of equal "
-        "numbers of cases (Pearson's correlation ratio with Kelley's correction; the first-order index of Sobol). "
+        "numbers of cases, or from the cases of each word. It is Pearson's correlation ratio with Kelley's correction, "
+        "the first-order index of Sobol. "
         "Right: Spearman's rank correlation, which has a sign and misses what rises and falls again; words have none."
     )
     shown = slice(0, MOST_INPUTS)

@@ -22,14 +22,15 @@ LEAST_CASES = 25
 """Cases in a bin, where there are not enough for BINS of them."""
 
 
-def find_first_order(x: Array, y: Array) -> float:
+def find_first_order(x: Array, y: Array, *, are_words: bool = False) -> float:
     """Share of the variance of y that the means of y, given x alone, have: Var(E[y | x]) / Var(y), from 0 to 1.
 
-    Kelley's correction takes off what bins of few cases have by chance. x may be codes of words.
+    Kelley's correction takes off what bins of few cases have by chance. are_words: x holds codes of words, whose order
+    says nothing; each word has a bin of its own.
     """
     if y.max() == y.min():
         return 0.0
-    groups = _group(x)
+    groups = np.unique(x, return_inverse=True)[1].ravel() if are_words else _group(x)
     counts = np.bincount(groups)
     means = np.bincount(groups, weights=y) / counts
     between = float(np.sum(counts * (means - y.mean()) ** 2))

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from scipy import special, stats
 
 from shipcollision_fmu.study.report.binned import LEVELS, find_binned_quantiles
+from shipcollision_fmu.study.report.charts import _make_tornado
 from shipcollision_fmu.study.report.clopper_pearson import clopper_pearson, incomplete_beta
 from shipcollision_fmu.study.report.convergence import find_convergence
 from shipcollision_fmu.study.report.exceedance import find_exceedance
@@ -135,3 +138,30 @@ def test_first_order_of_words_is_exact_and_of_noise_about_zero() -> None:
     assert find_first_order(word, y) == pytest.approx(variance / (variance + 1.0), abs=0.01)
     assert np.mean([find_first_order(random.uniform(size=200), noise[:200]) for _ in range(200)]) < 0.03
     assert find_first_order(word, np.ones(20_000)) == 0.0
+
+
+@pytest.mark.parametrize(("words", "cases"), [(30, 400), (100, 20_000), (400, 1_200)])
+def test_first_order_of_many_words_has_a_bin_for_each(words: int, cases: int) -> None:
+    """Files of traffic: their order says nothing, so that bins of several would level out what they differ by."""
+    random = np.random.default_rng(8)
+    word, mean = np.arange(cases) % words, random.normal(size=words)
+    y = mean[word] + 0.5 * random.normal(size=cases)
+    share = np.var(mean) / (np.var(mean) + 0.25)
+    assert find_first_order(word.astype(float), y, are_words=True) == pytest.approx(share, abs=0.04)
+
+
+@pytest.mark.parametrize(("cases", "inputs"), [(40, ["friction"]), (80, ["friction", "situation"])])
+def test_files_of_traffic_that_are_run_once_have_no_share(cases: int, inputs: list[str]) -> None:
+    """With one case of each of 40 files, what a file adds and what chance adds are one number."""
+
+    class Table:
+        energy = np.random.default_rng(9).normal(size=cases)
+
+        def read_numbers(self, name: str) -> Any:
+            return self.energy**3 if name == "friction" else np.full(cases, np.nan)
+
+        def read_codes(self, name: str) -> Any:
+            return (np.arange(cases) % 40 if name == "situation" else np.zeros(cases)).astype(float)
+
+    (chart,) = _make_tornado(Table())  # type: ignore[arg-type]
+    assert sorted(chart.data["input"]) == inputs
