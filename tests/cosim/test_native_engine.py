@@ -14,12 +14,14 @@ from shipcollision_fmu.cosim import native_fmu_files
 from shipcollision_fmu.cosim.prepared_files import prepare_files
 from shipcollision_fmu.cosim.run import Run
 from shipcollision_fmu.errors import HostError, ScenarioError
+from shipcollision_fmu.scenario.scenario import parse_scenario
 from shipcollision_fmu.toolchain import libraries
 from shipcollision_fmu.toolchain.load import FETCHING
 from shipcollision_fmu.toolchain.sources import COLLISION
 from tests.conftest import NATIVE_CACHE
 from tests.cosim.test_obstacles import AHEAD, AWAY, FENDER, QUAY
 
+SCENARIOS = Path(__file__).parents[2] / "models" / "scenarios"
 Write = Callable[..., Path]
 
 
@@ -114,6 +116,27 @@ def test_a_long_scrape_is_the_same_to_its_end(native: Callable[..., Run], algori
     assert differ(run, python) < 1e-8
     assert list_collisions(run) == list_collisions(python) != []
     assert len(run.contacts) == len(python.contacts) > 200
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_wind_and_current_that_change_are_the_same(native: Callable[..., Run], fmi: int) -> None:
+    """Before the impact, and while the ships touch. Without the changes the run is another."""
+    text = (SCENARIOS / "kvlcc2_crossing.toml").read_text(encoding="utf-8")
+    changes = (
+        "\n[environment]\nwind = {speed = 12.0, from_deg = 300.0}\nchanges = [\n"
+        "  {time = 8.0, current = {speed = 0.5, towards_deg = 200.0}},\n"
+        "  {time = 35.0, wind = {speed = 18.0, from_deg = 80.0}},\n]\n"
+    )
+    scenario = parse_scenario(text + changes, "blown")
+    run, python = native(scenario, fmi=fmi), simulate(scenario, in_process=True)
+    assert differ(run, python) < 1e-8
+    assert list_collisions(run) == list_collisions(python) != []
+    assert run.surroundings.tolist() == python.surroundings.tolist()
+    for column in python.machinery.dtype.names or ():
+        np.testing.assert_allclose(run.machinery[column], python.machinery[column], rtol=0.0, atol=1e-12)
+    calm = parse_scenario(text + changes.partition("changes")[0], "calm")
+    assert differ(simulate(calm, in_process=True), python) > 1e-3
 
 
 @pytest.mark.slow
