@@ -14,6 +14,8 @@ import trimesh
 
 from shipcollision_fmu.scenario.scenario import Scenario, load_scenario, parse_scenario
 from shipcollision_fmu.ship.loading.library import find_models
+from shipcollision_fmu.toolchain import libraries
+from tests.conftest import NATIVE_CACHE
 
 from .encounter import Encounter, Rows, run_master
 from .masters import MASTERS, libtbb
@@ -38,6 +40,15 @@ position = [800.0, 0.0]
 heading_deg = 0.0
 """
 
+CHANGES = """
+[environment]
+wind = { speed = 12.0, from_deg = 300.0 }
+changes = [
+  { time = 0.5, current = { speed = 1.0, towards_deg = 200.0 } },
+  { time = 1.5, wind = { speed = 25.0, from_deg = 80.0 } },
+]
+"""
+
 MESH = """
 [scenario]
 name = "mesh"
@@ -59,9 +70,11 @@ feedback = "force"
 """
 
 
-def differences(host: str, told: Scenario, folder: Path, gone: Path | None = None, **more: str) -> tuple[Rows, Rows]:
+def differences(
+    host: str, told: Scenario, folder: Path, gone: Path | None = None, native: tuple[str, ...] = (), **more: str
+) -> tuple[Rows, Rows]:
     """Relative differences from our own master, by column; and our rows. The folder `gone` is removed in between."""
-    encounter = Encounter.packaged(told, folder)
+    encounter = Encounter.packaged(told, folder, native)
     (ours, _, _), case = encounter.ours(), encounter.case(**more)
     if gone is not None:
         shutil.rmtree(gone)
@@ -80,6 +93,21 @@ def test_orders_in_time_reach_the_ship_in_libcosim(tmp_path: Path, host: str) ->
     assert found.max() <= JITTER
     heading = ours[:, 5]
     assert abs(heading[11] - heading[0]) < 1e-3 * abs(heading[-1] - heading[0])  # the rudder order did something
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("native", [(), ("linux64",)])
+@pytest.mark.parametrize("host", [host for host in MASTERS if host == "libcosim-osp"])
+def test_wind_and_current_that_change_reach_the_ship_in_libcosim(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, host: str, native: tuple[str, ...]
+) -> None:
+    monkeypatch.setattr(libraries, "native_cache", lambda: NATIVE_CACHE)
+    scenario = parse_scenario(ORDERS + CHANGES, "changes.toml")
+    place = str(tmp_path / "osp" / "scenario.json")
+    found, ours = differences(host, scenario, tmp_path, native=native, scenario=place)
+    assert found.max() <= JITTER
+    calm = Encounter(parse_scenario(ORDERS + CHANGES.partition("changes")[0], "calm.toml"), tmp_path).ours()[0]
+    assert np.abs(ours[-1] - calm[-1]).max() > 1e-3
 
 
 @pytest.mark.slow
