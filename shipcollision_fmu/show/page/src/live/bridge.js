@@ -1,19 +1,16 @@
 // The bridge: what is seen from the ship, instruments, steering and engine, chart, other ships, alarms.
 import { element } from "../dom.js";
 import { SKIES } from "../daylight.js";
-import { toggleTheme } from "../theme.js";
 import { inWords, onLanguage, say } from "../texts.js";
 import { drawsInSoftware, makeViewer } from "../viewer.js";
-import { makeAlarmBar } from "./alarm_bar.js";
 import { Chart } from "./chart.js";
 import { Conning } from "./conning.js";
 import { effectsOf, ignites } from "./effects_live.js";
 import { makeInstruments } from "./instruments.js";
 import { LiveCameras, MODES } from "./live_cameras.js";
-import { listenToBridgeKeys, makeLiveHelp } from "./live_keys.js";
+import { makeLivePage } from "./live_page.js";
 import { followHistories } from "./motion.js";
-import { makeLimits, makeMessages, makeSwitches, makeTimeTools, textButton, describeEnd } from "./page_tools.js";
-import { Session } from "./session.js";
+import { makeLimits, makeSwitches, textButton } from "./page_tools.js";
 import { makeTargets } from "./targets.js";
 
 const NUMBERS = 150; // between two readings of the instruments [ms]
@@ -21,19 +18,12 @@ const CHART = 250; // between two pictures of the chart [ms]
 const SETTLED = 0.1; // [s] after which a collision's energy tells how strong its effects are
 
 export async function startBridge() {
-  const session = new Session("bridge", (type, message) => hear(type, message));
-  const messages = makeMessages();
-  const ask = (type, fields) => session.connection.ask(type, fields).catch((error) => {
-    messages.tell(say("refused", { message: error.message }));
-    return null;
-  });
+  const page = makeLivePage("bridge", { hello: () => greet(), back: () => forgetEffects() });
+  const { session, ask, messages, time } = page;
   const onShip = (type, fields) => ask(type, { ship: session.own, ...fields });
   const conning = new Conning((fields) => onShip("order", fields), (on) => onShip("horn", { on }));
   const instruments = makeInstruments();
   const targets = makeTargets();
-  const alarmBar = makeAlarmBar(session, () => acknowledge());
-  const help = makeLiveHelp();
-  const time = makeTimeTools(ask, () => session.state?.paused ?? false);
   const canvas = inWords(element("canvas", { id: "picture", tabindex: "0" }), { "aria-label": "picture" });
   const title = element("h1", {});
   const said = inWords(element("p", { id: "command-said" }), { text: "connecting" });
@@ -45,16 +35,14 @@ export async function startBridge() {
   const binoculars = inWords(element("button", { type: "button", id: "binoculars", text: "7\u00d7", "aria-pressed": "false", onclick: () => toggleBinoculars() }), { "aria-label": "binoculars", title: "binoculars" });
   const plain = inWords(element("button", { type: "button", class: "small", id: "plain", text: "\u2248", "aria-pressed": "false", onclick: () => togglePlain() }), { "aria-label": "plain", title: "plain" });
   const swap = inWords(textButton("chart", () => swapChart(), { id: "chart-large", "aria-pressed": "false" }), { title: "chart_large" });
-  const over = element("div", { class: "over", hidden: true });
   const stage = element("main", { class: "stage" }, canvas,
-    element("div", { class: "stage-top" }, alarmBar.node, messages.node, over),
-    element("div", { class: "stage-tools" }, camera, sky, binoculars, swap));
+    page.top, element("div", { class: "stage-tools" }, camera, sky, binoculars, swap));
   const chartPlace = element("div", { class: "chart-place" });
   const isNarrow = matchMedia("(max-width: 1200px)");
   document.body.append(stage,
     element("aside", { class: "side" },
       element("header", { class: "command-bar" }, element("div", {}, title, said), command),
-      time.node, instruments.node, conning.node, chartPlace, targets.node, makeLimits(session), makeSwitches(help.toggle, plain)), help.card);
+      time.node, instruments.node, conning.node, chartPlace, targets.node, makeLimits(session), makeSwitches(page.help.toggle, plain)), page.help.card);
 
   let viewer = null;
   let chart = null;
@@ -63,16 +51,7 @@ export async function startBridge() {
   const numbers = { next: 0, chart: 0 };
 
   const isInCommand = () => session.state?.command[session.own] === session.hello?.client;
-  const acknowledge = () => (session.acknowledge(), alarmBar.show());
   const isChartLarge = () => document.body.classList.contains("chart-large");
-
-  function hear(type) {
-    if (type === "hello") greet();
-    else if (type === "back") forgetEffects();
-    else if (type === "end") showEnd();
-    if (["state", "lost", "hello", "event"].includes(type)) alarmBar.show();
-    document.body.classList.toggle("lost", !session.connection.isOpen && !session.ended);
-  }
 
   function greet() {
     const info = session.infoOf(session.own);
@@ -176,11 +155,6 @@ export async function startBridge() {
     effects.clear();
   }
 
-  function showEnd() {
-    over.hidden = false;
-    over.replaceChildren(...describeEnd(session));
-  }
-
   function showCommand() {
     const client = session.state.command[session.own];
     title.textContent = session.own;
@@ -214,44 +188,23 @@ export async function startBridge() {
     }
   }
 
-  listenToBridgeKeys({
-    turn: (by) => conning.turn(by),
-    rudder: (degrees) => conning.setRudder(degrees),
-    telegraph: (by) => conning.changeTelegraph(by),
-    stop: () => conning.setTelegraph(0),
-    autopilot: () => conning.toggleAutopilot(),
-    heading: (by) => conning.changeHeading(by),
-    horn: (on) => conning.isBlowing !== undefined || on ? conning.blow(on) : null,
-    acknowledge,
+  page.listen(conning, () => true, () => chart, {
     camera: (index) => chooseCamera(MODES[index ?? (MODES.indexOf(camera.value) + 1) % MODES.length]),
     look: (degrees) => viewer?.cameras.isAboard && viewer.cameras.turn((degrees * Math.PI) / 180, 0),
     binoculars: toggleBinoculars,
     chart: swapChart,
-    orientation: () => chart?.toggleOrientation(),
-    range: (by) => chart?.zoom(by),
     plain: togglePlain,
     sky: nextSky,
-    pause: time.toggle,
-    theme: toggleTheme,
-    help: help.toggle,
   });
-  onLanguage(() => shown && session.hello && (showCommand(), (document.title = say("bridge_title", { ship: session.own })), alarmBar.show()));
+  onLanguage(() => shown && session.hello && (showCommand(), (document.title = say("bridge_title", { ship: session.own })), page.alarmBar.show()));
   requestAnimationFrame(frame);
 
-  window.live = {
-    session,
-    get state() {
-      return session.state;
-    },
-    get client() {
-      return session.hello?.client;
-    },
+  page.offer({
     /** Contacts as they came into the page: [{id, time, wall}], wall [ms] when the frame was made that shows one. */
     get contacts() {
       return session.contacts.filter(({ wall }) => wall);
     },
     order: (fields) => session.connection.ask("order", { ship: session.own, ...fields }),
-    ask: (type, fields) => session.connection.ask(type, fields),
     camera: chooseCamera,
     /** Draws now and says what is in the picture. */
     drawn() {
@@ -262,5 +215,5 @@ export async function startBridge() {
       return { time: shown.time, poses: viewer.poses(), effects: viewer.shown.effects, frames: viewer.shown.frames, mode, zoom, eye: eye.position.toArray(), fov: eye.fov };
     },
     project: (point) => viewer.project(point),
-  };
+  });
 }

@@ -1,38 +1,26 @@
 // The instructor's page: the chart of all ships, taking over, failures, wind and current, marks, time, end.
 import { element } from "../dom.js";
 import { clockTime, number } from "../format.js";
-import { toggleTheme } from "../theme.js";
 import { inWords, onLanguage, say, TEXTS } from "../texts.js";
-import { makeAlarmBar } from "./alarm_bar.js";
 import { Chart } from "./chart.js";
 import { Conning, threeDigits } from "./conning.js";
-import { listenToBridgeKeys, makeLiveHelp } from "./live_keys.js";
+import { makeLivePage } from "./live_page.js";
 import { instruments, KNOT, toDegrees, toRadians, wholeTurn } from "./navigation.js";
-import { labelled, makeMessages, makeSwitches, makeTimeTools, textButton, describeEnd } from "./page_tools.js";
-import { Session } from "./session.js";
+import { labelled, makeSwitches, textButton } from "./page_tools.js";
 
 const NUMBERS = 200; // between two readings [ms]
 const LINES = 60; // of the log book
 
 export async function startInstructor() {
-  const session = new Session("instructor", (type, message) => hear(type, message));
-  const messages = makeMessages();
-  const ask = (type, fields) => session.connection.ask(type, fields).catch((error) => {
-    messages.tell(say("refused", { message: error.message }));
-    return null;
-  });
+  const page = makeLivePage("instructor", { hello: (hello) => greet(hello), event: (event) => note(event) });
+  const { session, ask, time } = page;
   let conned = null; // the ship whose controls are shown
   const conning = new Conning((fields) => ask("order", { ship: conned, ...fields }), (on) => ask("horn", { ship: conned, on }));
   const conningHead = element("h2", {});
   const conningPlace = element("section", { class: "conn-place", hidden: true }, conningHead, conning.node);
-  const help = makeLiveHelp();
-  const time = makeTimeTools(ask, () => session.state?.paused ?? false);
-  const acknowledge = () => (session.acknowledge(), alarmBar.show());
-  const alarmBar = makeAlarmBar(session, acknowledge);
-  const over = element("div", { class: "over", hidden: true });
   const centre = inWords(element("select", { id: "centre", onchange: () => centreOn(centre.value || null) }), { "aria-label": "chart" });
   const stage = element("main", { class: "stage" },
-    element("div", { class: "stage-top" }, alarmBar.node, messages.node, over), element("div", { class: "stage-tools" }, centre));
+    page.top, element("div", { class: "stage-tools" }, centre));
   const title = inWords(element("h1", {}), { text: "instructor_title" });
   const ships = makeShips(ask, (name) => conn(name));
   const marks = makeMarks(ask);
@@ -47,18 +35,10 @@ export async function startInstructor() {
   }, { id: "end", class: "end" });
   document.body.append(stage, element("aside", { class: "side" }, element("header", { class: "command-bar" }, element("div", {}, title), time.node),
     ships.node, conningPlace, environment.node, marks.node,
-    element("section", {}, inWords(element("h2", {}), { text: "log_book" }), book), end, makeSwitches(help.toggle)), help.card);
+    element("section", {}, inWords(element("h2", {}), { text: "log_book" }), book), end, makeSwitches(page.help.toggle)), page.help.card);
   onLanguage(() => (document.title = say("instructor_title")));
   let chart = null;
   let next = 0;
-
-  function hear(type, message) {
-    if (type === "hello") greet(message);
-    else if (type === "event") note(message);
-    else if (type === "end") showEnd();
-    if (["state", "lost", "hello", "event"].includes(type)) alarmBar.show();
-    document.body.classList.toggle("lost", !session.connection.isOpen && !session.ended);
-  }
 
   function greet(hello) {
     marks.show(hello.marks ?? []);
@@ -95,11 +75,6 @@ export async function startInstructor() {
     while (book.children.length > LINES) book.lastChild.remove();
   }
 
-  function showEnd() {
-    over.hidden = false;
-    over.replaceChildren(...describeEnd(session));
-  }
-
   function frame(now) {
     requestAnimationFrame(frame);
     const state = session.present(now);
@@ -112,28 +87,9 @@ export async function startInstructor() {
     if (conned !== null) conning.show(session.state.ships[conned], session.state.command[conned] === session.hello.client);
   }
 
-  const whenConned = (action) => (value) => conned !== null && action(value);
-  const nothing = () => {};
-  listenToBridgeKeys({
-    turn: whenConned((by) => conning.turn(by)), rudder: whenConned((degrees) => conning.setRudder(degrees)),
-    telegraph: whenConned((by) => conning.changeTelegraph(by)), stop: whenConned(() => conning.setTelegraph(0)),
-    autopilot: whenConned(() => conning.toggleAutopilot()), heading: whenConned((by) => conning.changeHeading(by)),
-    horn: whenConned((on) => (conning.isBlowing !== undefined || on) && conning.blow(on)),
-    acknowledge, camera: nothing, look: nothing, plain: nothing, sky: nothing, binoculars: nothing, chart: nothing, orientation: () => chart?.toggleOrientation(),
-    range: (by) => chart?.zoom(by), pause: time.toggle, theme: toggleTheme, help: help.toggle,
-  });
+  page.listen(conning, () => conned !== null, () => chart);
   requestAnimationFrame(frame);
-  window.live = {
-    session,
-    get state() {
-      return session.state;
-    },
-    get client() {
-      return session.hello?.client;
-    },
-    ask: (type, fields) => session.connection.ask(type, fields),
-    order: (fields) => session.connection.ask("order", fields),
-  };
+  page.offer({ order: (fields) => session.connection.ask("order", fields) });
 }
 
 /** The ships: who is in command, course and speed, taking over, failures. */

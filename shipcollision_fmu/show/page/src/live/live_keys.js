@@ -22,7 +22,7 @@ export function toggleFullScreen() {
   document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen?.();
 }
 
-/** Calls actions for keys; those of fields, of lists and of a focused button's Space and Enter are left alone. */
+/** Calls the actions of a page for keys; those of fields, of lists and of a focused button's Space and Enter are left alone. */
 export function listenToBridgeKeys(actions) {
   const does = {
     ArrowLeft: ({ shiftKey }) => actions.turn(shiftKey ? -1 : -5),
@@ -38,20 +38,20 @@ export function listenToBridgeKeys(actions) {
     "<": () => actions.heading(-10), ">": () => actions.heading(10), ";": () => actions.heading(-10), ":": () => actions.heading(10),
     h: ({ repeat }) => repeat || actions.horn(true),
     Enter: () => actions.acknowledge(),
-    c: () => actions.camera(null),
-    q: () => actions.look(-15), e: () => actions.look(15),
-    b: () => actions.binoculars(),
-    v: () => actions.chart(),
+    c: () => actions.camera?.(null),
+    q: () => actions.look?.(-15), e: () => actions.look?.(15),
+    b: () => actions.binoculars?.(),
+    v: () => actions.chart?.(),
     n: () => actions.orientation(),
     "+": () => actions.range(1), "-": () => actions.range(-1), "=": () => actions.range(1),
     p: () => actions.pause(),
-    s: () => actions.plain(),
-    d: () => actions.sky(),
+    s: () => actions.plain?.(),
+    d: () => actions.sky?.(),
     f: toggleFullScreen,
     t: () => actions.theme(),
     "?": () => actions.help(),
   };
-  for (let i = 0; i < 6; i++) does[String(i + 1)] = () => actions.camera(i);
+  for (let i = 0; i < 6; i++) does[String(i + 1)] = () => actions.camera?.(i);
   window.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.altKey || event.metaKey) return;
     const { tagName } = event.target;
