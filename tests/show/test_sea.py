@@ -119,6 +119,22 @@ def test_the_water_is_white_behind_a_ship_under_way_and_not_abeam(page: Page, sc
     assert sum(page.colour(astern, half=1)) > sum(page.colour(abeam, half=1)) + 60
 
 
+def test_the_water_is_white_where_the_bow_pushes_it_and_not_along_the_quarter(page: Page, scene: Scene) -> None:
+    own = scene.ships[0]
+    page.run("replay.camera('ship-0')")
+    page.slide(0.2)
+    line = own.plating.vertices[(np.abs(own.plating.vertices[:, 2]) < 0.5) & (own.plating.vertices[:, 1] > 0.0)]
+    line = line[np.argsort(line[:, 0])]
+    white = {}
+    for x in (0.42, -0.2):
+        beside = float(np.interp(x * own.L_oa, line[:, 0], line[:, 1]))
+        for out in (0.03, 0.15, 0.8):
+            point = place(page, scene, own.name, np.array([x * own.L_oa, beside + out * own.B, 0.0])) * [1, 1, 0]
+            white[x, out] = sum(page.colour(point, half=1))
+    assert white[0.42, 0.03] > white[0.42, 0.8] + 60
+    assert white[-0.2, 0.15] < white[-0.2, 0.8] + 60
+
+
 def test_an_impact_passes_in_slow_motion_and_the_clock_says_so(page: Page, scene: Scene) -> None:
     page.run("replay.seek(arguments[0])", scene.events[0].time)
     shown = "return document.querySelector('.clock .rate').textContent"

@@ -131,7 +131,7 @@ export function makeHullFoam(ship, cover) {
   loop.forEach(([px, py], i) => {
     const [ax, ay] = loop[(i + loop.length - 1) % loop.length], [bx, by] = loop[(i + 1) % loop.length];
     const length = Math.hypot(bx - ax, by - ay) || 1;
-    const nx = -(ay - by) / length, ny = (ax - bx) / length; // outwards, for the loop runs forward on starboard
+    const nx = (ay - by) / length, ny = (bx - ax) / length; // outwards, for the loop runs forward on starboard
     for (const out of OFFSETS) {
       places.push(px + nx * out * reach, py + ny * out * reach, 0);
       normals.push(nx, ny, 0);
@@ -181,7 +181,7 @@ export function makeHullFoam(ship, cover) {
         float height = 0.45 * push * abs(push) / 19.62 * exp(-2.5 * out_) * (1.0 - out_);
         float foam = 1.1 * smoothstep(0.4, 3.2, push) * exp(-2.4 * ragged) * smoothstep(1.0, 0.6, out_);
         foam += 0.55 * smoothstep(1.0, 8.0, speed) * exp(-2.2 * from) * exp(-2.0 * ragged) * smoothstep(1.0, 0.5, out_);
-        foam += 0.34 * smoothstep(0.3, 6.0, speed) * thin;
+        foam += 0.55 * smoothstep(0.3, 6.0, speed) * thin;
         foam += 0.14 * exp(-1.3 * uReach * out_); // the swell laps at the plating
         gl_FragColor = vec4(foam, clamp(height, -0.8, 1.6), vHull.x < 0.0 ? 1.0 : near, 0.35 * foam);
       }`,
@@ -247,11 +247,11 @@ function makeRaised(pose, flow, ends, reach) {
       varying float vAbove;
       void main() {
         vec2 q = vec2(vWave.z + 2.5 * uTime, vWave.w * 1.6 - 1.2 * uTime);
-        float net = 0.6 * texture2D(uRipples, q / 9.0).a + 0.4 * texture2D(uRipples, q.yx / 4.0).b;
-        float opacity = smoothstep(0.05, 0.7, vWave.y) * smoothstep(1.0, 0.5, vWave.x) * smoothstep(0.1, 0.6, net + 0.45 - 0.8 * vWave.x);
-        opacity *= smoothstep(0.0, 0.45, vAbove + 0.5 * (net - 0.4)); // it thins out before it dips into the sea
+        float net = 0.45 * texture2D(uRipples, q / 9.0).a + 0.3 * texture2D(uRipples, q.yx / 4.0).a + 0.25 * texture2D(uRipples, q / 23.0).b;
+        float left = vAbove / (vWave.y + 0.12); // 1 at the plating, 0 where it dips into the sea: it thins out on the way
+        float opacity = smoothstep(0.05, 0.7, vWave.y) * smoothstep(0.0, 0.4, net - 0.8 + 1.2 * left);
         if (opacity < 0.01) discard;
-        gl_FragColor = vec4(uFoam * (0.72 + 0.4 * net), min(opacity, 0.95));
+        gl_FragColor = vec4(uFoam * (0.62 + 0.55 * net), min(opacity, 0.95));
         #include <tonemapping_fragment>
         #include <colorspace_fragment>
       }`,
