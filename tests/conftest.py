@@ -155,6 +155,15 @@ def _fmus_of_the_tests(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Non
         yield
 
 
+@pytest.fixture(scope="module")
+def kept_library() -> Iterator[None]:
+    """The native library is that of the user's cache. In the cache of the tests it would be compiled for a minute, and
+    tests of a machine that cannot compile would find it there."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(libraries, "native_cache", lambda: NATIVE_CACHE)
+        yield
+
+
 @pytest.fixture(scope="session")
 def native_fmus(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     """ShipManoeuvring without Python for this machine, by flavour: "2", "3" and "3-scalar"."""

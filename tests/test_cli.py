@@ -438,7 +438,11 @@ def test_without_pybullet_both_fmus_are_built(folder: Path) -> None:
     assert result.stdout.split() == ["fmus/ShipCollision.fmu", "fmus/ShipManoeuvring.fmu"]
 
 
-def test_without_pybullet_and_library_a_run_is_refused_in_one_line(folder: Path) -> None:
+def test_without_pybullet_and_library_a_run_is_refused_in_one_line(
+    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Nor is there a library that another test has compiled: the cache is empty."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     result = fresh("run", "encounter.toml", cwd=folder, prelude=f"{WITHOUT_PYBULLET}\n{NOTHING_COMPILES}")
     assert result.returncode == 1
     assert result.stdout == ""

@@ -7,7 +7,6 @@ energy, which is the one that may add metres and radians. A single small compone
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from functools import cache
 
 import numpy as np
@@ -17,10 +16,8 @@ from shipcollision_fmu import load_scenario, load_ship, simulate
 from shipcollision_fmu.cosim.prepared_files import NATIVE_RESPONSE
 from shipcollision_fmu.fmi.names import STATE
 from shipcollision_fmu.scenario.scenario import list_scenario_names
-from shipcollision_fmu.toolchain import libraries
-from tests.conftest import NATIVE_CACHE
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("kept_library")]
 
 FINEST = 0.01
 ENGINES = [
@@ -32,13 +29,6 @@ WAYS = [
     if (*each, algorithm) != ("python", "kvlcc2_crossing", "jacobi")
 ]  # fmt: skip
 """Without the longest run, 20 s in Python: native code, which is tested to be its twin, takes 3 s."""
-
-
-@pytest.fixture(autouse=True, scope="module")
-def _kept_library() -> Iterator[None]:
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(libraries, "native_cache", lambda: NATIVE_CACHE)
-        yield
 
 
 @cache

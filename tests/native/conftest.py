@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Iterator
 
 import pytest
 
-from shipcollision_fmu.toolchain import libraries
 from shipcollision_fmu.toolchain.libraries import native_cache
 from shipcollision_fmu.toolchain.load import load_library
 
@@ -16,11 +14,8 @@ CACHE = native_cache()
 
 
 @pytest.fixture(autouse=True, scope="module")
-def _kept_library() -> Iterator[None]:
+def _kept_library(kept_library: None) -> None:
     """What the package itself compiles is kept there, too: a run that detects contact natively asks for the library."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(libraries, "native_cache", lambda: CACHE)
-        yield
 
 
 @pytest.fixture(scope="session")
