@@ -40,7 +40,7 @@ WHOLE = """
     const pixels = new Uint8Array(4 * canvas.width * canvas.height);
     gl.readPixels(0, 0, canvas.width, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
     let digest = 2166136261;
-    for (const byte of pixels) digest = Math.imul(digest ^ byte, 16777619) >>> 0;
+    for (const pixel of new Uint32Array(pixels.buffer)) digest = Math.imul(digest ^ pixel, 16777619) >>> 0;
     return digest;
 """
 

@@ -319,18 +319,24 @@ def test_no_contact_is_said_in_words(browser: Chrome, meeting: MakeRun) -> None:
     assert apart.complaints() == []
 
 
-@pytest.mark.parametrize("engine", ["python", "native"])
-def test_a_native_run_is_called_one(browser: Chrome, meeting: MakeRun, engine: str) -> None:
-    """Below its name, and in the line on the command line; of a run with Python nothing is said."""
+SAID = "return [...document.querySelectorAll('.title p')].map((p) => p.textContent)"
+"""What stands below the name of a run."""
+
+
+def test_nothing_is_said_of_a_run_with_python(page: Page, folder: Path, scene: Scene) -> None:
+    assert len(page.run(SAID)) == 1
+    assert "native run" not in describe(scene, folder)[0]
+
+
+def test_a_native_run_is_called_one(browser: Chrome, meeting: MakeRun) -> None:
+    """Below its name, and in the line on the command line."""
     folder = meeting()
-    if engine == "native":
-        path = folder / "summary.json"
-        path.write_text(json.dumps({**json.loads(path.read_text()), "engine": engine}) + "\n")
-    page = Page(browser, write_page(folder))
-    said = page.run("return [...document.querySelectorAll('.title p')].map((p) => p.textContent)")
+    path = folder / "summary.json"
+    path.write_text(json.dumps({**json.loads(path.read_text()), "engine": "native"}) + "\n")
+    said = Page(browser, write_page(folder), size=SMALL).run(SAID)
     assert said[0].startswith("own runs into a barge")
-    assert said[1:] == (["Native run: its FMUs ran without Python."] if engine == "native" else [])
-    assert (", native run, " in describe(load_scene(folder), folder)[0]) == (engine == "native")
+    assert said[1:] == ["Native run: its FMUs ran without Python."]
+    assert ", native run, " in describe(load_scene(folder), folder)[0]
 
 
 @pytest.mark.slow

@@ -23,6 +23,7 @@ from shipcollision_fmu.cli import main
 from shipcollision_fmu.errors import HostError
 from shipcollision_fmu.show import extras
 from shipcollision_fmu.study.definition.study import parse_study
+from shipcollision_fmu.study.report import figures
 from tests.study.rows import test_situations
 
 TEXT = """
@@ -62,6 +63,12 @@ def folder(finished: Path, tmp_path: Path) -> Path:
     return Path(
         shutil.copytree(finished, tmp_path / "harbour", ignore=shutil.ignore_patterns("report.html", "figures"))
     )
+
+
+@pytest.fixture
+def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pictures are empty, which saves a second and a half: for tests of what the page says, and of the data."""
+    monkeypatch.setattr(figures, "save_figure", lambda figure, kind: b"")
 
 
 def shown(folder: Path) -> Result:
@@ -128,6 +135,7 @@ def test_a_browser_shows_it_without_a_network(finished: Path, browser: Chrome, w
         browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_few_cases_have_few_bins_and_no_quantile_of_99_percent(tmp_path: Path) -> None:
     run_study(parse_study(TEXT.replace("rows = 400", "rows = 130")), tmp_path / "few", workers=0)
     assert shown(tmp_path / "few").exit_code == 0
@@ -162,6 +170,7 @@ def find_worst_rows(folder: Path) -> list[int]:
     return worst
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_the_worst_ten_run_again_by_their_lines(finished: Path, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     expected = find_worst_rows(finished)
     lines = re.findall(r"<code>([^<]+)</code>", read_page(finished))
@@ -229,6 +238,7 @@ def test_rows_that_cannot_be_replayed_are_refused(folder: Path, tmp_path: Path) 
     assert not (folder / "replays").exists()
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_replay_that_cannot_be_made_is_a_line(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def fail(*arguments: object, **options: object) -> None:
         raise HostError("no compiler")
@@ -239,6 +249,7 @@ def test_a_replay_that_cannot_be_made_is_a_line(folder: Path, monkeypatch: pytes
     assert "runs it again, and writes its replay" in read_page(folder)
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_figures_of_an_earlier_report_do_not_stay(folder: Path) -> None:
     """Those that this report does not have any more; other files of the user's do."""
     (folder / "figures").mkdir()
@@ -271,6 +282,7 @@ def test_the_same_study_gives_the_same_page(finished: Path, folder: Path) -> Non
     assert read_page(folder) == read_page(finished)
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_study_that_is_not_finished_is_shown_as_far_as_it_is(folder: Path) -> None:
     told = json.loads((folder / "study.json").read_text(encoding="utf-8"))
     (folder / "study.json").write_text(json.dumps({**told, "rows": 1000}), encoding="utf-8")
@@ -278,6 +290,7 @@ def test_a_study_that_is_not_finished_is_shown_as_far_as_it_is(folder: Path) -> 
     assert "The study is not finished: it has 1\N{NARROW NO-BREAK SPACE}000 cases." in read_page(folder)
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_column_of_damage_has_a_curve(folder: Path) -> None:
     field = pa.field("penetration", pa.float64(), metadata={"unit": "m"})
     change_part(folder, field, pa.array(np.linspace(0.0, 3.0, 400)))
@@ -287,6 +300,7 @@ def test_a_column_of_damage_has_a_curve(folder: Path) -> None:
     )
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_study_file_with_files_beside_it_is_said(folder: Path) -> None:
     text = TEXT.replace('"kvlcc2"]', '"ships/mine.toml"]')
     (folder / "study.toml").write_text(text, encoding="utf-8")
@@ -294,6 +308,7 @@ def test_a_study_file_with_files_beside_it_is_said(folder: Path) -> None:
     assert "A ship or table of the study has changed, or is not where it was" in read_page(folder)
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_name_from_a_table_stays_text(folder: Path) -> None:
     change_part(folder, "own_ship", pa.array(["<script>alert(1)</script>"] * 400))
     assert shown(folder).exit_code == 0
@@ -301,6 +316,7 @@ def test_a_name_from_a_table_stays_text(folder: Path) -> None:
     assert "&lt;script&gt;" in read_page(folder)
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_constant_inputs_have_no_figure(folder: Path) -> None:
     change_part(folder, "at", pa.array([0.25] * 400))
     assert shown(folder).exit_code == 0
