@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import csv
 import json
+from collections.abc import Callable
+from functools import cache
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 import pytest
@@ -24,10 +27,31 @@ DEEPEST = 0.5
 """A contact point lies within the crush, and what is drawn on the plating [m]."""
 
 
+class Written(NamedTuple):
+    """A run that is shown: its scene, what the file holds, and where it is."""
+
+    scene: Scene
+    root: Node
+    folder: Path
+
+
 def written(run: Path, folder: Path) -> tuple[Scene, Node]:
     scene = load_scene(run)
     write_osg(scene, folder)
     return scene, osgt.read(folder / "scene.osgt")
+
+
+@pytest.fixture(scope="module")
+def shipped(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Written]:
+    """Scene, written folder and its nodes of a shipped run by its name: they are read, and read once."""
+
+    @cache
+    def find(name: str) -> Written:
+        folder = tmp_path_factory.mktemp(name)
+        scene, root = written(request.getfixturevalue(name), folder)
+        return Written(scene, root, folder)
+
+    return find
 
 
 def named(root: Node, name: str) -> Node:
@@ -73,10 +97,10 @@ def hull(transform: Node) -> np.ndarray:
 
 @pytest.mark.parametrize("run", [GUAN2014, "kvlcc2_crossing"])
 def test_outlines_agree_with_states_csv_to_a_centimetre(
-    run: str, request: pytest.FixtureRequest, tmp_path: Path
+    run: str, request: pytest.FixtureRequest, shipped: Callable[[str], Written]
 ) -> None:
     folder = request.getfixturevalue(run)
-    scene, root = written(folder, tmp_path)
+    scene, root, _ = shipped(run)
     delay = build_osg_files(scene).delay
     bodies = json.loads((folder / "bodies.json").read_text())["ships"]
     rows = states(folder)
@@ -102,8 +126,8 @@ def test_port_stays_port(meeting: MakeRun, tmp_path: Path) -> None:
     assert point[0] < -9.0  # starboard is positive
 
 
-def test_scratches_lie_on_the_hull_and_grow_in_time(kvlcc2_crossing: Path, tmp_path: Path) -> None:
-    scene, root = written(kvlcc2_crossing, tmp_path)
+def test_scratches_lie_on_the_hull_and_grow_in_time(kvlcc2_crossing: Path, shipped: Callable[[str], Written]) -> None:
+    scene, root, _ = shipped("kvlcc2_crossing")
     delay = build_osg_files(scene).delay
     events = {event["id"]: event for event in json.loads((kvlcc2_crossing / "events.json").read_text())["scratches"]}
     for ship in scene.ships:
@@ -135,10 +159,10 @@ def test_scratches_lie_on_the_hull_and_grow_in_time(kvlcc2_crossing: Path, tmp_p
 
 
 def test_the_four_effects_stand_at_the_first_contact_point_of_each_scratch(
-    kvlcc2_crossing: Path, tmp_path: Path
+    kvlcc2_crossing: Path, shipped: Callable[[str], Written]
 ) -> None:
     """In the struck ship's own frame, with a particle system drawn beside them: so they move with her."""
-    scene, root = written(kvlcc2_crossing, tmp_path)
+    scene, root, folder = shipped("kvlcc2_crossing")
     delay = build_osg_files(scene).delay
     effects = [node for node in osgt.walk(named(root, "target")) if node["class"].startswith("osgParticle::")]
     kinds = ["ExplosionDebrisEffect", "ExplosionEffect", "FireEffect", "SmokeEffect"]
@@ -157,21 +181,21 @@ def test_the_four_effects_stand_at_the_first_contact_point_of_each_scratch(
             late = float(node["StartTime"][0]) - delay - scratch["start"]
             assert 0.0 <= late < 1.0
             assert any(node["ParticleSystem"] is system for system in drawn)
-            assert (tmp_path / node["TextureFileName"][0][1:-1]).is_file()
+            assert (folder / node["TextureFileName"][0][1:-1]).is_file()
 
 
-def test_the_first_contact_waits_for_the_window_to_open(guan2014: Path, tmp_path: Path) -> None:
+@pytest.mark.usefixtures("guan2014")
+def test_the_first_contact_waits_for_the_window_to_open(shipped: Callable[[str], Written]) -> None:
     """In guan2014 the ships touch after 0.45 s."""
-    _, root = written(guan2014, tmp_path)
+    _, root, _ = shipped("guan2014")
     first = min(
         float(node["StartTime"][0]) for node in osgt.walk(root) if node["class"].startswith("osgParticle::Expl")
     )
     assert first == pytest.approx(FIRST_CONTACT)
 
 
-def test_the_camera_sees_the_contact_and_stays_at_the_end(guan2014: Path, tmp_path: Path) -> None:
-    written(guan2014, tmp_path)
-    rows = np.loadtxt(tmp_path / "camera.path")
+def test_the_camera_sees_the_contact_and_stays_at_the_end(guan2014: Path, shipped: Callable[[str], Written]) -> None:
+    rows = np.loadtxt(shipped("guan2014").folder / "camera.path")
     assert rows.shape[1] == 8
     assert (np.diff(rows[:, 0]) > 0.0).all()
     assert rows[0, 0] == 0.0

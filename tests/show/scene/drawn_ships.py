@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -39,7 +39,7 @@ class Drawn(NamedTuple):
         return np.vstack([surface.vertices for surface in surfaces])
 
 
-@lru_cache
+@cache
 def draw_ship(kind: str, L: float = 120.0, name: str = "Åse-Marie 2", breadth: float = 1.0 / 6.0) -> Drawn:
     size = {"L_pp": L, "B": L * breadth, "T": L * breadth / 3.0, "C_b": 0.65}
     ship = load_ship({"ship": {"name": kind, "kind": kind, "source": "a sketch"}, "particulars": size})

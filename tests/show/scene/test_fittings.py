@@ -12,6 +12,7 @@ from shipcollision_fmu.show.scene.ship_style import choose_type
 from .drawn_ships import Drawn, draw_ship, to_solid
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("kind", SHIP_TYPES)
 @pytest.mark.parametrize("L", [16.0, 120.0])
 def test_fittings_of_every_type_stand_on_deck_and_closed_ones_face_outwards(kind: str, L: float) -> None:
@@ -120,6 +121,6 @@ def test_a_ship_of_unknown_kind_is_drawn_by_its_proportions(
 @pytest.mark.parametrize("kind", SHIP_TYPES)
 def test_a_ship_has_a_bounded_number_of_triangles(kind: str) -> None:
     """Pictures are drawn by processors without a graphics card, and pages hold many ships."""
-    drawn = draw_ship(kind, 300.0, breadth=0.16)
+    drawn = draw_ship(kind, 300.0)
     surfaces = [surface for _, surface in drawn.looks.shell] + [f.surface for f in drawn.looks.fittings]
     assert 4000 < sum(len(surface.triangles) for surface in surfaces) < 25000

@@ -119,6 +119,7 @@ def test_under_water_it_is_within_the_hull_that_touches(kind: str) -> None:
     assert away[wet & middle].max() < CENTIMETRE
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("L", [16.0, 120.0])
 def test_the_shell_is_closed_faces_outwards_and_is_symmetric(kind: str, L: float) -> None:
@@ -135,6 +136,7 @@ def test_the_shell_is_closed_faces_outwards_and_is_symmetric(kind: str, L: float
     assert {tuple(p) for p in points} == {tuple(p) for p in mirrored}
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("L", [16.0, 120.0])
 def test_nothing_stands_out_beyond_the_hull_in_plan(kind: str, L: float) -> None:

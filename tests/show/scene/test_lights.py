@@ -24,6 +24,7 @@ def is_green(light: Light) -> bool:
     return g > 2 * max(r, b)
 
 
+@pytest.mark.one_in(4)
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("L", [16.0, 45.0, 120.0, 260.0])
 def test_arcs_colours_and_ranges(kind: str, L: float) -> None:
@@ -56,6 +57,7 @@ def test_who_stands_where_sees_which(bearing: float, seen: set[str]) -> None:
         assert light.is_seen_from(light.point + light.direction)
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("L", [60.0, 120.0, 260.0])
 def test_places_of_a_ship_of_50_m_and_more(kind: str, L: float) -> None:

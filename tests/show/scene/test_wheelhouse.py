@@ -18,6 +18,7 @@ def ship_of(kind: str, L: float) -> Any:
     return SimpleNamespace(hull=drawn.hull, fittings=drawn.looks.fittings, B=L / 6.0)
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("kind", SHIP_TYPES)
 @pytest.mark.parametrize("L", [16.0, 120.0, 300.0])
 def test_the_eye_is_in_the_wheelhouse_over_deck_and_within_the_hull(kind: str, L: float) -> None:
