@@ -122,6 +122,7 @@ def test_the_page_of_a_notebook_is_that_of_the_runs_folder(run: Run, tmp_path: P
 def test_the_page_plays_inside_a_notebook(run: Run, tmp_path: Path, browser: Chrome) -> None:
     notebook = tmp_path / "notebook.html"
     notebook.write_text(f"<!doctype html><meta charset='utf-8'><p>cell</p>{run.page()._repr_html_()}", encoding="utf-8")
+    browser.set_window_size(500, 440)  # drawing takes long without a graphics card
     browser.get_log("browser")  # of pages before
     browser.get(notebook.as_uri())
     browser.switch_to.frame(0)

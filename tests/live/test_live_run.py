@@ -14,6 +14,7 @@ import pytest
 from shipcollision_fmu import load_scenario, simulate
 from shipcollision_fmu.cosim.row_log import CHUNK
 from shipcollision_fmu.errors import InputError
+from shipcollision_fmu.live.session import run_folder
 from shipcollision_fmu.live.session.live_run import MOST_MARKS, LiveRun
 from shipcollision_fmu.live.session.run_folder import write_run
 
@@ -21,6 +22,13 @@ FILES = (
     "states.csv", "contacts.csv", "events.json", "signals.csv", "summary.json", "bodies.json", "machinery.csv",
     "surroundings.csv",
 )  # fmt: skip
+
+
+@pytest.fixture(autouse=True)
+def _without_page(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The page of a run is that of any run's folder (tests/show), and takes a third of the time of these tests;
+    test_live_command.py has one written."""
+    monkeypatch.setattr(run_folder, "write_page", lambda folder: folder / "replay.html")
 
 
 @pytest.fixture

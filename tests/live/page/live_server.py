@@ -40,7 +40,7 @@ class LiveServer:
 class BridgePage(Page):
     """A live page, open."""
 
-    def __init__(self, driver: Chrome, address: str, size: tuple[int, int] = (1000, 700)) -> None:
+    def __init__(self, driver: Chrome, address: str, size: tuple[int, int] = (920, 440)) -> None:
         self.driver, self._address, self._size = driver, address, size
         self.open()
 
