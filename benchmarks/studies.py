@@ -3,8 +3,8 @@
     python benchmarks/studies.py
 
 Processor time of rows in batches, as workers compute them, medians of turns. Of `million`, in batches of 10 000, also
-the share that its impacts alone take: run_impacts() against compute_rows(). A batch with pools has other ships each
-time: its pairs are opened anew.
+the share that its impacts alone take: run_impacts() against compute_rows(). With a pool of sixty ships each batch has
+all pairs, more than stay open. One of 10 000 has other ships each time.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ own_speed = {{ distribution = "uniform", least = 4.0, most = 8.0 }}
 """
 POOL = """[[own.sampled]]
 kind = "bulk carrier"
-count = 10_000
+count = COUNT
 weight = 1000.0
 L_pp = { distribution = "uniform", least = 100.0, most = 250.0 }
 L_over_B = 6.0
@@ -70,8 +70,10 @@ def main() -> None:
         study = parse_study(SMALL.format(level=level))
         of = measure(lambda turn, study=study, size=size: compute_rows(study, turn * size, size), size)  # type: ignore[misc]
         rows.append((level, "native", of))
-    pool = parse_study(SMALL.format(level="impact").replace("[run]", POOL))
-    rows.append(("a pool of 10 000 ships", "native", measure(lambda turn: compute_rows(pool, turn * 100, 100), 100)))
+    for count, size in ((60, BATCH), (10_000, 100)):
+        study = parse_study(SMALL.format(level="impact").replace("[run]", POOL.replace("COUNT", str(count))))
+        of = measure(lambda turn, study=study, size=size: compute_rows(study, turn * size, size), size)  # type: ignore[misc]
+        rows.append((f"a pool of {count} ships", "native", of))
     table = make_table("study", "engine", ">ms a row")
     for study_name, engine, of in rows:
         table.add_row(study_name, engine, f"{of:.3g}")

@@ -13,14 +13,17 @@ The work is done by native/batch, about 100 microseconds for each case, without 
 from __future__ import annotations
 
 from contextlib import closing
+from functools import lru_cache
 from numbers import Integral
 from typing import Any
 
 import numpy.typing as npt
 
-from ..encounters.plan_contact import cut_section, find_contact_height
+from ..encounters.plan_contact import cut_section, find_top
 from ..errors import ScenarioError
+from ..ship.frames import Array
 from ..ship.hull.hull import build_hull
+from ..ship.hull.solid import HullMesh
 from ..ship.ship import Ship
 from .case_table import fill_cases
 from .native_impacts import ImpactShip, NativeImpacts
@@ -30,6 +33,8 @@ __all__ = ["check_freedom", "impact", "open_impacts", "run_cases"]
 
 FREEDOMS = (3, 4, 6)
 """Degrees of freedom that a ship may have."""
+SECTIONS_KEPT = 2048
+"""Sections of ships: enough for every pair of sixty. Each keeps its ship in memory, 80 kB."""
 
 
 def impact(
@@ -96,10 +101,26 @@ def run_cases(
 
 def open_impacts(own: Ship, target: Ship, degrees_of_freedom: int, files: PreparedShips) -> NativeImpacts:
     """The impacts of two ships, ready to run; the files are read here and not later. Raises ShipError or HostError."""
-    hulls = [build_hull(ship.L_oa, ship.B, ship.T, ship.hull) for ship in (own, target)]
-    deck = find_contact_height(*hulls)
+    deck = max(_find_deck(own), _find_deck(target))  # as find_contact_height() has it
     own_ship, target_ship = (
-        ImpactShip(files.write(ship), degrees_of_freedom, ship.L_oa, ship.hull.trim_x, cut_section(hull, deck))
-        for ship, hull in zip((own, target), hulls, strict=True)
+        ImpactShip(files.write(ship), degrees_of_freedom, ship.L_oa, ship.hull.trim_x, _cut_ship(ship, deck))
+        for ship in (own, target)
     )
     return NativeImpacts(own_ship, target_ship)
+
+
+@lru_cache(maxsize=SECTIONS_KEPT // 2)
+def _find_deck(ship: Ship) -> float:
+    return find_top(_build(ship))
+
+
+@lru_cache(maxsize=SECTIONS_KEPT)
+def _cut_ship(ship: Ship, z: float) -> Array:
+    """Section of a ship at height z (down), kept for its other pairs: to cut it takes as long as ten impacts."""
+    section = cut_section(_build(ship), z)
+    section.flags.writeable = False
+    return section
+
+
+def _build(ship: Ship) -> HullMesh:
+    return build_hull(ship.L_oa, ship.B, ship.T, ship.hull)

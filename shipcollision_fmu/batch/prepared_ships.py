@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from tempfile import TemporaryDirectory
+from shutil import rmtree
+from tempfile import mkdtemp
 from types import TracebackType
 from typing import Any, TypeAlias
-from weakref import WeakKeyDictionary
+from weakref import WeakKeyDictionary, finalize
 
 from ..collision.prepared_obstacles import SUFFIX as OBSTACLES_SUFFIX
 from ..collision.prepared_obstacles import prepare_obstacles
@@ -31,13 +32,21 @@ def find_ship(ship: AnyShip) -> Ship:
 
 
 class PreparedShips:
-    """A folder of prepared ships and obstacles, each written once. It is removed at the end of the context."""
+    """A folder of prepared ships and obstacles, each written once.
+
+    It is removed at the end of the context, by close(), or with the object.
+    """
 
     def __init__(self) -> None:
-        self._folder = TemporaryDirectory(prefix="shipcollision-")
+        self.folder = Path(mkdtemp(prefix="shipcollision-"))
+        self._remove = finalize(self, rmtree, self.folder, ignore_errors=True)
         self._paths: dict[int, str] = {}
         self._ships: list[Ship] = []  # kept alive, for their ids are keys
         self._obstacles: dict[str, str] = {}
+
+    def __len__(self) -> int:
+        """How many ships are written."""
+        return len(self._paths)
 
     def __enter__(self) -> PreparedShips:
         return self
@@ -45,12 +54,16 @@ class PreparedShips:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self._folder.cleanup()
+        self.close()
+
+    def close(self) -> None:
+        """Remove the folder."""
+        self._remove()
 
     def write(self, ship: Ship) -> str:
         """The path of the ship's file. Raises ShipError or HostError for a ship without a hull."""
         if id(ship) not in self._paths:
-            path = Path(self._folder.name, f"{len(self._paths)}{SUFFIX}")
+            path = self.folder / f"{len(self._paths)}{SUFFIX}"
             path.write_bytes(_describe(ship))
             self._paths[id(ship)] = str(path)
             self._ships.append(ship)
@@ -61,7 +74,7 @@ class PreparedShips:
         if not text:
             return ""
         if text not in self._obstacles:
-            path = Path(self._folder.name, f"{len(self._obstacles)}{OBSTACLES_SUFFIX}")
+            path = self.folder / f"{len(self._obstacles)}{OBSTACLES_SUFFIX}"
             path.write_bytes(prepare_obstacles(text))
             self._obstacles[text] = str(path)
         return self._obstacles[text]

@@ -24,7 +24,8 @@ from ..ship.frames import Array
 from ..ship.hull.solid import HullMesh
 
 __all__ = [
-    "Place", "PlanContact", "Side", "cut_section", "find_contact_height", "find_contacts", "locate_place",
+    "Place", "PlanContact", "Side", "cut_section", "find_contact_height", "find_contacts", "find_top",
+    "locate_place",
     "measure_gap", "move_polygon",
 ]  # fmt: skip
 
@@ -69,7 +70,12 @@ class PlanContact:
 
 def find_contact_height(a: HullMesh, b: HullMesh) -> float:
     """Height z (down) at which two upright hulls touch in plan: that of the lower deck [m]."""
-    return float(max(a.vertices[:, 2].min(), b.vertices[:, 2].min()))
+    return max(find_top(a), find_top(b))
+
+
+def find_top(hull: HullMesh) -> float:
+    """Height z (down) of the deck of an upright hull, where it is highest [m]."""
+    return float(hull.vertices[:, 2].min())
 
 
 def cut_section(hull: HullMesh, z: float) -> Array:

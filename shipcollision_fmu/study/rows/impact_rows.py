@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from typing import Any
 
 import numpy as np
@@ -18,15 +19,27 @@ from .pairs import Impacts, OpenPairs, group_pairs, refuse_all
 from .python_impacts import PythonImpacts
 from .results import MOTION, Results
 
-__all__ = ["PAIRS", "as_cases", "run_impacts"]
+__all__ = ["PAIRS", "OpenNative", "as_cases", "run_impacts"]
 
 
-def _open_native(own: FleetShip, target: FleetShip, degrees_of_freedom: int) -> Impacts:
-    with PreparedShips() as files:
-        return open_impacts(own.loaded, target.loaded, degrees_of_freedom, files)
+FILES_KEPT = 256
+"""Prepared ships that stay on the disk, some 50 kB each, for the pairs that are opened next."""
 
 
-PAIRS = {"native": OpenPairs(_open_native), "python": OpenPairs(PythonImpacts)}
+class OpenNative(threading.local):
+    """Opens pairs in the native library. A fleet has many more pairs than ships: each ship is prepared once."""
+
+    def __init__(self) -> None:
+        self._files: PreparedShips | None = None  # no folder before the first pair
+
+    def __call__(self, own: FleetShip, target: FleetShip, degrees_of_freedom: int) -> Impacts:
+        """The impacts of these ships. Raises ShipError for a ship that is refused."""
+        if self._files is None or len(self._files) >= FILES_KEPT:
+            self._files = PreparedShips()
+        return open_impacts(own.loaded, target.loaded, degrees_of_freedom, self._files)
+
+
+PAIRS = {"native": OpenPairs(OpenNative()), "python": OpenPairs(PythonImpacts)}
 """Open pairs by engine."""
 
 
@@ -34,6 +47,7 @@ def run_impacts(study: Study, cases: Cases, engine: str) -> Results:
     """The results of the cases."""
     results = Results(cases, engine)
     given = as_cases(cases)
+    done: list[tuple[npt.NDArray[np.intp], npt.NDArray[Any]]] = []
     for own, target, places in group_pairs(study, cases, results):
         try:
             impacts = PAIRS[engine].find(own, target, study.run.degrees_of_freedom)
@@ -43,7 +57,10 @@ def run_impacts(study: Study, cases: Cases, engine: str) -> Results:
         rows = impacts.run(given[places])
         for place, row in zip(places[rows["status"] != 0], rows[rows["status"] != 0], strict=True):
             results.refuse(int(place), row["reason"].decode())
-        _put_rows(results, places[rows["status"] == 0], rows[rows["status"] == 0])
+        done.append((places[rows["status"] == 0], rows[rows["status"] == 0]))
+    if done:  # at once: by pairs it would take longer than the impacts
+        places, rows = (np.concatenate(parts) for parts in zip(*done, strict=True))
+        _put_rows(results, places, rows)
     return results
 
 

@@ -20,7 +20,7 @@ from .results import Results
 __all__ = ["Impacts", "OpenPairs", "group_pairs", "refuse_all"]
 
 PAIRS_KEPT = 256
-"""Pairs that stay open. To open one costs as much as a hundred impacts; each takes some 250 kB."""
+"""Pairs that stay open. To open one costs as much as thirty impacts; each takes some 250 kB."""
 
 
 class Impacts(Protocol):
