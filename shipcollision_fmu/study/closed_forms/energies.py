@@ -15,7 +15,7 @@ from .minorsky import minorsky_energy
 from .pedersen_zhang import PedersenZhang, pedersen_zhang, pedersen_zhang_ships
 from .planar_impact import PlanarShips
 from .popov import popov_energy, popov_ships
-from .read_impacts import read_column, read_impacts
+from .read_impacts import read_column, read_impacts, read_table
 
 __all__ = ["ClosedForms", "estimate_energies", "make_published_ships"]
 
@@ -30,10 +30,13 @@ class ClosedForms:
 
 
 def estimate_energies(encounters: Any) -> ClosedForms:
-    """The closed forms for a table of encounters of level `impact` (pyarrow.Table of n lines), beside its `energy`.
+    """The closed forms for a table of encounters of level `impact` (n lines), beside its `energy`.
 
-    Raises StudyError for rows of another level, or with a restitution.
+    encounters   a pyarrow.Table, or a frame of pandas or polars
+
+    Raises StudyError for what is no such table, and for rows of another level, or with a restitution.
     """
+    encounters = read_table(encounters)
     popovs = [_make_popov_ships(encounters, role) for role in ("own", "target")]
     published = [make_published_ships(encounters, role) for role in ("own", "target")]
     return ClosedForms(

@@ -16,11 +16,20 @@ import numpy as np
 
 from ...errors import StudyError
 from ...ship.frames import Array
+from ..extra import import_pyarrow
 from .planar_impact import PlanarImpacts, PlanarShips
 
-__all__ = ["Contact", "read_column", "read_impacts"]
+__all__ = ["Contact", "read_column", "read_impacts", "read_table"]
 
 Contact = Literal["nominal", "place", "found"]
+
+NEEDED = {
+    "level", "side", "angle_deg", "at", "friction", "restitution",
+    *(f"{role}_{name}" for role in ("own", "target") for name in (
+        "L_pp", "B", "T", "mass", "speed", "sway", "yaw_rate", "x", "y",
+    )),
+}  # fmt: skip
+"""Columns that are read."""
 
 
 def read_impacts(encounters: Any, own: PlanarShips, target: PlanarShips, *, contact: Contact) -> PlanarImpacts:
@@ -46,6 +55,22 @@ def read_impacts(encounters: Any, own: PlanarShips, target: PlanarShips, *, cont
         _columns(encounters, "target_speed", "target_sway", "target_yaw_rate"),
         normal, read_column(encounters, "friction"),
     )  # fmt: skip
+
+
+def read_table(encounters: Any) -> Any:
+    """The pyarrow.Table of a table of encounters, as pyarrow, pandas and polars have it. Raises StudyError."""
+    pa = import_pyarrow()
+    try:
+        table = encounters if isinstance(encounters, pa.Table) else pa.table(encounters)
+    except (TypeError, ValueError):
+        table = pa.table({})
+    missing = sorted(NEEDED.difference(table.column_names))
+    if missing:
+        raise StudyError(
+            f"closed forms: a {type(encounters).__name__} without the column {missing[0]!r} is no table of encounters: "
+            "give compute_rows(...).encounters, or that of a study's folder, with all columns"
+        )
+    return table
 
 
 def read_column(encounters: Any, name: str) -> Array:

@@ -1,6 +1,8 @@
 """run_study(): the rows of a study, computed in batches by many workers, and its folder of Parquet files.
 
-    run.py           run_study(), and the check of its options; result.py: what it returns
+    run.py           run_study(); result.py: what it returns
+    options.py       the check of its options
+    main_guard.py    the guard that a script with worker processes needs
     session.py       one call of it, from the folder's check to its status
     loop.py          Loop: hands out batches and writes the parts that come of the answers
     parts.py         Part: the fixed ranges of rows, a file each

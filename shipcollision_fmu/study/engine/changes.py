@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,10 @@ __all__ = ["describe_changes"]
 
 MOST_NAMED = 3
 """Changes that the line names; the others it counts."""
+SHOWN = 57
+"""Characters of a value that the line shows."""
+MISSING = object()
+"""Stands for the value of a key that is not there."""
 
 
 def describe_changes(study: Study, found: Mapping[str, Any], folder: Path) -> str:
@@ -37,15 +42,12 @@ def _list_changed_keys(study: Study, folder: Path) -> Iterator[str]:
     """Keys of the study file whose value is another one, each with both values. Comments and layout do not count."""
     try:
         text = (folder / "study.toml").read_text(encoding="utf-8")
-        before = _flatten(parse_toml(text, "study.toml", StudyError))
+        before = parse_toml(text, "study.toml", StudyError)
     except (OSError, UnicodeDecodeError, StudyError):
         return
-    now = _flatten(parse_toml(study.text, "the study file", StudyError))
-    for key in dict.fromkeys((*before, *now)):
-        if before.get(key) != now.get(key):
-            table, _, name = key.rpartition(".")
-            place = f"[{table}] {name}" if table else name
-            yield f"{place} (was {_format(before, key)}, is {_format(now, key)})"
+    now = parse_toml(study.text, "the study file", StudyError)
+    for place, was, is_ in _compare(before, now, ""):
+        yield f"{place} ({_describe(was, is_)})"
 
 
 def _list_changed_inputs(study: Study, found: Mapping[str, Any]) -> Iterator[str]:
@@ -55,17 +57,46 @@ def _list_changed_inputs(study: Study, found: Mapping[str, Any]) -> Iterator[str
             yield f"{name} (its content)"
 
 
-def _flatten(table: Mapping[str, Any], above: str = "") -> dict[str, Any]:
-    """Values by dotted key; a distribution is one value."""
-    flat: dict[str, Any] = {}
-    for key, value in table.items():
-        if isinstance(value, dict) and (not above or above == "tables"):
-            flat |= _flatten(value, f"{above}.{key}" if above else key)
-        else:
-            flat[f"{above}.{key}" if above else key] = value
-    return flat
+def _compare(before: Any, now: Any, place: str) -> Iterator[tuple[str, Any, Any]]:
+    """The innermost places with different values, as messages of a study file name them, each with both values."""
+    if before == now:
+        return
+    if _is_table(place):
+        before, now = ({} if value is MISSING else value for value in (before, now))
+    if isinstance(before, dict) and isinstance(now, dict):
+        for key in dict.fromkeys((*before, *now)):
+            yield from _compare(before.get(key, MISSING), now.get(key, MISSING), _join(place, key))
+    elif isinstance(before, list) and isinstance(now, list) and isinstance((before or now)[0], dict):
+        for i, (was, is_) in enumerate(zip_longest(before, now, fillvalue=MISSING)):
+            yield from _compare(was, is_, f"{place}[{i}]")
+    else:
+        yield place, before, now
 
 
-def _format(values: Mapping[str, Any], key: str) -> str:
-    text = str(values[key]) if key in values else "missing"
-    return text if len(text) <= 60 else f"{text[:57]}..."
+def _is_table(place: str) -> bool:
+    return place.endswith("]") and " " not in place
+
+
+def _join(place: str, key: str) -> str:
+    """ "[own] sampled[0].C_b" for the key C_b, "[own]" for the table own, "[tables.traffic]" for one of its tables."""
+    if not place:
+        return f"[{key}]"
+    if place == "[tables]":
+        return f"[tables.{key}]"
+    return f"{place} {key}" if _is_table(place) else f"{place}.{key}"
+
+
+def _describe(was: Any, is_: Any) -> str:
+    """Both values, shortened; long ones that begin alike from shortly before their difference."""
+    before, now = ("missing" if value is MISSING else str(value) for value in (was, is_))
+    if before[:SHOWN] == now[:SHOWN]:
+        alike = next(
+            (i for i, (a, b) in enumerate(zip(before, now, strict=False)) if a != b), min(len(before), len(now))
+        )
+        begin = max(alike - SHOWN // 3, 0)
+        before, now = (f"...{text[begin:]}" for text in (before, now))
+    return f"was {_shorten(before)}, is {_shorten(now)}"
+
+
+def _shorten(text: str) -> str:
+    return text if len(text) <= SHOWN + 3 else f"{text[:SHOWN]}..."

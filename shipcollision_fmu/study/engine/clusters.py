@@ -23,6 +23,7 @@ from distributed.comm import connect
 
 from ... import __version__
 from ...errors import HostError, InputError
+from .main_guard import explain_missing_guard
 from .versions import DISTRIBUTION, describe_other_version
 
 __all__ = ["ANSWER", "Cluster", "check_versions", "quiet_dask", "start_local_cluster", "use_scheduler"]
@@ -78,15 +79,16 @@ def _this_copy_first() -> Iterator[None]:
 
 
 def _run_local_cluster(workers: int | None) -> Iterator[Cluster]:
-    cluster = LocalCluster(
-        n_workers=CPU_COUNT if workers is None else workers,
-        threads_per_worker=1,
-        processes=True,
-        host="127.0.0.1",
-        dashboard_address="127.0.0.1:0",
-        silence_logs=logging.CRITICAL,
-        preload=f"{__package__}.local_worker",
-    )
+    with explain_missing_guard():
+        cluster = LocalCluster(
+            n_workers=CPU_COUNT if workers is None else workers,
+            threads_per_worker=1,
+            processes=True,
+            host="127.0.0.1",
+            dashboard_address="127.0.0.1:0",
+            silence_logs=logging.CRITICAL,
+            preload=f"{__package__}.local_worker",
+        )
     try:
         yield Cluster(
             "the local cluster", lambda timeout: Client(cluster, timeout=timeout, set_as_default=False), False

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, cast
 
 from ...errors import StudyError
 from ..extra import import_pyarrow, require_dask
+from .main_guard import end_in_a_starting_worker
+from .options import check_options
 from .result import StudyResult
 
 if TYPE_CHECKING:
     from .interface import ComputeRows, Study
 
-__all__ = ["ENGINES", "run_study"]
-
-ENGINES = ("auto", "native", "python")
+__all__ = ["run_study"]
 
 
 def run_study(
@@ -52,7 +52,8 @@ def run_study(
     cluster or the disk fails. Parts that are written stay, and `resume` goes on from there. So it does after
     KeyboardInterrupt, whose text says how far the study came.
     """
-    _check_options(scheduler, scheduler_file, workers, engine)
+    end_in_a_starting_worker()
+    check_options(out, scheduler, scheduler_file, workers, resume, engine, csv)
     import_pyarrow()
     if workers != 0:
         require_dask()
@@ -69,22 +70,11 @@ def run_study(
             )
         return choose_engine(before)
 
-    read = read_study(study) if isinstance(study, str | Path) else study
+    read = cast("Study", study) if hasattr(study, "fingerprint") else read_study(cast(Any, study))
     means = Means(scheduler, None if scheduler_file is None else Path(scheduler_file), workers)
     return run_session(
         read, Path(out), means, compute or compute_rows, decide_engine, resume, csv, progress, notify or _ignore
     )
-
-
-def _check_options(scheduler: str | None, scheduler_file: str | Path | None, workers: int | None, engine: str) -> None:
-    if scheduler is not None and scheduler_file is not None:
-        raise StudyError("a study has one scheduler: give --scheduler or --scheduler-file, not both")
-    if workers is not None and (scheduler is not None or scheduler_file is not None):
-        raise StudyError("a cluster that exists has its own workers: leave out --workers")
-    if workers is not None and workers < 0:
-        raise StudyError(f"--workers {workers} must be 0 or more; 0 computes in the client itself")
-    if engine not in ENGINES:
-        raise StudyError(f"engine = {engine!r} is unknown: take one of {', '.join(ENGINES)}")
 
 
 def _ignore(line: str) -> None:

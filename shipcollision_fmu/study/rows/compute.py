@@ -40,6 +40,8 @@ LEVEL_RUNNERS: dict[str, Callable[[Study, Cases, str], Results]] = {
 def compute_rows(study: Study, first: int, count: int, engine: str = "auto") -> RowTables:
     """The tables of the rows first to first + count - 1. Raises StudyError for rows that the study does not have,
     HostError without pyarrow, and where the engine "native" has no library."""
+    if not isinstance(study, Study):
+        raise StudyError(f"study = {study!r} is no Study: give what read_study() returns")
     is_whole = all(isinstance(number, int | np.integer) for number in (first, count))
     if not (is_whole and first >= 0 and count >= 1 and first + count <= study.rows):
         raise StudyError(

@@ -150,3 +150,19 @@ def test_a_spread() -> None:
 def test_rows_that_have_no_closed_form_are_refused(level: str, more: str, why: str) -> None:
     with pytest.raises(StudyError, match=f"closed forms: {why}"):
         estimate_energies(compute(more, level, rows=1))
+
+
+@pytest.mark.parametrize("library", ["pandas", "polars"])
+def test_frames_of_other_libraries_have_the_same_estimates(sample: Any, library: str) -> None:
+    frame = sample.to_pandas() if library == "pandas" else pytest.importorskip("polars").from_arrow(sample)
+    expected, found = estimate_energies(sample), estimate_energies(frame)
+    assert np.array_equal(found.minorsky, expected.minorsky)
+    assert np.array_equal(found.popov, expected.popov, equal_nan=True)
+    assert np.array_equal(found.pedersen_zhang.energy, expected.pedersen_zhang.energy, equal_nan=True)
+
+
+@pytest.mark.parametrize("given", ["quick/encounters", 5, None, {"energy": [1.0]}])
+def test_what_is_no_table_of_encounters_is_refused(given: Any) -> None:
+    message = rf"closed forms: a {type(given).__name__} without the column 'angle_deg' is no table of encounters: give"
+    with pytest.raises(StudyError, match=message):
+        estimate_energies(given)

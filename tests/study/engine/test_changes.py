@@ -20,6 +20,13 @@ rows = 25
 sampler = "random"
 [own]
 ships = ["ships/own.toml", "kcs"]
+[[own.sampled]]
+kind = "tanker, loaded"
+count = 2
+L_pp = { distribution = "normal", mean = 160.0, sd = 9.0, least = 100.0, most = 200.0 }
+L_over_B = 6.0
+B_over_T = 2.7
+C_b = 0.8
 [encounter]
 own_speed = { table = "traffic", column = "speed" }
 friction = 0.3
@@ -58,6 +65,25 @@ def change(path: str, old: str, new: str) -> None:
         ("mine.toml", "friction = 0.3", "", "[encounter] friction (was 0.3, is missing)"),
         ("mine.toml", '"random"', '"random"\nseed = 5', "[study] seed (was missing, is 5)"),
         ("mine.toml", ', "kcs"]', "]", "[own] ships (was ['ships/own.toml', 'kcs'], is ['ships/own.toml'])"),
+        ("mine.toml", "C_b = 0.8", "C_b = 0.79", "[own] sampled[0].C_b (was 0.8, is 0.79)"),
+        ("mine.toml", "sd = 9.0", "sd = 8.0", "[own] sampled[0].L_pp.sd (was 9.0, is 8.0)"),
+        ("mine.toml", '"traffic.csv"', '"./traffic.csv"', "[tables.traffic] file (was traffic.csv, is ./traffic.csv)"),
+        ("mine.toml", "file =", 'weight = "speed"\nfile =', "[tables.traffic] weight (was missing, is speed)"),
+        ("mine.toml", "[encounter]", "[run]\nafter = 9.0\n[encounter]", "[run] after (was missing, is 9.0)"),
+        (
+            "mine.toml",
+            "[[own.sampled]]",
+            '[[own.sampled]]\nkind = "tug"\nL_pp = 30.0\nB = 9.0\nT = 4.0\nC_b = 0.6\n[[own.sampled]]',
+            "[own] sampled[0].kind (was tanker, loaded, is tug), [own] sampled[0].count (was 2, is missing), "
+            "[own] sampled[0].L_pp (was {'distribution': 'normal', 'mean': 160.0, 'sd': 9.0, 'lea..., is 30.0) "
+            "and 6 more",
+        ),
+        (
+            "mine.toml",
+            'name = "mine"',
+            f'name = "mine"\ndescription = "{"a" * 80}"',
+            f"[study] description (was missing, is {'a' * 57}...)",
+        ),
         ("ships/own.toml", "kvlcc2", "kcs", "ship ships/own.toml of [own] (its content)"),
         ("traffic.csv", "6.0", "7.0", "file traffic.csv of [tables.traffic] (its content)"),
     ],
@@ -69,6 +95,15 @@ def test_the_line_says_what_has_changed(folder: Path, path: str, old: str, new: 
     line = f"error: out holds another study: changed since: {words}; give a new folder with --out\n"
     assert (result.exit_code, result.stderr) == (2, line)
     assert digest(folder / "out") == before
+
+
+def test_long_values_are_shown_where_they_differ(folder: Path) -> None:
+    change("mine.toml", 'name = "mine"', f'name = "mine"\ndescription = "{"a" * 80} of steel"')
+    assert called("mine.toml", "--out", "long").exit_code == 0
+    change("mine.toml", "of steel", "of wood")
+    said = called("mine.toml", "--out", "long", "--resume").stderr
+    shown = "a" * 15
+    assert f"[study] description (was ...{shown} of steel, is ...{shown} of wood)" in said
 
 
 def test_many_changes_are_counted(folder: Path) -> None:
