@@ -166,6 +166,7 @@ def test_what_is_no_order_is_refused_and_counted(
     session: Recorded, port: OrderPort, connect: Connect, line: bytes, said: str
 ) -> None:  # fmt: skip
     bridge = connect()
+    assert bridge.ask({"state": True})["ok"]
     answer = bridge.ask(line)
     assert answer["ok"] is False
     assert answer["error"].startswith(said)
@@ -175,10 +176,42 @@ def test_what_is_no_order_is_refused_and_counted(
 
 def test_a_line_that_is_too_long_is_refused_once(port: OrderPort, connect: Connect) -> None:
     bridge = connect()
+    assert bridge.ask({"state": True})["ok"]
     bridge.socket.sendall(b"x" * 50_000 + b"\n")
     assert bridge.read()["error"] == f"the line has more than {LONGEST_LINE} bytes: send shorter ones"
     assert bridge.ask({"ship": "own", "rudder_deg": 5})["ok"]
     assert port.refused == 1
+
+
+ORDER = b'{"ship": "own", "rudder_deg": 5}\n'
+
+
+@pytest.mark.parametrize(
+    ("begins", "said"),
+    [
+        (b"POST / HTTP/1.1\r\nHost: 127.0.0.1:4711\r\nContent-Type: text/plain\r\n\r\n", "the line is not JSON"),
+        (b"\r\nGET /" + b"x" * 5000 + b" HTTP/1.1\r\n", "the line has more than 4096 bytes"),
+        (b"GET /" + b"x" * 50_000 + b" HTTP/1.1\r\n", "the line has more than 4096 bytes"),
+        (b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03\n", "the line is not JSON"),
+    ],
+)
+def test_a_page_in_a_browser_cannot_order(
+    session: Recorded, port: OrderPort, connect: Connect, begins: bytes, said: str
+) -> None:  # fmt: skip
+    """A browser posts what a page from anywhere gives it, and its body comes after lines of HTTP or TLS."""
+    browser = connect()
+    browser.socket.sendall(begins + ORDER)
+    with suppress(ConnectionError):  # it is reset where it had sent more than was read
+        answer = browser.read()
+        assert answer["error"].startswith(said)
+        assert answer["error"].endswith("; the connection ends, as its first line must be JSON")
+        assert browser.answers.readline() == b""
+    until(lambda: port.dropped == 1)
+    assert (session.orders, session.command, port.refused) == ([], {}, 1)
+    bridge = connect()
+    assert bridge.ask(b"[1]")["ok"] is False
+    assert bridge.ask(b"full ahead")["ok"] is False
+    assert bridge.ask(ORDER.strip())["ok"]
 
 
 def test_too_many_lines_in_a_second_are_refused(connect: Connect) -> None:
@@ -264,6 +297,7 @@ def test_ten_thousand_messages_never_stop_the_simulation(monkeypatch: pytest.Mon
     try:
         rng, begun = random.Random(SEED), session.snapshot.time
         bridges = [Bridge(outlets.orders.port) for _ in range(4)]
+        assert all(bridge.ask({"state": True})["ok"] for bridge in bridges)
         sent = [0] * 4
         for k in range(0, MESSAGES, 50):
             lines = [make_message(rng) for _ in range(50)]
@@ -277,7 +311,7 @@ def test_ten_thousand_messages_never_stop_the_simulation(monkeypatch: pytest.Mon
         assert session.snapshot.time > begun
         until(lambda: session.snapshot.refused == outlets.orders.refused)
         assert outlets.orders.refused > (9000 if most_lines == MOST_LINES else 5000)
-        assert outlets.orders.refused + outlets.orders.accepted <= MESSAGES
+        assert outlets.orders.refused + outlets.orders.accepted <= MESSAGES + len(bridges)
         assert outlets.orders.accepted > (0 if most_lines == MOST_LINES else 200)
         for bridge in bridges:
             bridge.close()

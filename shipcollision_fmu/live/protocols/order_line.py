@@ -9,7 +9,7 @@ from typing import Any
 
 from ...errors import InputError
 
-__all__ = ["Line", "parse_line"]
+__all__ = ["Line", "NotJsonError", "parse_line"]
 
 NUMBERS = ("rudder_deg", "heading_deg", "rev_per_s")
 KEYS = ("ship", *NUMBERS, "telegraph", "command", "state", "id")
@@ -17,6 +17,10 @@ LONGEST_NAME = 64
 """Characters in the name of a ship, and in an id."""
 LARGEST = 1e6
 """Limit of a number; the ship has limits of its own."""
+
+
+class NotJsonError(InputError):
+    """A line that is not JSON."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +62,7 @@ def _read_object(raw: bytes) -> dict[str, Any]:
     except InputError:
         raise
     except (ValueError, RecursionError):
-        raise InputError('the line is not JSON: send an object such as {"ship": "own", "rudder_deg": 5}') from None
+        raise NotJsonError('the line is not JSON: send an object such as {"ship": "own", "rudder_deg": 5}') from None
     if not isinstance(data, dict):
         raise InputError(f"the line is {type(data).__name__}, not an object: put it into braces")
     for key in data:

@@ -9,6 +9,9 @@
 The first order to a ship that nobody commands takes its command; a client that goes gives up all. Lines are UTF-8, end
 with a line feed and have at most LONGEST_LINE bytes. One thread serves all clients and waits for none: a client that
 does not read its answers, or sends too much at a time, is dropped. Lines that are refused are counted.
+
+A client whose first line is not JSON is dropped, with all that follows. Any page in a browser of this machine may post
+to the port: that begins with a line of HTTP, and its body could hold orders.
 """
 
 from __future__ import annotations
@@ -27,7 +30,7 @@ from typing import Any
 
 from ...errors import InputError
 from .addresses import listen
-from .order_line import Line, parse_line
+from .order_line import Line, NotJsonError, parse_line
 
 __all__ = ["LONGEST_LINE", "MOST_CLIENTS", "MOST_LINES", "OrderPort", "Orders"]
 
@@ -64,6 +67,8 @@ class _Client:
         self.connection, self.name = connection, name
         self.received, self.answers = bytearray(), bytearray()
         self.skipping = False  # the rest of a line that is too long
+        self.is_known = False  # a line of it was JSON: it speaks this protocol
+        self.is_strange = False  # it speaks another one
         self.second, self.lines = 0, 0
 
 
@@ -132,7 +137,7 @@ class OrderPort:
         if events & selectors.EVENT_READ and not self._receive(client):
             self._drop(client)
             return
-        if not self._send(client) or len(client.answers) > MOST_PENDING:
+        if not self._send(client) or client.is_strange or len(client.answers) > MOST_PENDING:
             self._drop(client)
             return
         mask = selectors.EVENT_READ | (selectors.EVENT_WRITE if client.answers else 0)
@@ -156,9 +161,11 @@ class OrderPort:
                 client.skipping = False
             else:
                 self._take(client, raw)
+            if client.is_strange:
+                return True
         if len(client.received) > LONGEST_LINE:
             if not client.skipping:
-                self._refuse(client, f"the line has more than {LONGEST_LINE} bytes: send shorter ones")
+                self._refuse_line(client, f"the line has more than {LONGEST_LINE} bytes: send shorter ones")
             client.skipping = True
             client.received.clear()
         return True
@@ -167,7 +174,7 @@ class OrderPort:
         if not raw.strip():
             return
         if len(raw) > LONGEST_LINE:
-            self._refuse(client, f"the line has more than {LONGEST_LINE} bytes: send shorter ones")
+            self._refuse_line(client, f"the line has more than {LONGEST_LINE} bytes: send shorter ones")
             return
         now = int(monotonic())
         client.second, client.lines = (now, 1) if now != client.second else (now, client.lines + 1)
@@ -177,9 +184,12 @@ class OrderPort:
         identifier: str | int | None = None
         try:
             line = parse_line(raw)
-            identifier = line.id
+            client.is_known, identifier = True, line.id
             result = self._obey(client, line)
+        except NotJsonError as error:
+            self._refuse_line(client, str(error))
         except InputError as error:
+            client.is_known = True
             self._refuse(client, str(error), identifier)
         else:
             self.accepted += 1
@@ -196,6 +206,12 @@ class OrderPort:
         if line.order and line.command is not False:
             _wait(self._orders.order(client.name, ship, line.order))
         return {}
+
+    def _refuse_line(self, client: _Client, message: str) -> None:
+        """Refuse what is not JSON; as the first line of a client it is the last."""
+        client.is_strange = not client.is_known
+        end = "; the connection ends, as its first line must be JSON" if client.is_strange else ""
+        self._refuse(client, message + end)
 
     def _refuse(self, client: _Client, message: str, identifier: str | int | None = None) -> None:
         self.refused += 1
