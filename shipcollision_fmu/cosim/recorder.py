@@ -21,7 +21,7 @@ from .component import Component, Group
 from .master import System
 from .row_log import RowLog
 
-__all__ = ["CollisionSoFar", "EndValues", "Recorder", "RecorderMark"]
+__all__ = ["CollisionSoFar", "ContactPoint", "EndValues", "Recorder", "RecorderMark"]
 
 ENERGY = CONTACT_COLUMNS.index("energy")
 CONTACT_ROOM = 64
@@ -44,6 +44,14 @@ class CollisionSoFar(NamedTuple):
     ship_b: str
     energy: float
     last: float
+
+
+class ContactPoint(NamedTuple):
+    """A contact point of the present: its bodies, and its values by the columns of contacts.csv."""
+
+    ship_a: str
+    ship_b: str
+    values: Mapping[str, float]
 
 
 class RecorderMark(NamedTuple):
@@ -140,6 +148,20 @@ class Recorder:
     def contact_count(self) -> int:
         """The number of contact points at that point."""
         return int(self._counts.values[0])
+
+    def read_contact_points(self) -> list[ContactPoint]:
+        """The contact points at that point."""
+        count, width, ids = self.contact_count, len(CONTACT_COLUMNS), len(CONTACT_INTEGERS)
+        if count == 0:
+            return []
+        self._reals.read(count * width)
+        self._numbers.read(count * ids)
+        found = []
+        for i in range(count):
+            a, b = self._numbers.values[i * ids : i * ids + 2]
+            values = dict(zip(CONTACT_COLUMNS, self._reals.values[i * width : (i + 1) * width], strict=True))
+            found.append(ContactPoint(self._bodies[a - 1], self._bodies[b - 1], values))
+        return found
 
     @property
     def nearest(self) -> tuple[str, ...]:

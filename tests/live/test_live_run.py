@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import random
 from collections.abc import Iterator
 from contextlib import closing
@@ -235,6 +236,20 @@ def test_a_failure_spares_the_timed_revolutions(timed: LiveRun, tmp_path: Path) 
     assert (own.rev_order, own.heading_order) == (0.5, None)
     assert own.rudder == pytest.approx(timed.bridges["own"].read_machines()[0])
     assert_same_again(timed, tmp_path)
+
+
+def test_contact_points_are_those_that_are_recorded(run: LiveRun, tmp_path: Path) -> None:
+    """At the first point with contact, and at one without."""
+    assert run.observe_contact().touching == ()
+    while not run.observe_contact().points:
+        run.advance()
+    (touch,) = run.observe_contact().touching
+    write_run(run, tmp_path / "live")
+    (row,) = csv.DictReader((tmp_path / "live" / "contacts.csv").read_text(encoding="utf-8").splitlines())
+    assert (touch.ship_a, touch.ship_b) == (row["ship_a"], row["ship_b"]) == ("own", "target")
+    for place, columns in ((touch.a, "a."), (touch.b, "b.")):
+        assert place == tuple(float(row[f"{columns}{axis}"]) for axis in "xyz")
+    assert touch.normal == tuple(float(row[f"normal.{axis}"]) for axis in ("north", "east", "down"))
 
 
 def test_a_run_longer_than_its_scenario(timed: LiveRun, tmp_path: Path) -> None:

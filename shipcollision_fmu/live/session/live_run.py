@@ -23,12 +23,12 @@ from pydantic import ValidationError
 
 from ...cosim.factories import model_factories
 from ...cosim.parameters import change_surroundings, changed_surroundings, surroundings
-from ...cosim.recorder import EndValues, RecorderMark
+from ...cosim.recorder import ContactPoint, EndValues, RecorderMark
 from ...cosim.run import Run
 from ...cosim.simulate import build_run
 from ...cosim.stepper import Stepper
 from ...errors import InputError
-from ...fmi.names import STATE
+from ...fmi.names import AXES, NED, STATE, named
 from ...scenario.scenario import Scenario, parse_scenario
 from ...scenario.tables.environment import EnvironmentChange
 from ...ship.loading.messages import describe_error
@@ -36,7 +36,7 @@ from .bridge import Bridge
 from .input_files import read_input_files
 from .scenario_text import write_scenario
 from .ship_limits import find_limits
-from .snapshot import CollisionSnapshot, ContactSnapshot, EnvironmentSnapshot, ShipSnapshot, WindSnapshot
+from .snapshot import CollisionSnapshot, ContactSnapshot, EnvironmentSnapshot, ShipSnapshot, TouchSnapshot, WindSnapshot
 
 __all__ = ["MOST_MARKS", "LiveRun"]
 
@@ -221,7 +221,8 @@ class LiveRun:
         recorder = self._stepper.recorder
         latest = list(recorder.collisions.items())[-SHOWN:]
         return ContactSnapshot(
-            recorder.contact_count, len(recorder.collisions),
+            recorder.contact_count, tuple(map(_observe_touch, recorder.read_contact_points())),
+            len(recorder.collisions),
             tuple(
                 CollisionSnapshot(
                     number, recorder.starts[number].time, so_far.ship_a, so_far.ship_b, recorder.starts[number].point,
@@ -260,6 +261,15 @@ class LiveRun:
     def close(self) -> None:
         """Give everything back; may be called twice."""
         self._stack.close()
+
+
+def _observe_touch(point: ContactPoint) -> TouchSnapshot:
+    def vector(columns: tuple[str, ...]) -> tuple[float, float, float]:
+        x, y, z = (point.values[column] for column in columns)
+        return x, y, z
+
+    places = vector(named("a", AXES)), vector(named("b", AXES))
+    return TouchSnapshot(point.ship_a, point.ship_b, *places, vector(named("normal", NED)))
 
 
 def make_change(current: tuple[float, float] | None, wind: tuple[float, float] | None) -> EnvironmentChange:

@@ -9,7 +9,10 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
-__all__ = ["CollisionSnapshot", "ContactSnapshot", "EnvironmentSnapshot", "ShipSnapshot", "Snapshot", "WindSnapshot"]
+__all__ = [
+    "CollisionSnapshot", "ContactSnapshot", "EnvironmentSnapshot", "ShipSnapshot", "Snapshot", "TouchSnapshot",
+    "WindSnapshot",
+]  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -60,13 +63,26 @@ class CollisionSnapshot:
 
 
 @dataclass(frozen=True)
+class TouchSnapshot:
+    """A contact point: bodies, its place in the b of each [m], and the normal from ship_a to ship_b in n."""
+
+    ship_a: str
+    ship_b: str
+    a: tuple[float, float, float]
+    b: tuple[float, float, float]
+    normal: tuple[float, float, float]
+
+
+@dataclass(frozen=True)
 class ContactSnapshot:
-    """Contact: points now, collisions in all, the latest of them, clearance [m] of the nearest pair, energy [J].
+    """Contact: number of points now, and where they are; collisions in all, the latest of them; clearance [m] of the
+    nearest pair; energy [J].
 
     clearance is capped at the scenario's clearance_range; nearest is then empty.
     """
 
     points: int
+    touching: tuple[TouchSnapshot, ...]
     count: int
     collisions: tuple[CollisionSnapshot, ...]
     clearance: float

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 from collections.abc import Iterator
 from contextlib import contextmanager
 from math import degrees
@@ -335,8 +336,10 @@ def test_contact_is_seen_and_heard_at_once(browser: Chrome, scenario_file: Write
             assert "own" in page.run("return document.querySelector('[data-alarm=contact]').textContent")
             press(page, Keys.ENTER)
             page.wait("return document.querySelector('[data-alarm=contact]').className === 'alarm silent'")
+            page.wait("return Object.values(live.drawn().scratches).every((places) => places.length > 0)")
             served.session.submit(Back("start")).result(30.0)
             page.wait("return live.state.contact.count === 0")
+            page.wait("return Object.values(live.drawn().scratches).every((places) => places.length === 0)")
             page.wait("return !document.querySelector('[data-alarm=contact]')")
         seen = page.run("return live.contacts.map(({ wall }) => wall / 1000)")
         assert page.complaints() == []
@@ -344,6 +347,17 @@ def test_contact_is_seen_and_heard_at_once(browser: Chrome, scenario_file: Write
     assert len(delays) >= 3
     assert min(delays) > -0.002  # the page counts whole milliseconds
     assert median(delays) < SEEN_WITHIN
+
+
+def assert_places_of_contacts(scratches: dict[str, list[list[float]]], contacts: Path) -> None:
+    """Scratches of the page are at places where the model has contact, on each ship."""
+    rows = list(csv.DictReader(contacts.read_text(encoding="utf-8").splitlines()))
+    for ship, places in scratches.items():
+        recorded = {
+            tuple(float(row[f"{side}.{axis}"]) for axis in "xyz") for row in rows for side in "ab"
+            if row[f"ship_{side}"] == ship
+        }  # fmt: skip
+        assert {tuple(place) for place in places} <= recorded
 
 
 @pytest.mark.slow
@@ -363,13 +377,16 @@ def test_a_ship_is_steered_into_another_by_keys_and_the_run_is_that_of_the_order
         press(page, Keys.ENTER + Keys.BACKSPACE + "m")
         at = page.state(".time")
         page.wait(f"return live.state.time > {at} + 20")
-        assert page.run("return live.drawn().effects") > 0
+        drawn = page.run("return live.drawn()")
+        assert drawn["effects"] > 0
+        assert all(drawn["scratches"].values())
         assert page.complaints() == []
         served.session.submit(End())
         page.wait("return document.getElementById('debriefing')")
         browser.find_element(By.ID, "debriefing").click()
         page.wait("return document.body?.dataset.ready === 'true' && window.replay")
         assert page.run("return replay.data.events.length") > 0
+    assert_places_of_contacts(drawn["scratches"], out / "contacts.csv")
     simulate(load_scenario(out / "scenario.toml"), in_process=True, out=tmp_path / "again")
     for name in ("states.csv", "contacts.csv", "events.json"):
         assert (out / name).read_bytes() == (tmp_path / "again" / name).read_bytes(), name

@@ -11,6 +11,7 @@ import { LiveCameras, MODES } from "./live_cameras.js";
 import { makeLivePage } from "./live_page.js";
 import { followHistories } from "./motion.js";
 import { makeLimits, makeSwitches, textButton } from "./page_tools.js";
+import { makeScratchMarks } from "./scratch_marks.js";
 import { makeTargets } from "./targets.js";
 
 const NUMBERS = 150; // between two readings of the instruments [ms]
@@ -18,7 +19,7 @@ const CHART = 250; // between two pictures of the chart [ms]
 const SETTLED = 0.1; // [s] after which a collision's energy tells how strong its effects are
 
 export async function startBridge() {
-  const page = makeLivePage("bridge", { hello: () => greet(), back: () => forgetEffects() });
+  const page = makeLivePage("bridge", { hello: () => greet(), back: (state) => forgetEffects(state), state: (state) => scratches?.add(state) });
   const { session, ask, messages, time } = page;
   const onShip = (type, fields) => ask(type, { ship: session.own, ...fields });
   const conning = new Conning((fields) => onShip("order", fields), (on) => onShip("horn", { on }));
@@ -46,6 +47,7 @@ export async function startBridge() {
 
   let viewer = null;
   let chart = null;
+  let scratches = null;
   let shown = null;
   const effects = new Map(); // collision -> what takes its effects away
   const numbers = { next: 0, chart: 0 };
@@ -86,6 +88,7 @@ export async function startBridge() {
         return followed(gltf);
       }, LiveCameras);
       made.cameras.own = made.ships.findIndex(({ info }) => info.name === session.own);
+      scratches = makeScratchMarks(made.ships);
       viewer = made;
       if (isPlain) togglePlain();
       chooseCamera(session.infoOf(session.own).bridge ? "bridge" : "chase");
@@ -149,8 +152,9 @@ export async function startBridge() {
     }
   }
 
-  /** Time has gone back: all effects go, and come again where their collisions have happened. */
-  function forgetEffects() {
+  /** Time has gone back: all effects go, and come again where their collisions have happened; so do later scratches. */
+  function forgetEffects(state) {
+    scratches?.forget(state.time);
     for (const remove of effects.values()) remove();
     effects.clear();
   }
@@ -212,7 +216,7 @@ export async function startBridge() {
       viewer.show(shown.time);
       viewer.draw();
       const { camera: eye, mode, zoom } = viewer.cameras;
-      return { time: shown.time, poses: viewer.poses(), effects: viewer.shown.effects, frames: viewer.shown.frames, mode, zoom, eye: eye.position.toArray(), fov: eye.fov };
+      return { time: shown.time, poses: viewer.poses(), effects: viewer.shown.effects, frames: viewer.shown.frames, mode, zoom, scratches: scratches.places, eye: eye.position.toArray(), fov: eye.fov };
     },
     project: (point) => viewer.project(point),
   });
