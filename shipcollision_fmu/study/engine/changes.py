@@ -46,8 +46,11 @@ def _list_changed_keys(study: Study, folder: Path) -> Iterator[str]:
     except (OSError, UnicodeDecodeError, StudyError):
         return
     now = parse_toml(study.text, "the study file", StudyError)
-    for place, was, is_ in _compare(before, now, ""):
-        yield f"{place} ({_describe(was, is_)})"
+    for key in dict.fromkeys((*before, *now)):
+        values = before.get(key, MISSING), now.get(key, MISSING)
+        place = f"[{key}]" if any(isinstance(value, dict) for value in values) else key
+        for where, was, is_ in _compare(*values, place):
+            yield f"{where} ({_describe(was, is_)})"
 
 
 def _list_changed_inputs(study: Study, found: Mapping[str, Any]) -> Iterator[str]:
@@ -78,9 +81,7 @@ def _is_table(place: str) -> bool:
 
 
 def _join(place: str, key: str) -> str:
-    """ "[own] sampled[0].C_b" for the key C_b, "[own]" for the table own, "[tables.traffic]" for one of its tables."""
-    if not place:
-        return f"[{key}]"
+    """ "[own] sampled[0].C_b" for the key C_b, "[tables.traffic]" for one of the tables."""
     if place == "[tables]":
         return f"[tables.{key}]"
     return f"{place} {key}" if _is_table(place) else f"{place}.{key}"
