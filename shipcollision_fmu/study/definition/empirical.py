@@ -24,7 +24,7 @@ from ...ship.loading.messages import suggest_or_list
 from ..extra import import_pyarrow
 from .distributions import cumulate
 
-__all__ = ["EmpiricalTable", "read_empirical_table"]
+__all__ = ["EmpiricalTable", "is_number", "read_empirical_table"]
 
 MOST_LINES = 10_000_000
 """Lines of the largest table: it is kept in the memory of every worker, 80 MB for each column of numbers."""
@@ -70,12 +70,30 @@ def _cumulate_weights(columns: dict[str, npt.NDArray[Any]], weight: str | None, 
     if weight not in columns:
         raise StudyError(f"{place} weight = {weight!r} is no column:{suggest_or_list(weight, list(columns))}")
     weights = columns[weight]
-    if weights.dtype.kind != "f" or (weights < 0.0).any() or not weights.sum() > 0.0:
+    said = f"{place} weight = {weight!r} is"
+    if weights.dtype.kind != "f":
+        line = next(i for i, value in enumerate(weights.tolist(), 2) if not is_number(value))
         raise StudyError(
-            f"{place} weight = {weight!r}: a weight in this column is no number, or below 0, or all are 0: give "
-            "numbers of at least 0"
+            f"{said} {str(weights[line - 2])!r} in line {line}, must be a number of at least 0: correct the line, or "
+            "take another column"
+        )
+    if (weights < 0.0).any():
+        line = int(np.argmax(weights < 0.0))
+        raise StudyError(f"{said} {weights[line]:g} in line {line + 2}, must be at least 0: correct the line")
+    if not weights.sum() > 0.0:
+        raise StudyError(
+            f"{said} 0 in all {lines} lines, must be above 0 in one at least: correct it, or leave weight out"
         )
     return cumulate(weights)
+
+
+def is_number(value: str) -> bool:
+    """Whether a value of a column of words is a number."""
+    try:
+        float(value)
+    except ValueError:
+        return False
+    return True
 
 
 def _read_csv(content: bytes, said: str) -> dict[str, npt.NDArray[Any]]:
@@ -85,8 +103,7 @@ def _read_csv(content: bytes, said: str) -> dict[str, npt.NDArray[Any]]:
         raise StudyError(f"{said} is not UTF-8 text (byte {error.start}): save it as UTF-8") from None
     header, *lines = [line for line in csv.reader(io.StringIO(text)) if line] or [[]]
     names = [name.strip() for name in header]
-    if not names or len(set(names)) < len(names) or "" in names:
-        raise StudyError(f"{said} has no line of column names, each once, at its top: {names}: name the columns")
+    _check_names(names, said)
     if not lines:
         raise StudyError(f"{said} has 0 lines below its names, must have 1 to {MOST_LINES}: give another file")
     for number, line in enumerate(lines, 2):
@@ -96,6 +113,19 @@ def _read_csv(content: bytes, said: str) -> dict[str, npt.NDArray[Any]]:
                 "with commas between values"
             )
     return {name: _as_column(values, name, said) for name, values in zip(names, zip(*lines, strict=True), strict=True)}
+
+
+def _check_names(names: list[str], said: str) -> None:
+    if not names:
+        raise StudyError(f"{said} is empty: give a file with a line of column names at its top")
+    for sign, word in ((";", "semicolons"), ("\t", "tabs")):
+        if len(names) == 1 and sign in names[0]:
+            raise StudyError(f"{said} is separated by {word}: save it with commas between values and points in numbers")
+    if "" in names:
+        raise StudyError(f"{said} has no name for column {names.index('') + 1} in line 1: give it one")
+    for name in names:
+        if names.count(name) > 1:
+            raise StudyError(f"{said} has the column name {name!r} twice in line 1: give each column a name of its own")
 
 
 def _as_column(values: Sequence[str], name: str, said: str) -> npt.NDArray[Any]:

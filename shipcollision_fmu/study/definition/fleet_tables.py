@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from typing import Annotated, Any
 
 from pydantic import Field, PlainValidator, field_validator, model_validator
 
 from ...ship.loading.consistency import C_B_LIMITS, PROPORTIONS, SIZES
+from ...ship.loading.messages import suggest
 from ...ship.ship_type import list_type_words, names_a_type
-from ...ship.tables.table import Positive, Table
+from ...ship.tables.table import NotNegative, Table
 from .distribution_text import Variable
 from .distributions import Constant, Discrete, TableColumn
 
@@ -25,14 +27,27 @@ LIMITS = {
 """Limits of the dimensions of sampled ships: those of a ship file, and of the draught as a share of the loaded one."""
 
 
+RATIOS = {"lb": "L_over_B", "bt": "B_over_T"}
+"""By the letters alone: L/B, L_B and LB mean the same."""
+
+
 class PoolTable(Table):
     """[[own.sampled]]: so many ships of a kind, made from their main dimensions by the estimate of a ship file."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _name_ratios(cls, given: Any) -> Any:
+        for key in given if isinstance(given, dict) else ():
+            name = RATIOS.get(re.sub("[^a-z]", "", key.lower()))
+            if name is not None:
+                raise ValueError(f"{key} is not a known key: did you mean {name}?")
+        return given
 
     kind: str = Field(description='the type of ship, e.g. "tanker, loaded", as [ship] kind of a ship file has it')
     count: int = Field(
         default=100, ge=1, le=MOST_OF_A_POOL, description="the number of different ships; rows choose among them"
     )
-    weight: Positive = Field(default=1.0, description="the weight of the whole pool beside the ships by name")
+    weight: NotNegative = Field(default=1.0, description="the weight of the whole pool beside the ships by name")
     L_pp: Variable = Field(description="the length between perpendiculars [m]")
     B: Variable | None = Field(default=None, description="the breadth [m]; or L_over_B instead")
     L_over_B: Variable | None = Field(default=None, description="length over breadth, 4 to 9 for most ships")
@@ -47,7 +62,9 @@ class PoolTable(Table):
     @classmethod
     def _check_kind(cls, kind: str) -> str:
         if not names_a_type(kind):
-            raise ValueError(f"{kind!r} names no type of ship: take one of the words {', '.join(list_type_words())}")
+            words = list_type_words()
+            near = next(filter(None, (suggest(word, words) for word in (kind, *re.split(r"[\s,]+", kind)))), "")
+            raise ValueError(f"{kind!r} names no type of ship:{near or ' take one of the words ' + ', '.join(words)}")
         return kind
 
     @model_validator(mode="after")
@@ -91,11 +108,9 @@ def _read_ships(given: Any) -> dict[str, float] | TableColumn:
         for name, weight in given.items():
             if type(weight) not in (int, float) or not 0.0 <= weight < float("inf"):
                 raise ValueError(f"{name} = {weight!r} must be a weight, a number of at least 0")
-        if sum(given.values()) > 0.0:
-            return {name: float(weight) for name, weight in given.items()}
+        return {name: float(weight) for name, weight in given.items()}
     raise ValueError(
-        f'the value {given!r} must name ships: ["kvlcc2", "kcs"], or with weights {{kvlcc2 = 3.0, kcs = 1.0}}, not '
-        "all 0"
+        f'the value {given!r} must name ships: ["kvlcc2", "kcs"], or with weights {{kvlcc2 = 3.0, kcs = 1.0}}'
     )
 
 
@@ -118,6 +133,11 @@ class FleetTable(Table):
             raise ValueError('has no ships: give ships = ["kvlcc2"], or a table [[own.sampled]]')
         if isinstance(self.ships, TableColumn) and self.sampled:
             raise ValueError("has ships from a table and sampled ones: give one of the two")
+        weights = [pool.weight for pool in self.sampled]
+        if isinstance(self.ships, dict):
+            weights += self.ships.values()
+        if not isinstance(self.ships, TableColumn) and not sum(weights) > 0.0:
+            raise ValueError("all weights are 0: give a ship or a pool a weight above 0")
         if not isinstance(self.loading, Constant | Discrete):
             raise ValueError("loading must be a number or discrete: each value makes another ship of each name")
         check_limits("loading", self.loading, *LIMITS["loading"], "1 is the draught of the ship file")

@@ -240,4 +240,6 @@ def _locate(name_or_path: str | Path) -> Path:
         return path
     if text in known:
         return find_models() / "studies" / f"{text}.toml"
+    if Path(text).suffix or is_file(Path(text)):
+        raise StudyError(f"{text} is no TOML file: give a study file, NAME.toml, or one of {', '.join(known)}")
     raise StudyError(f"unknown study {text!r}:{suggest_or_list(text, known, 'give the path of a TOML file')}")

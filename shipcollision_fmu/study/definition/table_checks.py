@@ -9,7 +9,7 @@ import numpy as np
 from ...errors import StudyError
 from ...ship.loading.messages import suggest_or_list
 from .distributions import Distribution, TableColumn
-from .empirical import EmpiricalTable
+from .empirical import EmpiricalTable, is_number
 from .fleet_tables import LIMITS
 from .study_file import StudyFile
 from .variables import NUMBERS, WORDS
@@ -56,7 +56,7 @@ def _check_values(at: str, key: str, given: TableColumn, table: EmpiricalTable) 
             raise StudyError(f"{at}: {where} holds {unknown[0]!r}:{suggest_or_list(unknown[0], WORDS[key])}")
         return
     if values.dtype.kind != "f":
-        wrong = [i for i, value in enumerate(values.tolist()) if not _is_number(value)]
+        wrong = [i for i, value in enumerate(values.tolist()) if not is_number(value)]
         remedy = "take another column" if len(wrong) == len(values) else "correct the line, or remove it"
         raise StudyError(
             f"{at}: {where} holds {str(values[wrong[0]])!r} in line {wrong[0] + 2}, must hold numbers: {remedy}"
@@ -68,11 +68,3 @@ def _check_values(at: str, key: str, given: TableColumn, table: EmpiricalTable) 
             f"{at}: {where} holds {values[outside[0]]:g} in line {outside[0] + 2}, must be {least:g} to {most:g}: "
             "remove the line, or convert the column's unit"
         )
-
-
-def _is_number(value: str) -> bool:
-    try:
-        float(value)
-    except ValueError:
-        return False
-    return True

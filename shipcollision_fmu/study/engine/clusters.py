@@ -8,6 +8,7 @@ from __future__ import annotations
 import asyncio
 import json
 import logging
+import socket
 import sys
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
@@ -15,6 +16,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+from urllib.parse import urlsplit
 
 import dask
 from dask.system import CPU_COUNT
@@ -110,6 +112,7 @@ def use_scheduler(address: str | None, file: Path | None) -> Iterator[Cluster]:
                 aside.submit(lambda: asyncio.run(_greet(where, timeout))).result()
             return Client(where, timeout=timeout, set_as_default=False)
         except (OSError, ValueError, ImportError, TimeoutError, asyncio.TimeoutError) as error:
+            _refuse_unknown_host(where)
             raise HostError(
                 f"no scheduler of Dask answers at {where or repr(where)} within {timeout:g} s ({_first_line(error)}): "
                 "start one with `dask scheduler`, or run without --scheduler on this machine's cores"
@@ -149,6 +152,22 @@ async def _greet(address: str, timeout: float) -> None:
     connection = Security().get_connection_args("client")
     comm = await asyncio.wait_for(connect(address, timeout=timeout, **connection), timeout)
     await comm.close()
+
+
+def _refuse_unknown_host(address: str) -> None:
+    """Raises HostError where the host of an address has a name that does not resolve: Dask tries until its time ends,
+    and does not say why."""
+    try:
+        host = urlsplit(address if "://" in address else f"//{address}").hostname
+    except ValueError:
+        return
+    try:
+        socket.getaddrinfo(host, None)
+    except OSError as error:
+        raise HostError(
+            f"no scheduler of Dask answers at {address}: no host of the name {host!r} is found ({error.strerror}): "
+            "correct the name, or give the host's number"
+        ) from None
 
 
 def _read_address(file: Path) -> str:

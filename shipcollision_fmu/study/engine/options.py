@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from os import PathLike
 
 from ...errors import StudyError
@@ -9,6 +10,9 @@ from ...errors import StudyError
 __all__ = ["ENGINES", "check_options"]
 
 ENGINES = ("auto", "native", "python")
+
+ADDRESS = re.compile(r"((tcp|tls|ws|wss|ucx)://)?(\[[\w.:%]+\]|[^\s:/@\[\]]+):\d{1,5}")
+"""Protocol, by default tcp, host and port, as Dask has them."""
 
 
 def check_options(
@@ -34,8 +38,11 @@ def _check_types(out: object, scheduler: object, scheduler_file: object, resume:
     for name, flag in (("resume", resume), ("csv", csv)):
         if not isinstance(flag, bool):
             raise StudyError(f"{name} = {flag!r} must be True or False")
-    if scheduler is not None and not isinstance(scheduler, str):
-        raise StudyError(f"scheduler = {scheduler!r} is no address: give one such as 'tcp://10.0.0.1:8786'")
+    if scheduler is not None and not (isinstance(scheduler, str) and ADDRESS.fullmatch(scheduler)):
+        raise StudyError(
+            f"scheduler = {scheduler!r} is no address of a scheduler of Dask: give tcp://HOST:8786, as `dask "
+            "scheduler` prints it"
+        )
     if scheduler_file is not None and not _is_path(scheduler_file):
         raise StudyError(f"scheduler_file = {scheduler_file!r} is no file: give its path")
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from shipcollision_fmu.errors import StudyError
@@ -79,7 +80,13 @@ REFUSALS: dict[str, tuple[tuple[str, str], str]] = {
     "a negative weight": (
         (SHIPS, "ships = {kcs = -1.0}"), "kcs = -1.0 must be a weight, a number of at least 0",
     ),
-    "no weight above 0": ((SHIPS, "ships = {kcs = 0.0}"), "must name ships: "),
+    "no weight above 0": (
+        (SHIPS, "ships = {kcs = 0.0}"), "[own]: all weights are 0: give a ship or a pool a weight above 0",
+    ),
+    "no weight above 0 with a pool": (
+        (SHIPS, "ships = {kcs = 0}\n" + POOL + "\nweight = 0"), "[own]: all weights are 0: give a ship or a pool a",
+    ),
+    "a negative weight of a pool": ((SHIPS, POOL + "\nweight = -1"), "[own] sampled[0].weight = -1 must be greater"),
     "a loading out of range": (
         (SHIPS, SHIPS + "\nloading = 0.1"), "[own]: loading = 0.1 must be 0.3 to 1: 1 is the draught of the ship file",
     ),
@@ -92,6 +99,12 @@ REFUSALS: dict[str, tuple[tuple[str, str], str]] = {
     ),
     "an unknown kind of ship": (
         (SHIPS, POOL.replace("tanker", "submarine")), "'submarine' names no type of ship: take one of the words ferry",
+    ),
+    "a misspelt kind of ship": (
+        (SHIPS, POOL.replace("tanker", "tankr, loaded")), "'tankr, loaded' names no type of ship: did you mean tanker?",
+    ),
+    "a ratio by its letters": (
+        (SHIPS, POOL.replace("L_over_B", "L_B")), "[own.sampled.0] L_B is not a known key: did you mean L_over_B?",
     ),
     "breadth given twice": ((SHIPS, POOL + "\nB = 30.0"), "has B and L_over_B: give one of the two"),
     "no draught": (
@@ -251,14 +264,36 @@ REFUSALS: dict[str, tuple[tuple[str, str], str]] = {
         (SHIPS, 'ships = {table = "data", column = "ship"}' + DATA), "[own] ships: titanic: unknown ship 'titanic'",
     ),
     "a weight below 0": (
-        (SPEED, DATA + '\nweight = "w"'), "[tables.data] weight = 'w': a weight in this column is no number, or below",
+        (SPEED, DATA + '\nweight = "w"'), "[tables.data] weight = 'w' is -1 in line 3, must be at least 0: correct the",
+    ),
+    "weights of lines that are all 0": (
+        (SPEED, '[tables.data]\nfile = "zero.csv"\nweight = "w"'),
+        "[tables.data] weight = 'w' is 0 in all 2 lines, must be above 0 in one at least: correct it, or leave",
+    ),
+    "weights that are words": (
+        (SPEED, DATA + '\nweight = "word"'), "[tables.data] weight = 'word' is 'port' in line 2, must be a number of",
     ),
     "a weight that is no column": ((SPEED, DATA + '\nweight = "x"'), "[tables.data] weight = 'x' is no column: known:"),
     "a table without lines": (
         (SPEED, '[tables.data]\nfile = "empty.csv"'), "file = 'empty.csv' has 0 lines below its names, must have 1 to",
     ),
     "a table without names": (
-        (SPEED, '[tables.data]\nfile = "none.csv"'), "file = 'none.csv' has no line of column names, each once",
+        (SPEED, '[tables.data]\nfile = "none.csv"'),
+        "file = 'none.csv' is empty: give a file with a line of column names at its top",
+    ),
+    "a column twice": (
+        (SPEED, '[tables.data]\nfile = "twice.csv"'),
+        "file = 'twice.csv' has the column name 'a' twice in line 1: give each column a name of its own",
+    ),
+    "a column without a name": (
+        (SPEED, '[tables.data]\nfile = "unnamed.csv"'), "file = 'unnamed.csv' has no name for column 2 in line 1: give",
+    ),
+    "a table with semicolons": (
+        (SPEED, '[tables.data]\nfile = "semi.csv"'),
+        "file = 'semi.csv' is separated by semicolons: save it with commas between values and points in numbers",
+    ),
+    "a table with tabs": (
+        (SPEED, '[tables.data]\nfile = "tabs.csv"'), "file = 'tabs.csv' is separated by tabs: save it with commas",
     ),
     "a line cut short": (
         (SPEED, '[tables.data]\nfile = "short.csv"'),
@@ -340,6 +375,8 @@ def test_a_bad_study_is_refused_in_one_line(name: str, tmp_path: Path) -> None:
     for file, text in {
         **TABLES, "empty.csv": "a,b\n", "none.csv": "", "short.csv": "a,b\n1,2\n3\n", "nan.csv": "a,b\n1,nan\n",
         "kinds.csv": "kind\nt-bone\nlate-evasive\n", "good.csv": "a\n1\n", "gap.csv": "w\n5\n \n",
+        "zero.csv": "w\n0\n0\n", "twice.csv": "a,b,a\n1,2,3\n", "unnamed.csv": "a, \n1,2\n",
+        "semi.csv": "v;w\n6,5;5,5\n", "tabs.csv": "v\tw\n6.5\t5.5\n",
         "cut.parquet": "PAR1 and no more",
     }.items():  # fmt: skip
         (tmp_path / file).write_text(text)
@@ -368,6 +405,14 @@ def test_the_good_study_is_read(tmp_path: Path) -> None:
     assert parse_study(GOOD.replace(SHIPS, POOL), "mine.toml", tmp_path).own.size == 100
 
 
+def test_ships_and_pools_of_weight_0_are_never_chosen(tmp_path: Path) -> None:
+    """Whichever comes first or last."""
+    shares = np.linspace(1e-9, 1.0 - 1e-9, 1001)
+    for ships, weight, chosen in ((f"{SHIPS}\n", 0, {0}), ("ships = {kcs = 0, kvlcc2 = 0}\n", 1, set(range(2, 102)))):
+        fleet = parse_study(GOOD.replace(SHIPS, f"{ships}{POOL}\nweight = {weight}"), "mine.toml", tmp_path).own
+        assert set(fleet.choose(shares).tolist()) == chosen
+
+
 @pytest.mark.parametrize(
     ("given", "message"),
     [
@@ -375,6 +420,10 @@ def test_the_good_study_is_read(tmp_path: Path) -> None:
         (
             "my/study.toml",
             "study file my/study.toml does not exist: give the path of a TOML file or one of",
+        ),
+        (
+            "traffic.csv",
+            "traffic.csv is no TOML file: give a study file, NAME.toml, or one of closed_forms, million, qui",
         ),
         ("", "study = '' is no study: give a name or the path of a TOML file"),
         ("./", "./ is a folder: give the path of a study file, or one of closed_forms, million, quick"),

@@ -29,7 +29,7 @@ from tests.study.engine.cluster import PROJECT
         (("quick", "x"), {"workers": True}, "workers = True must be a whole number of processes, or None for one"),
         (("quick", "x"), {"resume": "yes"}, "resume = 'yes' must be True or False"),
         (("quick", "x"), {"csv": 1}, "csv = 1 must be True or False"),
-        (("quick", "x"), {"scheduler": 8786}, "scheduler = 8786 is no address: give one such as 'tcp://10.0.0.1:8786'"),
+        (("quick", "x"), {"scheduler": 8786}, "scheduler = 8786 is no address of a scheduler of Dask: give tcp:/"),
         (("quick", "x"), {"scheduler_file": 1}, "scheduler_file = 1 is no file: give its path"),
     ],
 )  # fmt: skip

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import socket
 from collections.abc import Iterator
 from contextlib import closing
@@ -10,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from shipcollision_fmu.errors import HostError
+from shipcollision_fmu.errors import HostError, StudyError
 from shipcollision_fmu.study.engine.run import run_study
 from tests.study.engine.folders import STUDY
 from tests.study.engine.stand_in import compute_stand_in
@@ -61,7 +62,33 @@ def test_the_file_of_a_scheduler_that_has_ended(tmp_path: Path, port: socket.soc
     refused(tmp_path, address, scheduler_file=tmp_path / "scheduler.json")
 
 
-@pytest.mark.usefixtures("patience")
-@pytest.mark.parametrize("address", ["nowhere", "http://127.0.0.1:1", "tcp://127.0.0.1:x", ""])
+@pytest.mark.parametrize(
+    "address", ["nowhere", "127.0.0.1", "http://127.0.0.1:8787", "tcp://127.0.0.1:x", "tcp://:8786", ""]
+)
 def test_what_is_no_address(tmp_path: Path, address: str) -> None:
+    with pytest.raises(StudyError) as caught:
+        run_study(STUDY, tmp_path / "study", engine="python", compute=compute_stand_in, scheduler=address)
+    assert str(caught.value) == (
+        f"scheduler = {address!r} is no address of a scheduler of Dask: give tcp://HOST:8786, as `dask scheduler` "
+        "prints it"
+    )
+    assert not (tmp_path / "study").exists()
+
+
+@pytest.mark.usefixtures("patience")
+def test_an_address_without_a_protocol(tmp_path: Path, port: socket.socket) -> None:
+    address = f"127.0.0.1:{port.getsockname()[1]}"
     refused(tmp_path, address, scheduler=address)
+
+
+@pytest.mark.usefixtures("patience")
+def test_a_host_that_is_not_known(tmp_path: Path) -> None:
+    with pytest.raises(HostError) as caught:
+        run_study(
+            STUDY, tmp_path / "study", engine="python", compute=compute_stand_in, scheduler="tcp://no-host.invalid:8786"
+        )
+    assert re.fullmatch(
+        r"no scheduler of Dask answers at tcp://no-host\.invalid:8786: no host of the name 'no-host\.invalid' is found "
+        r"\(.+\): correct the name, or give the host's number",
+        str(caught.value),
+    )
