@@ -147,19 +147,12 @@ def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> Non
 
 @pytest.fixture(scope="session", autouse=True)
 def _fmus_of_the_tests(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """The FMUs of these tests are built into a folder of their own, once. The user's cache is left alone."""
+    """The FMUs of these tests are built into a folder of their own, once. The user's cache is left alone, but for what
+    is compiled: that takes a minute, and tests of a machine without compiler would find it in a cache of the tests."""
     home = tmp_path_factory.mktemp("fmus")
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
         patch.setattr(fmu_files, "fmu_directory", lambda ships=(): home / "-".join(ships))
-        yield
-
-
-@pytest.fixture(scope="module")
-def kept_library() -> Iterator[None]:
-    """The native library is that of the user's cache. In the cache of the tests it would be compiled for a minute, and
-    tests of a machine that cannot compile would find it there."""
-    with pytest.MonkeyPatch.context() as patch:
         patch.setattr(libraries, "native_cache", lambda: NATIVE_CACHE)
         yield
 
@@ -182,11 +175,9 @@ def build_native_flavours(name: str, tmp_path_factory: pytest.TempPathFactory) -
     platform = next(one.name for one in PLATFORMS.values() if own in one.targets)
     home = tmp_path_factory.mktemp("native-fmus")
     built = {}
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(libraries, "native_cache", lambda: NATIVE_CACHE)
-        for flavour, fmi, scalar in (("2", 2, False), ("3", 3, False), ("3-scalar", 3, True)):
-            made = build_native_fmus(home, fmi=fmi, scalar=scalar, platforms=[platform], names=[name])
-            built[flavour] = made[name]
+    for flavour, fmi, scalar in (("2", 2, False), ("3", 3, False), ("3-scalar", 3, True)):
+        made = build_native_fmus(home, fmi=fmi, scalar=scalar, platforms=[platform], names=[name])
+        built[flavour] = made[name]
     return built
 
 

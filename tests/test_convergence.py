@@ -17,7 +17,7 @@ from shipcollision_fmu.cosim.prepared_files import NATIVE_RESPONSE
 from shipcollision_fmu.fmi.names import STATE
 from shipcollision_fmu.scenario.scenario import list_scenario_names
 
-pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("kept_library")]
+pytestmark = pytest.mark.slow
 
 FINEST = 0.01
 ENGINES = [

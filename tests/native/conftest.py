@@ -13,11 +13,6 @@ CACHE = native_cache()
 """Taken before the tests set another cache. What is in it depends on the sources alone."""
 
 
-@pytest.fixture(autouse=True, scope="module")
-def _kept_library(kept_library: None) -> None:
-    """What the package itself compiles is kept there, too: a run that detects contact natively asks for the library."""
-
-
 @pytest.fixture(scope="session")
 def native_library() -> ctypes.CDLL:
     """All of native/ but the functions of FMI."""

@@ -14,7 +14,7 @@ import pytest
 from shipcollision_fmu.errors import HostError
 from shipcollision_fmu.toolchain import bullet_sources, compilers, libraries, load, sources
 from shipcollision_fmu.toolchain.compilers import find_compiler
-from shipcollision_fmu.toolchain.libraries import build_libraries, build_library
+from shipcollision_fmu.toolchain.libraries import build_libraries, build_library, native_cache
 from shipcollision_fmu.toolchain.mach_o import join_libraries
 from shipcollision_fmu.toolchain.pe import clear_time_stamps
 from shipcollision_fmu.toolchain.platforms import PLATFORMS, Target, find_own_target
@@ -83,7 +83,7 @@ def test_a_cache_that_cannot_be_written_is_refused_before_a_compiler_runs(
         "folder for caches in the environment variable XDG_CACHE_HOME"
     )
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "other"))
-    assert build(part, libraries.native_cache()).shipcollision_a() == 3
+    assert build(part, native_cache()).shipcollision_a() == 3
     assert (tmp_path / "other").is_dir()
 
 
