@@ -42,6 +42,7 @@ BAD_INPUTS = [
 ]
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("mode", MODES, ids=NAMES)
 @pytest.mark.parametrize(("name", "index", "value", "message"), BAD_INPUTS)
 def test_bad_input_is_refused_and_the_state_kept(
