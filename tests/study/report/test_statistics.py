@@ -13,6 +13,7 @@ from shipcollision_fmu.study.report.charts import _make_tornado
 from shipcollision_fmu.study.report.clopper_pearson import clopper_pearson, incomplete_beta
 from shipcollision_fmu.study.report.convergence import find_convergence
 from shipcollision_fmu.study.report.exceedance import find_exceedance
+from shipcollision_fmu.study.report.figures import draw_exceedance
 from shipcollision_fmu.study.report.sensitivity import find_first_order, find_rank_correlation
 
 
@@ -48,6 +49,39 @@ def test_exceedance_of_an_exponential_distribution() -> None:
     curve = find_exceedance(np.random.default_rng(1).permutation(values))
     assert curve.value[[0, -1]].tolist() == [values[0], values[-1]]
     assert curve.share == pytest.approx(np.exp(-curve.value) + 0.5 / n, abs=1e-12)
+
+
+@pytest.mark.parametrize("n", [1, 40, 5000, 100_000])
+@pytest.mark.parametrize("digits", [1, 12])
+def test_exceedance_as_a_step_is_that_of_all_cases(n: int, digits: int) -> None:
+    """At each case and between any two: within 0.002 and 1 % of the share, and inside the band; 1 digit makes ties."""
+    values = np.random.default_rng(n).lognormal(16.0, 1.2, n).round(digits) + 1e4
+    curve, ordered = find_exceedance(values), np.sort(values)
+    places = np.concatenate([ordered, 0.5 * (ordered[1:] + ordered[:-1])])
+    step = np.searchsorted(curve.value, places)
+    expected = 1.0 - np.searchsorted(ordered, places) / n
+    error = np.abs(curve.share[step] - expected)
+    assert error.max() <= 0.002 + 1e-12
+    assert (error / expected).max() <= 0.01 + 1e-12
+    assert (curve.lower[step] <= expected).all()
+    assert (expected <= curve.upper[step]).all()
+    assert len(curve.value) <= 1600
+
+
+def test_the_figure_of_an_exceedance_is_that_step() -> None:
+    """The line and the band that Matplotlib draws, vertex by vertex, not only the file of data beside them."""
+    values = np.random.default_rng(9).lognormal(16.0, 1.2, 3000)
+    figure = draw_exceedance(find_exceedance(values), 1e-6, "energy [MJ]")
+    (line,), (band,) = figure.axes[0].get_lines(), figure.axes[0].collections
+    assert line.get_drawstyle() == "steps-pre"
+    x, y = (np.asarray(data) for data in line.get_data())
+    places = np.sort(values)[1:] * 1e-6 * (1.0 - 1e-12)
+    expected = 1.0 - np.searchsorted(np.sort(values), places * 1e6) / len(values)
+    assert y[np.searchsorted(x, places)] == pytest.approx(expected, abs=0.002 + 1e-12)
+    vertices = band.get_paths()[0].vertices
+    for place, share in zip(places[::50], expected[::50], strict=True):
+        around = vertices[vertices[:, 0] == x[np.searchsorted(x, place)], 1]
+        assert around.min() <= share <= around.max()
 
 
 def test_the_band_has_the_interval_of_each_count() -> None:
