@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
 from ...cosim.simulate import simulate
 from ...errors import HostError, InputError, StepError, StudyError
+from ...files import IN_PLACE, describe_failure
 from ...scenario.scenario import load_scenario
 from ...show.page import PAGE, write_page
 from ..definition.study import Study, read_study
@@ -77,11 +80,34 @@ def write_replay(table: StudyTable, study: Study, row: int) -> Replay:
     if 0 <= row < study.rows and not table.has_row(row):
         raise StudyError(f"{table.folder}: row {row} is not computed yet: {REMEDY}")
     folder = table.folder / REPLAYS / f"row-{row}"
-    path = write_case(study, row, folder)
-    (again,) = compute_rows(study, row, 1, table.engine).encounters.to_pylist()
-    (line,) = table.read_cases([row], list(again))
-    is_native = table.engine == "native"
-    simulate(
-        load_scenario(path), engine=table.engine, in_process=not is_native, out=folder, overwrite=True
-    )  # fmt: skip
-    return Replay(row, write_page(folder), line == again)
+    with _write_whole(folder) as aside:
+        path = write_case(study, row, aside)
+        (again,) = compute_rows(study, row, 1, table.engine).encounters.to_pylist()
+        (line,) = table.read_cases([row], list(again))
+        is_native = table.engine == "native"
+        simulate(load_scenario(path), engine=table.engine, in_process=not is_native, out=aside, overwrite=True)
+        write_page(aside)
+    return Replay(row, folder / PAGE, line == again)
+
+
+@contextmanager
+def _write_whole(folder: Path) -> Iterator[Path]:
+    """A folder beside `folder` that takes its place at the end; after an error, such as a full disk, nothing stays."""
+    is_new = not folder.parent.exists()
+    try:
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        with TemporaryDirectory(prefix=".shipcollision-", dir=folder.parent) as place:
+            aside = Path(place, folder.name)
+            aside.mkdir()
+            try:
+                yield aside
+            except HostError as error:  # it names the folder that the user will look for
+                raise HostError(str(error).replace(str(aside), str(folder))) from None
+            if folder.exists():
+                folder.rename(Path(place, "earlier"))
+            aside.rename(folder)
+    except OSError as error:
+        raise describe_failure(folder, error, IN_PLACE) from None
+    finally:
+        if is_new and folder.parent.is_dir() and not any(folder.parent.iterdir()):
+            folder.parent.rmdir()

@@ -249,6 +249,34 @@ def test_a_replay_that_cannot_be_made_is_a_line(folder: Path, monkeypatch: pytes
     assert "runs it again, and writes its replay" in read_page(folder)
 
 
+def test_a_replay_is_there_whole_or_not_at_all(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The disk is full when the page is written, after the files of the run; an earlier replay stays as it was."""
+
+    def fail(run: Path) -> Path:
+        assert (run / "states.csv").is_file()
+        raise HostError(f"cannot write to {run}: No space left on device")
+
+    first, second = map(str, find_worst_rows(folder)[:2])
+    assert called("show", folder, "--row", first).exit_code == 0
+    before = {path: path.read_bytes() for path in (folder / "replays").rglob("*") if path.is_file()}
+    with monkeypatch.context() as patch:
+        patch.setattr("shipcollision_fmu.study.report.replays.write_page", fail)
+        for row in (first, second):
+            result = called("show", folder, "--row", row)
+            assert (result.exit_code, result.stderr) == (
+                1,
+                f"error: cannot write to {folder / 'replays' / f'row-{row}'}: No space left on device\n",
+            )
+            assert {path: path.read_bytes() for path in (folder / "replays").rglob("*") if path.is_file()} == before
+            assert [path.name for path in (folder / "replays").iterdir()] == [f"row-{first}"]
+    (folder / "replays" / f"row-{first}" / "old.txt").touch()
+    assert called("show", folder, "--row", first).exit_code == 0
+    assert {path: path.read_bytes() for path in before if path.suffix != ".json"} == {
+        path: content for path, content in before.items() if path.suffix != ".json"
+    }
+    assert [path.name for path in (folder / "replays").iterdir()] == [f"row-{first}"]
+
+
 @pytest.mark.usefixtures("undrawn")
 def test_figures_of_an_earlier_report_do_not_stay(folder: Path) -> None:
     """Those that this report does not have any more; other files of the user's do."""
