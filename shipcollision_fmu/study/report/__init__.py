@@ -12,6 +12,8 @@
       binned.py        quantiles by bin
       convergence.py   mean and 99 % quantile with the number of cases
       sensitivity.py   variance of conditional means, rank correlation
+      reasons.py       the commonest reason of refusals
+    counts.py        numbers of cases in words
 
 Data flow: folder -> StudyTable -> statistics -> charts -> figures -> page. Imports from: engine (marks of parts),
 definition, show (style of figures). Used by: cli.

@@ -12,6 +12,7 @@ from ...ship.frames import Array
 from ..definition.variables import NUMBERS
 from .binned import LEAST_CASES, find_binned_quantiles
 from .convergence import find_convergence
+from .counts import count_cases
 from .exceedance import find_exceedance
 from .figures import draw_binned, draw_convergence, draw_exceedance, draw_tornado
 from .sensitivity import find_first_order, find_rank_correlation
@@ -36,36 +37,41 @@ TITLES = {"at": "place (at)"}
 
 @dataclass(frozen=True, eq=False)
 class Chart:
-    """A figure: the name of its files, its heading and caption, its data by column, the Matplotlib figure."""
+    """A figure: the name of its files, its heading and caption, its data by column, the Matplotlib figure.
+
+    Without data and figure the caption says why there is none.
+    """
 
     name: str
     title: str
     caption: str
-    data: dict[str, Any]
-    figure: Any
+    data: dict[str, Any] | None = None
+    figure: Any = None
 
 
 def make_charts(table: StudyTable) -> Iterator[Chart]:
     """All charts that the columns allow, one by one."""
     scale, unit = _choose_unit(table.energy)
     label = f"energy lost to contact [{unit}]"
-    yield _make_exceedance("energy", table.energy, scale, label)
+    given = _describe_given(table)
+    yield _make_exceedance("energy", table.energy, scale, label, given)
     impulse = table.read_numbers("impulse")
     if np.isfinite(impulse).any():
-        yield _make_exceedance("impulse", impulse[np.isfinite(impulse)], 1e-6, "impulse on the target [MN s]")
+        yield _make_exceedance("impulse", impulse[np.isfinite(impulse)], 1e-6, "impulse on the target [MN s]", given)
     for name, column_unit in table.list_numbers():
         if name.startswith(DAMAGE):
             values = table.read_numbers(name)
             if np.isfinite(values).any():
-                yield _make_exceedance(name, values[np.isfinite(values)], 1.0, f"{name} [{column_unit or '-'}]")
+                known, damage = values[np.isfinite(values)], f"{name} [{column_unit or '-'}]"
+                yield _make_exceedance(name, known, 1.0, damage, given)
     inputs = (
         ("angle_deg", "angle", "angle between the headings [deg]"),
         ("at", "place", "place on the target, share of its length [-]\nfrom its stern, -0.5, to its stem, 0.5"),
     )
     for column, name, input_label in inputs:
         yield from _make_binned(table, column, name, input_label, scale, label)
-    if len(table.energy) >= LEAST_CONVERGENCE:
-        yield _make_convergence(table.energy, scale, f"energy [{unit}]")
+    if len(table.energy) >= LEAST_CONVERGENCE and np.ptp(table.energy) > 0.0:
+        yield _make_convergence(table.energy, scale, f"energy [{unit}]", given)
         yield from _make_tornado(table)
 
 
@@ -73,17 +79,30 @@ def _choose_unit(energy: Array) -> tuple[float, str]:
     return (1e-3, "kJ") if 0.0 < energy.max() < 1e6 else (1e-6, "MJ")
 
 
-def _make_exceedance(name: str, values: Array, scale: float, label: str) -> Chart:
+def _describe_given(table: StudyTable) -> str:
+    """What the intervals take as given; empty where all that varies is drawn anew for each case."""
+    given = ["the sampled ships as drawn"] * table.has_pools + ["the lines of the tables"] * table.has_tables
+    return f" The interval holds for {' and '.join(given)}, not for the distribution behind them." if given else ""
+
+
+def _make_exceedance(name: str, values: Array, scale: float, label: str, given: str) -> Chart:
+    title = f"Exceedance of {name.replace('_', ' ')}"
+    if np.ptp(values) == 0.0:
+        value, unit = f"{values[0] * scale:.4g}", label.partition("[")[2].rstrip("]")
+        return Chart(f"exceedance_{name}", title, f"{_begin_alike(len(values))} {value} {unit}: there is no curve.")
     curve = find_exceedance(values)
     caption = (
-        f"Of {len(values)} cases, the share that has at least the value on the axis. The band is a pointwise "
-        "Clopper-Pearson interval of 95 %. It supposes that the cases are drawn independently of each other."
+        f"Of {count_cases(len(values))}, the share that has at least the value on the axis. The band is a pointwise "
+        "Clopper-Pearson interval of 95 %. It supposes that the cases are drawn independently of each other." + given
     )
     data = {name: curve.value, "share": curve.share, "lower": curve.lower, "upper": curve.upper}
     return Chart(
-        f"exceedance_{name}", f"Exceedance of {name.replace('_', ' ')}", caption, data,
-        draw_exceedance(curve, scale, label),
+        f"exceedance_{name}", title, caption, data, draw_exceedance(curve, scale, label),
     )  # fmt: skip
+
+
+def _begin_alike(count: int) -> str:
+    return "The only case has" if count == 1 else f"All {count_cases(count)} have"
 
 
 def _make_binned(
@@ -106,11 +125,11 @@ def _make_binned(
     yield Chart(f"energy_by_{name}", f"Energy by {name}", caption, data, draw_binned(binned, scale, label, input_label))
 
 
-def _make_convergence(energy: Array, scale: float, label: str) -> Chart:
+def _make_convergence(energy: Array, scale: float, label: str, given: str) -> Chart:
     found = find_convergence(energy)
     caption = (
         "Mean and 99 % quantile of the first cases, in the order of their row numbers, each with its interval of 95 %: "
-        "1.96 standard errors, and order statistics. A grid is run through in order: only its end counts."
+        "1.96 standard errors, and order statistics. A grid is run through in order: only its end counts." + given
     )
     return Chart("convergence", "Convergence", caption, found._asdict(), draw_convergence(found, scale, label))
 

@@ -33,14 +33,16 @@ def _in_style(draw: Callable[..., Any]) -> Callable[..., Any]:
 
 @_in_style
 def draw_exceedance(curve: Exceedance, scale: float, label: str) -> Any:
-    """The curve and its band over the value, both axes logarithmic."""
+    """The curve and its band over the value, which is logarithmic too where it spans more than a factor of 30."""
     figure, axes = _make_axes()
-    positive = curve.value > 0.0
-    x, low, high, share = (values[positive] for values in (curve.value * scale, curve.lower, curve.upper, curve.share))
+    positive = curve.value[curve.value > 0.0]
+    is_wide = positive.size > 0 and positive[-1] > 30.0 * positive[0]
+    shown = curve.value > 0.0 if is_wide else np.full(curve.value.shape, True)
+    x, low, high, share = (values[shown] for values in (curve.value * scale, curve.lower, curve.upper, curve.share))
     axes.fill_between(x, low, high, color=BAND, linewidth=0.0, label="95 % confidence", step="pre")
     axes.plot(x, share, color=BLUE, label="share of cases", drawstyle="steps-pre")
     axes.set(xlabel=label, ylabel="share of cases with at least this", yscale="log", ylim=(0.5 / _count(curve), 1.2))
-    if x.size and x.max() > 30.0 * x.min():
+    if is_wide:
         axes.set_xscale("log")
         axes.set_xlim(max(x.min(), x.max() * 1e-5), x.max() * 1.15)
     axes.legend(loc="lower left")
@@ -51,11 +53,10 @@ def draw_exceedance(curve: Exceedance, scale: float, label: str) -> Any:
 def draw_binned(binned: Binned, scale: float, label: str, input_label: str) -> Any:
     """Median, and the range from the 10 % to the 90 % quantile, over an input."""
     figure, axes = _make_axes()
-    low, middle, high = (_close(quantile) for quantile in scale * binned.quantiles.T)
-    axes.fill_between(
-        binned.edges, low, high, step="post", color=BAND, linewidth=0.0, label="10 % to 90 % of the cases"
-    )
-    axes.step(binned.edges, middle, where="post", color=BLUE, label="median")
+    x = np.repeat(binned.edges, 2)[1:-1]  # both edges of each bin: a step would end early before an empty bin
+    low, middle, high = (np.repeat(quantile, 2) for quantile in scale * binned.quantiles.T)
+    axes.fill_between(x, low, high, color=BAND, linewidth=0.0, label="10 % to 90 % of the cases")
+    axes.plot(x, middle, color=BLUE, label="median")
     top = np.nanmax(high) if np.isfinite(high).any() else 1.0
     axes.set(xlabel=input_label, ylabel=label, ylim=(0.0, 1.25 * top if top > 0.0 else 1.0))
     axes.legend(loc="upper right", ncols=2)
@@ -104,11 +105,6 @@ def _make_axes(rows: int = 1, columns: int = 1, sharey: bool = False) -> tuple[A
 
     figure = Figure(figsize=SIZE, layout="constrained")
     return figure, figure.subplots(rows, columns, sharex=rows > 1, sharey=sharey)
-
-
-def _close(steps: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
-    """Values of bins with the last one twice, for the outer edge."""
-    return np.append(steps, steps[-1])
 
 
 def _count(curve: Exceedance) -> float:

@@ -7,13 +7,19 @@ from __future__ import annotations
 
 import base64
 import html
+import re
 from collections.abc import Iterable, Sequence
+from typing import TypeAlias
 
+from .counts import count_cases, group
 from .replays import find_replay
 from .study_table import StudyTable
 from .worst import Worst, format_command
 
-__all__ = ["build_page"]
+__all__ = ["PageFigure", "build_page"]
+
+PageFigure: TypeAlias = tuple[str, str, str, bytes | None]
+"""Name of the files, heading, caption and SVG; without SVG the caption says why there is none."""
 
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'"
 _STYLE = """
@@ -34,7 +40,8 @@ table { border-collapse: collapse; font-size: 0.92rem; }
 th, td { text-align: left; padding: 4px 12px 4px 0; border-bottom: 1px solid #d5dce3; vertical-align: top; }
 .cases th, .cases td { white-space: nowrap; }
 td.number, th.number { text-align: right; font-variant-numeric: tabular-nums; }
-code { font-size: 0.85em; background: #eef2f6; padding: 2px 5px; border-radius: 3px; user-select: all; }
+code { font-size: 0.85em; background: #eef2f6; padding: 2px 5px; border-radius: 3px; }
+code.line { user-select: all; }
 a { color: #1f5a96; }
 """
 _TEMPLATE = """<!doctype html>
@@ -68,10 +75,12 @@ _HEADINGS = (
 
 
 def build_page(
-    table: StudyTable, figures: Iterable[tuple[str, str, str, bytes]], worst: Sequence[Worst], is_repeatable: bool
+    table: StudyTable,
+    figures: Iterable[PageFigure],
+    worst: Sequence[Worst],
+    is_repeatable: bool,
 ) -> str:
-    """The page. figures: name of the files, heading, caption and SVG of each; is_repeatable: whether the study file is
-    complete."""
+    """The page. is_repeatable: whether the study file is complete."""
     return _TEMPLATE.format(
         policy=_POLICY,
         name=html.escape(table.name),
@@ -84,33 +93,45 @@ def build_page(
 
 def _describe(table: StudyTable) -> str:
     done = len(table.row)
-    lines = [
-        f"{_group(done)} of {_group(table.present)} cases are done, at level {table.level}, engine {table.engine}."
-    ]
+    how = f"at level {table.level}, engine {table.engine}"
+    if table.present == 1:
+        lines = [f"The only case is done, {how}."]
+    else:
+        lines = [f"{group(done)} of {count_cases(table.present)} {'is' if done == 1 else 'are'} done, {how}."]
     if table.present < table.rows:
-        lines.append(f"The study is not finished: it has {_group(table.rows)} cases.")
+        lines.append(f"The study is not finished: it has {count_cases(table.rows)}.")
     if table.refused:
         lines.append(
-            f"{_group(table.refused)} cases ({100.0 * table.refused / table.present:.3g} %) are refused: the column "
-            "`reason` of the encounters says why. They are left out here: every share is one of the cases that are "
-            "done, which all weigh the same."
+            f"{count_cases(table.refused)} ({100.0 * table.refused / table.present:.3g} %) "
+            f"{'is' if table.refused == 1 else 'are'} refused: the column `reason` of the encounters says why."
         )
-    else:
+        reason = table.find_reason()
+        if reason is not None and table.refused > 1:
+            lines.append(f"The commonest reason, {reason.cases} times: {reason.text}.")
+        elif reason is not None:
+            lines.append(f"{reason.text[:1].upper()}{reason.text[1:]}.")
+        lines.append(
+            "Refused cases are left out here: every share is one of the cases that are done, which all weigh the same."
+        )
+    elif table.present > 1:
         lines.append("None is refused. All cases weigh the same.")
     if table.contact_at_end:
         lines.append(
-            f"{_group(table.contact_at_end)} cases end with hulls that touch (column `contact_at_end`): their energy "
-            "may not be the whole. A longer `after` in [run] gives more of it."
+            f"{count_cases(table.contact_at_end)} {'ends' if table.contact_at_end == 1 else 'end'} with hulls that "
+            "touch (column `contact_at_end`): the energy may not be the whole. A longer `after` in [run] gives more "
+            "of it."
         )
     lines.append(f"Sampler: {table.sampler}.")
     if table.sampler != "random":
         lines.append(
             "It spreads the cases more evenly than chance, so the bands are, as a rule, wider than they need to be."
         )
-    return f"<p>{html.escape(' '.join(lines))}</p>"
+    return f"<p>{_escape(' '.join(lines))}</p>"
 
 
-def _format_figure(name: str, title: str, caption: str, svg: bytes) -> str:
+def _format_figure(name: str, title: str, caption: str, svg: bytes | None) -> str:
+    if svg is None:
+        return f"<section>\n<h2>{html.escape(title)}</h2>\n<p>{html.escape(caption)}</p>\n</section>"
     links = ", ".join(f'<a href="figures/{name}.{kind}">{kind.upper()}</a>' for kind in ("png", "svg", "csv"))
     return (
         f'<figure>\n<h2>{html.escape(title)}</h2>\n<img alt="{html.escape(title)}" '
@@ -125,7 +146,7 @@ def _format_worst(table: StudyTable, worst: Sequence[Worst], is_repeatable: bool
         if heading[0] == "row" or any(case.values.get(heading[0]) is not None for case in worst)
     ]  # fmt: skip
     head = "".join(f"<th{_mark(spec)}>{html.escape(title)}</th>" for _, title, spec, _ in columns) + "<th>replay</th>"
-    lines = []
+    what, lines = "case" if len(worst) == 1 else f"{len(worst)} cases", []
     for case in worst:
         values = {**case.values, "row": case.row}
         cells = "".join(
@@ -133,10 +154,14 @@ def _format_worst(table: StudyTable, worst: Sequence[Worst], is_repeatable: bool
             for key, _, spec, factor in columns
         )
         found = find_replay(table, case.row)
-        replay = f'<a href="{found}">replay</a>' if found else f"<code>{html.escape(format_command(case.row))}</code>"
+        replay = (
+            f'<a href="{found}">replay</a>'
+            if found
+            else f'<code class="line">{html.escape(format_command(case.row))}</code>'
+        )
         lines.append(f"<tr>{cells}<td>{replay}</td></tr>")
     return (
-        f"<h2>The {len(worst)} cases of most energy</h2>\n<p>{_describe_replays(table, worst, is_repeatable)}</p>\n"
+        f"<h2>The {what} of most energy</h2>\n<p>{_describe_replays(table, worst, is_repeatable)}</p>\n"
         f'<div class="wide"><table class="cases">\n<tr>{head}</tr>\n' + "\n".join(lines) + "\n</table></div>"
     )
 
@@ -158,6 +183,11 @@ def _describe_replays(table: StudyTable, worst: Sequence[Worst], is_repeatable: 
     return text
 
 
+def _escape(text: str) -> str:
+    """Text as HTML, with the names in backticks as code."""
+    return re.sub(r"`([^`]*)`", r"<code>\1</code>", html.escape(text))
+
+
 def _mark(spec: str) -> str:
     return ' class="number"' if spec else ""
 
@@ -166,8 +196,3 @@ def _format_value(value: object, spec: str, factor: float) -> str:
     if value is None:
         return ""
     return format(value * factor, spec) if spec and isinstance(value, float) else str(value)
-
-
-def _group(count: int) -> str:
-    """A number with thin gaps between thousands."""
-    return f"{count:,}".replace(",", "\N{NARROW NO-BREAK SPACE}")

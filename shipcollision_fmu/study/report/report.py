@@ -39,13 +39,17 @@ def write_report(
     import_pyarrow()
     from .charts import make_charts
     from .figures import save_figure
-    from .page import build_page
+    from .page import PageFigure, build_page
     from .replays import read_own_study, write_replays
     from .study_table import StudyTable
     from .worst import find_worst
 
-    table, figures, files = StudyTable(folder), [], {}
+    table, files = StudyTable(folder), dict[str, bytes]()
+    figures: list[PageFigure] = []
     for chart in make_charts(table):
+        if chart.data is None:
+            figures.append((chart.name, chart.title, chart.caption, None))
+            continue
         svg = save_figure(chart.figure, "svg")
         files[f"{chart.name}.svg"], files[f"{chart.name}.png"] = svg, save_figure(chart.figure, "png")
         files[f"{chart.name}.csv"] = _format_csv(chart.data).encode()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -15,6 +16,7 @@ from ...errors import StudyError
 from ...ship.frames import Array
 from ...ship.loading.toml import parse_toml
 from ..engine.part_file import read_mark
+from .reasons import CommonReason, find_commonest
 
 __all__ = ["REMEDY", "StudyTable"]
 
@@ -27,6 +29,7 @@ class StudyTable:
     name, level, sampler, engine: as in the study; rows: its cases; present: those whose part is written
     row: numbers of the cases that are done, rising; energy: what they lost [J]
     contact_at_end: number of cases that end with hulls that touch
+    has_pools, has_tables: whether ships are sampled, and whether the study has empirical tables
     """
 
     def __init__(self, folder: Path) -> None:
@@ -35,7 +38,10 @@ class StudyTable:
         told = _read_json(folder)
         self.fingerprint, self.rows = str(told["fingerprint"]), int(told["rows"])
         self.level, self.engine = str(told["level"]), str(told["engine"])
-        header = _read_header(folder)
+        file = _read_file(folder)
+        header = _get_table(file, "study")
+        self.has_tables = bool(file.get("tables"))
+        self.has_pools = any(_get_table(file, role).get("sampled") for role in ("own", "target"))
         self.name, self.sampler = str(header.get("name", "study")), str(header.get("sampler", "latin-hypercube"))
         self._parts = self._find_parts()
         status = np.concatenate([self._read(part, "status").to_numpy(False) == "done" for part in self._parts])
@@ -44,15 +50,29 @@ class StudyTable:
         self.present, self._is_done = len(status), status & np.isfinite(energy)
         self.energy, self.row = energy[self._is_done], self._join("row")[self._is_done].astype(np.int64)
         if not len(self.row):
-            raise StudyError(
-                f"{folder}: all {self.present} cases are refused, and there is nothing to show: the column `reason` of "
-                "the encounters says why; change the study file"
-            )
+            who = "the only case is" if self.present == 1 else f"all {self.present} cases are"
+            raise StudyError(f"{folder}: {who} refused, and there is nothing to show{self._describe_reason()}")
 
     @property
     def refused(self) -> int:
         """Cases that are refused, of those that are present."""
         return self.present - len(self.row)
+
+    def find_reason(self) -> CommonReason | None:
+        """The commonest reason of the cases that are refused; None where no reason is stored."""
+        counts: Counter[str] = Counter()
+        for part in self._parts:
+            for found in self._read(part, "reason").value_counts().to_pylist():
+                if found["values"]:
+                    counts[found["values"]] += found["counts"]
+        return find_commonest(counts) if counts else None
+
+    def _describe_reason(self) -> str:
+        reason = self.find_reason()
+        if reason is None:
+            return ": the column `reason` of the encounters says why; change the study file"
+        often = "" if reason.cases == self.present == 1 else f", {reason.cases} times"
+        return f"; the commonest reason{often}: {reason.text}"
 
     def read_numbers(self, column: str) -> Array:
         """A column of the cases that are done; NaN where it is null or where the study has no such column."""
@@ -132,11 +152,15 @@ def _read_json(folder: Path) -> dict[str, Any]:
     raise StudyError(f"{path} is not that of a study: give a folder that `shipcollision study` has written")
 
 
-def _read_header(folder: Path) -> dict[str, Any]:
+def _read_file(folder: Path) -> dict[str, Any]:
     path = folder / "study.toml"
     try:
         text = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError):
         raise StudyError(f"{path} cannot be read: put the study file there again") from None
-    header = parse_toml(text, str(path), StudyError).get("study", {})
-    return header if isinstance(header, dict) else {}
+    return parse_toml(text, str(path), StudyError)
+
+
+def _get_table(file: dict[str, Any], name: str) -> dict[str, Any]:
+    table = file.get(name)
+    return table if isinstance(table, dict) else {}

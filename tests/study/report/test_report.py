@@ -173,7 +173,7 @@ def find_worst_rows(folder: Path) -> list[int]:
 @pytest.mark.usefixtures("undrawn")
 def test_the_worst_ten_run_again_by_their_lines(finished: Path, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     expected = find_worst_rows(finished)
-    lines = re.findall(r"<code>([^<]+)</code>", read_page(finished))
+    lines = re.findall(r'<code class="line">([^<]+)</code>', read_page(finished))
     assert lines == [f"shipcollision show . --row {row}" for row in expected]
     monkeypatch.chdir(folder)
     result = called(*lines[0].split()[1:])
@@ -195,7 +195,7 @@ def test_the_page_leads_to_the_replays(folder: Path, browser: Chrome) -> None:
     assert called("show", folder).exit_code == 0
     links = re.findall(r'<a href="(replays/[^"]+)">replay</a>', read_page(folder))
     assert links == [f"replays/row-{row}/replay.html" for row in find_worst_rows(folder)]
-    assert "<code>" not in read_page(folder)
+    assert "<code class" not in read_page(folder)
     browser.get((folder / "report.html").as_uri())
     browser.find_element("link text", "replay").click()
     assert browser.current_url == (folder / links[0]).as_uri()
@@ -389,9 +389,10 @@ def test_damaged_folders_are_refused(folder: Path) -> None:
 
 def test_a_study_without_a_case_that_is_done_is_refused(folder: Path) -> None:
     change_part(folder, "status", pa.array(["refused"] * 400))
+    change_part(folder, "reason", pa.array(["ships of 3.0 m"] + ["slow, 0.1 m/s"] * 100 + ["slow, 0.2 m/s"] * 299))
     assert refused(folder) == (
-        f"{folder}: all 400 cases are refused, and there is nothing to show: the column `reason` of the encounters "
-        "says why; change the study file"
+        f"{folder}: all 400 cases are refused, and there is nothing to show; the commonest reason, 399 times: "
+        "slow, 0.2 m/s"
     )
 
 
@@ -403,3 +404,75 @@ def test_a_row_that_the_study_does_not_have_is_refused(folder: Path, monkeypatch
         "error: study.toml: row = 400 is not in the study: it has rows 0 to 399\n",
     )
     assert not (folder / "cases").exists()
+
+
+def write_study(folder: Path, text: str) -> Path:
+    """The folder of a study that is run and shown."""
+    run_study(parse_study(text, folder=folder), folder / "out", workers=0)
+    assert shown(folder / "out").exit_code == 0
+    return folder / "out"
+
+
+@pytest.mark.usefixtures("undrawn")
+@pytest.mark.parametrize("rows", [1, 200])
+def test_a_study_without_a_distribution_says_that_its_cases_are_alike(tmp_path: Path, rows: int) -> None:
+    """In place of figures of axes and a legend."""
+    text = re.sub(r"\{ distribution.*\}", "2.0", TEXT).replace("rows = 400", f"rows = {rows}")
+    text = text.replace("angle_deg = 2.0", "angle_deg = 90.0").replace("at = 2.0", "at = 0.1")
+    text = text.replace('ships = ["kcs", "kvlcc2"]', 'ships = ["kcs"]')
+    out = write_study(tmp_path, text)
+    (energy,) = set(read_done(out)["energy"].to_pylist())
+    page = read_page(out)
+    who = "The only case has" if rows == 1 else "All 200 cases have"
+    assert f"<h2>Exceedance of energy</h2>\n<p>{who} {energy * 1e-6:.4g} MJ: there is no curve.</p>" in page
+    assert f"<h2>Exceedance of impulse</h2>\n<p>{who} " in page
+    assert page.count("<img") == 0
+    assert list((out / "figures").iterdir()) == []
+    assert ("The only case is done, at level impact" in page) == (rows == 1)
+    assert ("The case of most energy" if rows == 1 else "The 10 cases of most energy") in page
+    assert not re.search(r"\b1 (of 1 )?cases", page)
+
+
+def test_names_of_keys_and_columns_are_code(finished: Path) -> None:
+    page = read_page(finished)
+    assert "the column <code>reason</code> of the encounters says why" in page
+    assert "`" not in re.sub(r"base64,[^\"]*", "", page)
+
+
+def test_the_commonest_reason_is_told_with_its_number(finished: Path) -> None:
+    """Reasons whose numbers alone differ are one."""
+    table = pq.read_table(finished / "encounters")
+    reasons = [text for text in table["reason"].to_pylist() if text is not None]
+    assert all(re.match(r"at the place they close at [-0-9.]+ m/s, at least", text) for text in reasons)
+    assert len(set(reasons)) > 1
+    found = re.search(r"The commonest reason, (\d+) times: ([^<]*)\. Refused cases are left out", read_page(finished))
+    assert found is not None
+    assert (int(found[1]), found[2] in reasons) == (len(reasons), True)
+
+
+GIVEN = "The interval holds for {}, not for the distribution behind them."
+POOL = """
+[[own.sampled]]
+kind = "tanker, loaded"
+count = 3
+L_pp = { distribution = "uniform", least = 150.0, most = 200.0 }
+L_over_B = 6.0
+B_over_T = 2.7
+C_b = 0.8
+"""
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_captions_say_what_the_intervals_take_as_given(finished: Path, folder: Path, tmp_path: Path) -> None:
+    """Ships of a pool are drawn once for all cases, so the tail hangs on a few of them."""
+    assert "not for the distribution behind" not in read_page(finished)
+    text = TEXT + '\n[tables.traffic]\nfile = "traffic.csv"\n'
+    pools = TEXT.replace("\n[encounter]", f"{POOL}\n[encounter]")
+    told = {"the sampled ships as drawn": pools, "the lines of the tables": text}
+    for given, file in told.items():
+        (folder / "study.toml").write_text(file, encoding="utf-8")
+        assert shown(folder).exit_code == 0
+        assert read_page(folder).count(GIVEN.format(given)) == 3  # energy, impulse, convergence
+    (folder / "study.toml").write_text(pools + '\n[tables.traffic]\nfile = "traffic.csv"\n', encoding="utf-8")
+    assert shown(folder).exit_code == 0
+    assert GIVEN.format(" and ".join(told)) in read_page(folder)

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 from scipy import special, stats
 
-from shipcollision_fmu.study.report.binned import LEVELS, find_binned_quantiles
+from shipcollision_fmu.study.report.binned import LEVELS, Binned, find_binned_quantiles
 from shipcollision_fmu.study.report.charts import _make_tornado
 from shipcollision_fmu.study.report.clopper_pearson import clopper_pearson, incomplete_beta
 from shipcollision_fmu.study.report.convergence import find_convergence
 from shipcollision_fmu.study.report.exceedance import find_exceedance
-from shipcollision_fmu.study.report.figures import draw_exceedance
+from shipcollision_fmu.study.report.figures import draw_binned, draw_exceedance
 from shipcollision_fmu.study.report.sensitivity import find_first_order, find_rank_correlation
 
 
@@ -120,6 +120,30 @@ def test_a_bin_of_few_cases_is_empty() -> None:
     binned = find_binned_quantiles(x, x, 2)
     assert binned.counts.tolist() == [100, 1]
     assert np.isfinite(binned.quantiles).all(axis=1).tolist() == [True, False]
+
+
+@pytest.mark.parametrize("empty", [1, 3, 4])
+def test_each_bin_with_quantiles_is_drawn_with_its_band(empty: int) -> None:
+    """Beside an empty bin as well, and at both ends."""
+    edges = np.linspace(0.0, 5.0, 6)
+    quantiles = np.tile([1.0, 2.0, 3.0], (5, 1))
+    quantiles[empty] = np.nan
+    axes = draw_binned(Binned(edges, np.full(5, 30), quantiles), 1.0, "energy", "angle").axes[0]
+    (band,), (median,) = axes.collections, axes.get_lines()
+    x, y = (np.asarray(data) for data in median.get_data())
+    for i in range(5):
+        inside = np.array([[i + 0.01, 2.5], [i + 0.99, 2.5]])
+        covered = [any(path.contains_point(point) for path in band.get_paths()) for point in inside]
+        assert covered == [i != empty] * 2
+        drawn = [np.isfinite(np.interp(place, x, y)) for place in inside[:, 0]]
+        assert drawn == [i != empty] * 2
+
+
+def test_an_exceedance_of_two_values_is_a_step_from_zero() -> None:
+    """Of cases without contact and one energy besides, the curve is a line up to that energy."""
+    axes = draw_exceedance(find_exceedance(np.array([0.0, 0.0, 5e6, 5e6])), 1e-6, "energy [MJ]").axes[0]
+    x, y = (np.asarray(data).tolist() for data in axes.get_lines()[0].get_data())
+    assert (x, y, axes.get_xscale()) == ([0.0, 5.0], [1.0, 0.5], "linear")
 
 
 def test_convergence_is_the_mean_and_the_quantile_of_the_first_cases() -> None:
