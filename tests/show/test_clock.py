@@ -1,10 +1,6 @@
-"""The replay's clock slows down around impacts by itself, and a picture that is drawn too slowly gets fewer pixels."""
+"""The replay's clock slows down around impacts by itself."""
 
 from __future__ import annotations
-
-from typing import Any
-
-import pytest
 
 from .live.javascript import run_javascript
 
@@ -38,33 +34,3 @@ def test_a_fast_replay_does_not_pass_an_impact_between_two_pictures() -> None:
         clock.advance(0.1);
         return clock.time;"""
     assert 48.0 < run_javascript("clock.js", "Clock", body, {}) < 50.0
-
-
-def shares(took: list[float], is_playing: bool = True) -> list[float]:
-    """Shares of the pixels after pictures that took so long [ms]."""
-    body = """const pace = makePace();
-        let now = 0;
-        pace.next(now);
-        pace.setPlaying(data.isPlaying);
-        return data.took.map((ms) => (pace.next(now += ms), pace.share));"""
-    found: list[Any] = run_javascript("pace.js", "makePace", body, {"took": took, "isPlaying": is_playing})
-    return found
-
-
-def test_slow_pictures_get_fewer_pixels_while_the_run_plays_and_all_at_rest() -> None:
-    assert shares([20.0] * 50) == [1.0] * 50
-    assert shares([20.0, 60.0, 60.0] * 20) == [1.0] * 60  # never three slow ones together
-    slow = shares([60.0] * 30)
-    assert slow[:2] == [1.0, 1.0]
-    assert sorted(slow, reverse=True) == slow
-    assert slow[-1] == 0.5
-    assert shares([60.0] * 30, is_playing=False) == [1.0] * 30
-
-
-def test_at_rest_the_picture_is_sharp_again() -> None:
-    body = """const pace = makePace();
-        pace.setPlaying(true);
-        for (let i = 0; i < 20; i++) pace.next(60 * i);
-        const played = pace.share;
-        return [played, pace.setPlaying(false), pace.share];"""
-    assert run_javascript("pace.js", "makePace", body, {}) == [pytest.approx(0.5), True, 1.0]

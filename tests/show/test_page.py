@@ -282,8 +282,11 @@ def test_the_full_picture_is_drawn_without_a_complaint(browser: Chrome, guan2014
     full.run("replay.drawn()")
     assert full.run("return document.getElementById('plain').getAttribute('aria-pressed')") == "false"
     first = full.fingerprint()
+    assert "MeshStandardMaterial" in full.run("return replay.drawn().made.materials")
     full.run("replay.plain(true); replay.drawn()")
     assert full.fingerprint() != first
+    full.run("replay.plain(false); replay.drawn()")
+    assert full.fingerprint() == first
     assert full.complaints() == []
 
 

@@ -136,6 +136,29 @@ def test_the_water_is_white_where_the_bow_pushes_it_and_not_along_the_quarter(pa
     assert white[-0.2, 0.15] < white[-0.2, 0.8] + 60
 
 
+def test_the_plain_picture_has_no_materials_that_are_lit_per_pixel(page: Page) -> None:
+    assert page.run("return replay.drawn().made.materials") == ["ShaderMaterial"]
+    page.run("replay.seek(1e9)")  # with scratches and effects
+    made = page.run("return replay.drawn().made")
+    assert made["materials"] == ["ShaderMaterial"]
+    assert made["share"] == 1.0
+
+
+def test_railings_are_drawn_from_near_and_left_out_from_afar(page: Page) -> None:
+    triangles = [page.run("return replay.drawn().made.triangles")]
+    for turn in (-800, 800, 4000):
+        page.run(
+            "document.getElementById('picture').dispatchEvent(new WheelEvent('wheel', "
+            "{deltaY: arguments[0], bubbles: true, cancelable: true}))",
+            turn,
+        )
+        triangles.append(page.run("return replay.drawn().made.triangles"))
+    first, near, back, far = triangles
+    assert near > first + 500
+    assert abs(back - first) < 200
+    assert far < first - 500
+
+
 def test_an_impact_passes_in_slow_motion_and_the_clock_says_so(page: Page, scene: Scene) -> None:
     page.run("replay.seek(arguments[0])", scene.events[0].time)
     shown = "return document.querySelector('.clock .rate').textContent"

@@ -88,8 +88,21 @@ def as_phone(browser: Chrome) -> Iterator[None]:
         browser.execute_cdp_cmd("Emulation.setTouchEmulationEnabled", {"enabled": False})
 
 
+FRAMES = """
+    const done = arguments[arguments.length - 1], before = live.drawn().frames;
+    let left = 12;
+    const next = () => (left-- ? requestAnimationFrame(next) : done(live.drawn().frames - before));
+    requestAnimationFrame(next);
+"""
+
+
 def press(page: BridgePage, keys: str) -> None:
     page.driver.find_element(By.ID, "picture").send_keys(keys)
+
+
+def test_a_picture_is_drawn_in_every_frame(bridge: BridgePage) -> None:
+    """Not in every other one, which would halve the pictures in a second."""
+    assert bridge.driver.execute_async_script(FRAMES) >= 12
 
 
 def test_keys_steer_the_ship_and_instruments_follow(bridge: BridgePage) -> None:

@@ -1,6 +1,7 @@
 // The bar below the picture: play, the time slider with a mark per collision, speed, camera, switches.
 import { SKIES } from "./daylight.js";
 import { element, icon } from "./dom.js";
+import { mayWait } from "./follow.js";
 import { clockTime } from "./format.js";
 import "./texts_replay.js";
 import { inWords, onLanguage, say } from "./texts.js";
@@ -19,6 +20,7 @@ const RECORD = "M10 3a7 7 0 1 0 0 14 7 7 0 0 0 0-14zm0 2a5 5 0 1 1 0 10 5 5 0 0 
 const STOP = "M4.500 4.500h11v11h-11z";
 const HELP = "M10 2a8 8 0 1 0 0 16 8 8 0 0 0 0-16zm-.9 11.500h1.800v1.800H9.100zM10 4.800c2 0 3.300 1.200 3.300 2.800 0 2.400-2.400 2.500-2.400 4.600H9.100c0-3 2.300-3.100 2.300-4.500 0-.7-.5-1.200-1.400-1.200s-1.500.5-1.500 1.400H6.700c0-1.900 1.400-3.100 3.300-3.100z";
 
+const GAP = 200; // [ms], see follow.js
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 5, 10, 20, 50];
 
 export const PLAYBACK = 45; // a run longer than this many seconds starts at a speed that shows it in about that time
@@ -100,7 +102,10 @@ export function makeControls(data, clock, viewer, digits, actions) {
   let isPlaying = null;
   onLanguage(() => (name(play, isPlaying ? "pause" : "play", "space"), slider.setAttribute("aria-label", say("time"))));
   clock.setSpeed(startSpeed(clock.end - clock.start));
+  let last = -Infinity;
   clock.watch(({ time, playing, speed: current }) => {
+    if (playing === isPlaying && mayWait(clock, last, GAP)) return;
+    last = performance.now();
     slider.value = time;
     slider.style.setProperty("--share", `${100 * share(time)}%`);
     shown.textContent = clockTime(time, digits);

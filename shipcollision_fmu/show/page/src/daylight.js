@@ -38,7 +38,7 @@ const colour = () => ({ value: new THREE.Color() });
 export const LIGHT = {
   uSun: { value: new THREE.Vector3(0, 1, 0) }, uZenith: colour(), uHorizon: colour(), uGlow: colour(), uSpread: { value: 1 },
   uDisc: colour(), uShine: { value: 1 }, uDeep: colour(), uScatter: colour(), uFoam: colour(), uCloud: colour(), uShade: colour(),
-  uClouds: { value: 0.5 }, uStars: { value: 0 }, uLamps: { value: 0 }, uLit: colour(),
+  uClouds: { value: 0.5 }, uStars: { value: 0 }, uLamps: { value: 0 }, uLit: colour(), uBeam: colour(), uAbove: colour(), uBelow: colour(),
 };
 
 /** Sets all uniforms for an hour, seen first from the bearing `from` [rad] in the page's world; returns the hour. */
@@ -49,6 +49,9 @@ export function setHour(name, from) {
   for (const key of ["zenith", "horizon", "glow", "disc", "deep", "scatter", "foam", "cloud", "shade"]) {
     LIGHT[`u${key[0].toUpperCase()}${key.slice(1)}`].value.setRGB(...hour[key]);
   }
+  LIGHT.uBeam.value.setRGB(...hour.sun).multiplyScalar(hour.power);
+  LIGHT.uAbove.value.setRGB(...hour.above).multiplyScalar(hour.fill);
+  LIGHT.uBelow.value.setRGB(...hour.below).multiplyScalar(hour.fill);
   LIGHT.uSpread.value = hour.spread;
   LIGHT.uShine.value = hour.shine;
   LIGHT.uClouds.value = hour.cover;

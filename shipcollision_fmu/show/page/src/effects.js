@@ -3,6 +3,7 @@
 // All in the ship's b (forward, starboard, down), so that effects move with the ship.
 import * as THREE from "three";
 import { LIGHT } from "./daylight.js";
+import { FINISH_GLSL } from "./finish.js";
 import { randomNumbers } from "./random.js";
 
 const COUNT = { explosion: 64, debris: 90, fire: 72, smoke: 130, dust: 46, splash: 120 };
@@ -123,6 +124,20 @@ const vertexShader = (motion) => /* glsl */ `
     gl_Position = radius > 0.0 ? projectionMatrix * view : vec4(2.0, 2.0, 2.0, 1.0);
   }`;
 
+/** Colours finished per corner, shapes of puffs read from a texture: for the plain picture. */
+const plainVertexShader = (motion) => vertexShader(motion).replace("void main() {", `${FINISH_GLSL}\n  void main() {`)
+  .replace(/\}\s*$/, "  vColour.rgb = finish(vColour.rgb);\n  }");
+
+const PLAIN_PUFF = /* glsl */ `
+  uniform sampler2D uPuff;
+  varying vec2 vCorner;
+  varying vec4 vColour;
+  varying float vGlow;
+  void main() {
+    float opacity = vColour.a * texture2D(uPuff, 0.5 + 0.5 * vCorner).r;
+    gl_FragColor = vec4(vColour.rgb * opacity, opacity * (1.0 - vGlow)); // premultiplied
+  }`;
+
 const fragmentShader = (isSoft) => /* glsl */ `
   varying vec2 vCorner;
   varying vec4 vColour;
@@ -151,6 +166,30 @@ const fragmentShader = (isSoft) => /* glsl */ `
     gl_FragColor = vec4(gl_FragColor.rgb * opacity, opacity * (1.0 - vGlow)); // premultiplied
   }`;
 
+const PUFF = 64; // pixels
+
+/** A puff of smoke: what the full picture works out per pixel, once for all; a little thinner, as all puffs have the same core. */
+function makePuff() {
+  const random = randomNumbers(11); // about as dense as puffs are at an average
+  const lattice = Array.from({ length: 49 }, random);
+  const ease = (x) => x * x * (3 - 2 * x);
+  const step = (from, to, x) => ease(Math.min(1, Math.max(0, (x - from) / (to - from))));
+  const noise = (x, y) => {
+    const [i, j, u, v] = [Math.floor(x), Math.floor(y), ease(x % 1), ease(y % 1)];
+    const at = (k, l) => lattice[7 * (j + l) + i + k];
+    return (at(0, 0) * (1 - u) + at(1, 0) * u) * (1 - v) + (at(0, 1) * (1 - u) + at(1, 1) * u) * v;
+  };
+  const data = Uint8Array.from({ length: PUFF * PUFF }, (_, i) => {
+    const [x, y] = [i % PUFF, Math.floor(i / PUFF)].map((k) => (2 * (k + 0.5)) / PUFF - 1);
+    const r = Math.hypot(x, y);
+    return 215 * step(1, 0.15, r + 0.55 * (noise(2.6 * (x + 1), 2.6 * (y + 1)) - 0.5)) * step(1, 0.8, r);
+  });
+  const texture = new THREE.DataTexture(data, PUFF, PUFF, THREE.RedFormat);
+  return Object.assign(texture, { magFilter: THREE.LinearFilter, minFilter: THREE.LinearFilter, needsUpdate: true });
+}
+
+let puff = null;
+
 const quad = new Float32Array([-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0]);
 
 function makeEffect(effect) {
@@ -162,8 +201,10 @@ function makeEffect(effect) {
   const seeds = Float32Array.from({ length: 4 * count }, random);
   geometry.setAttribute("aSeed", new THREE.InstancedBufferAttribute(seeds, 4));
   geometry.instanceCount = count;
-  const material = new THREE.ShaderMaterial({
+  const isSoft = effect.kind !== "debris";
+  const common = {
     uniforms: {
+      uPuff: { value: (puff ??= makePuff()) },
       uLit: LIGHT.uLit,
       uAge: { value: 0 },
       uNearer: { value: NEARER[effect.kind] ?? 0 },
@@ -172,34 +213,36 @@ function makeEffect(effect) {
       uHeight: { value: -effect.point[2] },
       uOut: { value: new THREE.Vector3(...effect.outwards) },
     },
-    vertexShader: vertexShader(MOTION[effect.kind]),
-    fragmentShader: fragmentShader(effect.kind !== "debris"),
     depthWrite: false,
     transparent: true,
     blending: THREE.CustomBlending,
     blendSrc: THREE.OneFactor,
     blendDst: THREE.OneMinusSrcAlphaFactor,
-  });
+  };
+  const motion = MOTION[effect.kind];
+  const material = new THREE.ShaderMaterial({ ...common, vertexShader: vertexShader(motion), fragmentShader: fragmentShader(isSoft) });
+  const plain = isSoft ? new THREE.ShaderMaterial({ ...common, vertexShader: plainVertexShader(motion), fragmentShader: PLAIN_PUFF, toneMapped: false }) : material;
   const mesh = new THREE.Mesh(geometry, material);
   mesh.frustumCulled = false;
   mesh.position.fromArray(effect.point);
   mesh.renderOrder = { splash: 1, dust: 1, smoke: 1, fire: 2, debris: 3, explosion: 4 }[effect.kind];
-  return mesh;
+  return { mesh, material, plain };
 }
 
 /** Adds all effects to the ships' nodes; returns what shows them at a time, and how many are at work. */
 export function addEffects(effects, nodeOf) {
   const made = effects.map((effect) => {
-    const mesh = makeEffect(effect);
-    nodeOf(effect.ship).add(mesh);
-    return { effect, mesh };
+    const one = makeEffect(effect);
+    nodeOf(effect.ship).add(one.mesh);
+    return { effect, ...one };
   });
-  return (time) => {
+  return (time, isPlain = false) => {
     let active = 0;
-    for (const { effect, mesh } of made) {
+    for (const { effect, mesh, material, plain } of made) {
+      mesh.material = isPlain ? plain : material;
       const age = time - effect.time;
       mesh.visible = age > 0 && age < effect.duration + LINGER[effect.kind];
-      mesh.material.uniforms.uAge.value = age;
+      material.uniforms.uAge.value = age; // the plain one has the same
       active += mesh.visible;
     }
     return active;

@@ -19,30 +19,33 @@ export const FIELD_GLSL = /* glsl */ `
 const LEAST = 260, MOST = 4500; // half the width of the texture [m]
 
 /**
- * `ships`: [{node, info, track}]; returns the uniforms for the sea, what draws the texture, and the bow waves, which stand in the
- * picture itself.
+ * `ships`: [{node, info, track}]; returns the uniforms for the sea, what draws the texture, and the nodes that stand in the
+ * picture itself: bow waves, and the foam of the plain picture.
  */
 export function makeFoam(ships, renderer) {
   const target = new THREE.WebGLRenderTarget(1024, 1024, { type: THREE.HalfFloatType, depthBuffer: false });
   const cover = { value: new THREE.Vector4(0, 0, 1000, 2) };
-  const waves = { value: 1 };
-  const parts = ships.flatMap((ship) => [makeWake(ship, cover, waves), makeHullFoam(ship, cover)]);
+  const parts = ships.flatMap((ship) => [makeWake(ship, cover), makeHullFoam(ship, cover)]);
+  let isPlain = false;
   const scene = new THREE.Scene().add(...parts.map(({ mesh }) => mesh));
   const camera = new THREE.Camera();
+  for (const { plain } of parts) plain.visible = false;
   const black = new THREE.Color(0, 0, 0);
   return {
-    raised: parts.flatMap(({ raised }) => raised ?? []),
+    nodes: [...parts.flatMap(({ raised }) => raised ?? []), ...parts.map(({ plain }) => plain)],
     uniforms: { uField: { value: target.texture }, uCover: cover },
-    setPlain(isPlain) {
-      waves.value = isPlain ? 0 : 1;
-      target.setSize(...(isPlain ? [256, 256] : [1024, 1024]));
+    /** Plain: foam lies on the sea by itself, and there is no texture. */
+    setPlain(wanted) {
+      isPlain = wanted;
+      for (const { plain } of parts) plain.visible = wanted;
     },
     /** At a time since the start, around a point in the page's world seen from a distance [m]. */
     draw(time, middle, distance) {
       const half = Math.min(MOST, Math.max(LEAST, 1.5 * distance));
       const texel = (2 * half) / target.width;
       cover.value.set(Math.round(middle.x / texel) * texel, Math.round(middle.z / texel) * texel, half, texel);
-      for (const part of parts) part.update(time);
+      for (const part of parts) part.update(time, isPlain);
+      if (isPlain) return;
       const before = renderer.getClearColor(new THREE.Color()), alpha = renderer.getClearAlpha();
       renderer.setRenderTarget(target);
       renderer.setClearColor(black, 0);

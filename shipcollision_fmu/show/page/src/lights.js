@@ -70,7 +70,7 @@ const FRAGMENT = /* glsl */ `
 /** Gives every light of the scene its glow and its streak; returns what keeps their waves moving, and their number. */
 export function addLights(root) {
   const time = { value: 0 };
-  const found = [];
+  const found = [], meshes = [];
   root.traverse((node) => {
     if (typeof node.userData.light === "string") found.push(node);
   });
@@ -91,7 +91,14 @@ export function addLights(root) {
       mesh.frustumCulled = false;
       mesh.renderOrder = 5;
       node.add(mesh);
+      meshes.push(mesh);
     }
   }
-  return { count: found.length, update: (now) => (time.value = now) };
+  return {
+    count: found.length,
+    update(now) {
+      time.value = now;
+      for (const mesh of meshes) mesh.visible = LIGHT.uLamps.value > 0; // by day there is nothing to draw
+    },
+  };
 }

@@ -150,7 +150,7 @@ async function start() {
         time: clock.time, poses: viewer.poses(), eye: viewer.eye(), scratchPoints: points.length,
         scratchTriangles: viewer.shown.triangles, effects: viewer.shown.effects,
         others: ghosts?.positions(),
-        sparks: viewer.shown.sparks, lights: viewer.shown.lights,
+        sparks: viewer.shown.sparks, lights: viewer.shown.lights, made: viewer.made(),
       };
     },
     project: (point) => viewer.project(point),

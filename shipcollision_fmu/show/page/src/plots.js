@@ -4,6 +4,7 @@ import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import { axisRange, isMoving } from "./axis_range.js";
 import { element } from "./dom.js";
+import { follow } from "./follow.js";
 import { compass, degrees, number } from "./format.js";
 import { KNOT } from "./live/navigation.js";
 import "./texts_replay.js";
@@ -11,6 +12,7 @@ import { inWords, onLanguage, say } from "./texts.js";
 import { isDark, lineColour, onTheme } from "./theme.js";
 
 const HEIGHT = 108;
+const GAP = 200; // [ms], see follow.js
 const SLACK = 1e-4; // of times in single precision [s]
 const same = (x) => x;
 /** A number on an axis: as short as it goes, without groups, which look like decimals elsewhere. */
@@ -174,7 +176,12 @@ export function makePlots(data, clock) {
   const isShown = ({ plot, lines }) => lines.some(({ values }) => isMoving(values, plot.digits));
   const plots = all.filter(isShown).map(({ plot, lines }) => makePlot(plot, lines, times, clock, cursor));
   const node = element("div", { class: "plots" }, ...plots.map((plot) => plot.node), makeSteady(all.filter((one) => !isShown(one))));
-  const showNow = () => plots.forEach((plot) => plot.show(clock.time));
+  const seen = new Set(); // the browser draws what is scrolled out of sight, too: while a run plays it need not
+  const watcher = new IntersectionObserver((entries) => {
+    for (const { target, isIntersecting } of entries) isIntersecting ? seen.add(target) : seen.delete(target);
+  });
+  for (const plot of plots) watcher.observe(plot.node);
+  const showNow = () => plots.filter(({ node: one }) => !clock.playing || seen.has(one)).forEach((plot) => plot.show(clock.time));
   new ResizeObserver(() => {
     for (const plot of plots) plot.resize();
     showNow();
@@ -184,14 +191,6 @@ export function makePlots(data, clock) {
   const paint = () => plots.forEach((plot) => plot.paint());
   onTheme(paint);
   paint();
-  let waiting = false;
-  clock.watch(() => {
-    if (waiting) return;
-    waiting = true;
-    requestAnimationFrame(() => {
-      waiting = false;
-      showNow();
-    });
-  });
+  follow(clock, showNow, GAP);
   return node;
 }

@@ -4,7 +4,7 @@ import * as THREE from "three";
 import { randomNumbers } from "./random.js";
 
 const SIZE = 256;
-const STEEPEST = 3.5; // slopes are kept up to this many times their root mean square
+export const STEEPEST = 3.5; // slopes are kept up to this many times their root mean square
 
 /** Sum of waves over the tile: slopes [sx, sz] and height, each Float32Array of SIZE x SIZE, of no unit. */
 function sumWaves(random, count, shortest, longest, falloff, isDirected) {

@@ -1,7 +1,12 @@
 // Scratches come as ribbons in the .glb, each vertex with the time at which it is drawn. Here a stretch that has begun
 // is drawn up to the present time.
+import * as THREE from "three";
+import { makePaint } from "./plain_paint.js";
+import { collectTriangles, joinTriangles } from "./triangles.js";
 
 const SHADER_TIME = { value: 0 };
+const GLOW = 0.35; // share of its colour that a scratch gives off, so that it is seen in the shade
+const OVER = { polygonOffset: true, polygonOffsetFactor: -2, polygonOffsetUnits: -2 }; // the plating
 
 function growing(material) {
   const made = material.clone();
@@ -16,16 +21,25 @@ function growing(material) {
       "#include <clipping_planes_fragment>\nif (vDrawnAt > uTime) discard;",
     );
   };
-  made.polygonOffset = true;
-  made.polygonOffsetFactor = -2;
-  made.polygonOffsetUnits = -2;
-  return made;
+  return Object.assign(made, OVER);
 }
 
-/** Makes the ribbons under `root` grow. Returns what shows them at a time since the start, and counts the triangles. */
+/** All ribbons of a ship as one mesh, triangles in the order of their times: {mesh, times}. */
+function joinRibbons(nodes, ship, material) {
+  const triangles = collectTriangles(nodes, ship).sort((a, b) => a.last - b.last);
+  const mesh = new THREE.Mesh(joinTriangles(triangles), material);
+  mesh.renderOrder = 1;
+  ship.add(mesh);
+  return { mesh, times: triangles.map(({ last }) => last) };
+}
+
+/**
+ * Makes the ribbons under `root` grow: `show(sinceStart)` draws those up to a time and counts their triangles, `setPlain(isPlain)`
+ * draws a ship's ribbons as one.
+ */
 export function growScratches(root) {
   const stretches = [];
-  let material;
+  let material, joined = null, isPlain = false;
   root.traverse((node) => {
     if (node.userData.scratch === undefined || !node.isMesh) return;
     material ??= growing(node.material);
@@ -36,13 +50,33 @@ export function growScratches(root) {
     ).sort();
     stretches.push({ node, times });
   });
-  return (sinceStart) => {
-    SHADER_TIME.value = sinceStart + 1e-4; // times are in single precision
-    let triangles = 0;
-    for (const { node, times } of stretches) {
-      node.visible = node.scale.x > 0.5; // a scale of 0 is drawn as nothing, at a cost
-      if (node.visible) triangles += times.filter((time) => time <= SHADER_TIME.value).length;
-    }
-    return triangles;
+
+  function join() {
+    root.updateMatrixWorld(true);
+    const paint = makePaint(GLOW, OVER), byShip = new Map();
+    for (const { node } of stretches) byShip.set(node.parent, [...(byShip.get(node.parent) ?? []), node]);
+    return [...byShip].map(([ship, nodes]) => joinRibbons(nodes, ship, paint));
+  }
+
+  return {
+    setPlain(wanted) {
+      isPlain = wanted;
+      if (isPlain) joined ??= join();
+    },
+    show(sinceStart) {
+      SHADER_TIME.value = sinceStart + 1e-4; // times are in single precision
+      let triangles = 0;
+      for (const { node, times } of stretches) {
+        const hasBegun = node.scale.x > 0.5; // a scale of 0 is drawn as nothing, at a cost
+        node.visible = hasBegun && !isPlain;
+        if (hasBegun) triangles += times.filter((time) => time <= SHADER_TIME.value).length;
+      }
+      for (const { mesh, times } of joined ?? []) {
+        const drawn = times.filter((time) => time <= SHADER_TIME.value).length;
+        mesh.visible = isPlain && drawn > 0;
+        mesh.geometry.setDrawRange(0, 3 * drawn);
+      }
+      return triangles;
+    },
   };
 }

@@ -4,28 +4,30 @@
 import * as THREE from "three";
 import { LIGHT } from "./daylight.js";
 import { FIELD_GLSL } from "./foam.js";
+import { HAZE } from "./haze.js";
+import { makePlainSea } from "./plain_sea.js";
 import { makeRipples, RIPPLES_GLSL, WATER } from "./ripples.js";
 import { SKY_GLSL } from "./sky.js";
 
 const RADIUS = 60000; // [m]
-const RINGS = 150, SECTORS = 176;
+const FINE = [150, 176], COARSE = [56, 96]; // rings and sectors of the full and of the plain sea
 /** Long waves: length [m], amplitude [m], bearing [rad]. */
 const SWELL = [[132, 0.52, 0.15], [81, 0.34, -0.42], [47, 0.2, 0.85], [29, 0.11, -0.95]];
 
-/** Rings around the camera, close together near it. */
-function makeRings() {
+/** Rings around the camera, close together near it; triangles go around, sector by sector, so many times. */
+function makeRings([rings, sectors], turns = 1) {
   const places = [0, 0, 0], index = [];
-  for (let i = 0; i < RINGS; i++) {
-    const radius = 1.5 * (RADIUS / 1.5) ** ((i / (RINGS - 1)) ** 0.9);
-    for (let j = 0; j < SECTORS; j++) {
-      const angle = (2 * Math.PI * (j + 0.5 * (i % 2))) / SECTORS;
+  for (let i = 0; i < rings; i++) {
+    const radius = 1.5 * (RADIUS / 1.5) ** ((i / (rings - 1)) ** 0.9);
+    for (let j = 0; j < sectors; j++) {
+      const angle = (2 * Math.PI * (j + 0.5 * (i % 2))) / sectors;
       places.push(radius * Math.cos(angle), 0, radius * Math.sin(angle));
     }
   }
-  const at = (i, j) => 1 + i * SECTORS + (j % SECTORS);
-  for (let j = 0; j < SECTORS; j++) {
+  const at = (i, j) => 1 + i * sectors + (j % sectors);
+  for (let j = 0; j < turns * sectors; j++) {
     index.push(0, at(0, j + 1), at(0, j));
-    for (let i = 0; i + 1 < RINGS; i++) index.push(at(i, j), at(i, j + 1), at(i + 1, j), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1));
+    for (let i = 0; i + 1 < rings; i++) index.push(at(i, j), at(i, j + 1), at(i + 1, j), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1));
   }
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.Float32BufferAttribute(places, 3));
@@ -78,8 +80,7 @@ const vertexShader = (count) => /* glsl */ `
     gl_Position = projectionMatrix * viewMatrix * world;
   }`;
 
-// The plain sea has two layers of small waves, no ships in its mirror and no waves of ships, for processors that draw.
-const fragmentShader = (count, isPlain) => /* glsl */ `
+const fragmentShader = (count) => /* glsl */ `
   precision highp float;
   uniform float uTime, uHaze, uShine;
   uniform vec3 uDeep, uScatter, uFoam, uDisc, uZenith, uHorizon, uGlow;
@@ -88,8 +89,7 @@ const fragmentShader = (count, isPlain) => /* glsl */ `
   ${SKY_GLSL}
   ${RIPPLES_GLSL}
   ${FIELD_GLSL}
-  ${isPlain ? "" : shipsGlsl(count)}
-  ${isPlain ? "" : /* glsl */ `
+  ${shipsGlsl(count)}
   // The plan of what is mirrored, in half lengths and half breadths: a x + b y < c, from shoulder to stem and at the quarter.
   const vec3 EDGES[3] = vec3[3](vec3(1.143, 1.0, 1.571), vec3(4.0, 1.0, 4.0), vec3(-0.833, 1.0, 1.583));
   // How much of a ship, taken for such a prism, a mirrored ray meets, and its colour.
@@ -118,7 +118,7 @@ const fragmentShader = (count, isPlain) => /* glsl */ `
       }
     }
     return found;
-  }`}
+  }
   void main() {
     vec3 away = vWorld - cameraPosition;
     float distance_ = length(away);
@@ -126,10 +126,6 @@ const fragmentShader = (count, isPlain) => /* glsl */ `
     vec2 p = vWorld.xz;
     vec2 drift = vec2(0.94, 0.34) * uTime;
     vec3 fine = ripple((p - 1.9 * drift) / 23.0);
-    ${isPlain ? /* glsl */ `
-    vec3 middle = ripple((p.yx - 3.0 * drift) / 151.0);
-    vec2 slope = 0.06 * fine.xy + 0.05 * middle.yx;
-    float height = 0.2 * middle.z;` : /* glsl */ `
     vec3 middle = ripple((mat2(0.8, 0.6, -0.6, 0.8) * p - 4.1 * drift) / 89.0);
     middle.xy = mat2(0.8, -0.6, 0.6, 0.8) * middle.xy;
     vec2 slope = vSwell.xy + 0.055 * fine.xy + 0.050 * middle.xy;
@@ -138,25 +134,19 @@ const fragmentShader = (count, isPlain) => /* glsl */ `
     finest.xy = mat2(0.6, 0.8, -0.8, 0.6) * finest.xy;
     slope += 0.045 * finest.xy + 0.022 * broad.xy;
     float gusts = 0.72 + 0.5 * broad.z + 0.28; // wind is not the same everywhere
-    slope *= clamp(gusts, 0.6, 1.35);`}
+    slope *= clamp(gusts, 0.6, 1.35);
     vec4 field = fieldAt(p);
-    ${isPlain ? "" : "slope += fieldSlope(p, field);"}
+    slope += fieldSlope(p, field);
     float rough = mix(0.05, 0.145, 1.0 - exp(-distance_ / 900.0)); // slopes that are too small to be seen from here
     vec3 normal = normalize(vec3(-slope.x, 1.0, -slope.y));
     float facing = max(dot(-view, normal), 0.02);
-    ${isPlain ? "float away_ = 1.0 - facing, fresnel = 0.02 + 0.7 * away_ * away_ * away_ * away_;"
-      : "float fresnel = 0.02 + 0.98 * pow(1.0 - facing, 5.0 * exp(-2.7 * rough)) / (1.0 + 22.7 * rough * sqrt(rough));"}
+    float fresnel = 0.02 + 0.98 * pow(1.0 - facing, 5.0 * exp(-2.7 * rough)) / (1.0 + 22.7 * rough * sqrt(rough));
     vec3 mirrored = reflect(view, normal);
     mirrored.y = abs(mirrored.y) + 0.6 * rough;
     mirrored = normalize(mirrored);
-    ${isPlain ? /* glsl */ `
-    float towards = max(dot(mirrored, uSun), 0.0), high = 1.0 - mirrored.y;
-    towards *= towards;
-    vec3 reflection = mix(mix(uZenith, uHorizon, high * high * high), uGlow, 0.4 * towards * towards * high);`
-      : "vec3 reflection = skyAt(mirrored, 2.2 + 8.0 * rough);"}
-    ${isPlain ? "" : /* glsl */ `
+    vec3 reflection = skyAt(mirrored, 2.2 + 8.0 * rough);
     vec4 ship = mirroredShip(vWorld, normalize(mirrored + vec3(-0.6 * slope.x, 0.0, -0.6 * slope.y)));
-    reflection = mix(reflection, ship.rgb * uFoam, ship.a);`}
+    reflection = mix(reflection, ship.rgb * uFoam, ship.a);
     float crest = clamp(0.32 + 0.55 * height + field.g * 0.5, 0.0, 1.3);
     float through = pow(max(dot(view, normalize(vec3(uSun.x, 0.0, uSun.z))), 0.0), 3.0); // light through the crests
     vec3 deep = uDeep + uScatter * (0.32 * crest + 0.9 * crest * crest * through + 0.35 * (1.0 - facing) * max(height, 0.0));
@@ -171,12 +161,12 @@ const fragmentShader = (count, isPlain) => /* glsl */ `
     colour += uDisc * uShine * min(0.03 * glitter * grazing / max(middle_.y * 4.0 * facing, 0.25), 2.4) * smoothstep(-0.02, 0.06, uSun.y);
     colour *= 1.0 - 0.55 * field.b;
     // Foam breaks up into a lace as it fades; a few crests break by themselves.
-    ${isPlain ? "float net = 0.5 + 0.35 * fine.z;" : "float net = 0.46 * lace(p / 12.0 + 0.02 * slope) + 0.28 * lace(p.yx / 4.3 + 0.37) + 0.26 * lace(p / 37.0);"}
+    float net = 0.46 * lace(p / 12.0 + 0.02 * slope) + 0.28 * lace(p.yx / 4.3 + 0.37) + 0.26 * lace(p / 37.0);
     float foam = field.r;
-    ${isPlain ? "" : `foam += 0.42 * smoothstep(0.62, 1.0, height * 0.55 + 0.45 * fine.z + 0.35 * broad.z) * exp(-distance_ / 1500.0);`}
+    foam += 0.42 * smoothstep(0.62, 1.0, height * 0.55 + 0.45 * fine.z + 0.35 * broad.z) * exp(-distance_ / 1500.0);
     foam = smoothstep(0.0, 0.55, foam - 0.55 + 0.6 * net) * min(1.0, 1.8 * foam);
     colour = mix(colour, uFoam * (0.78 + 0.3 * clamp(dot(normal, uSun), 0.0, 1.0) + 0.15 * net), clamp(foam, 0.0, 0.94));
-    ${isPlain ? "vec3 horizon = reflection;" : "vec3 horizon = skyAt(normalize(vec3(view.x, 0.01, view.z)), 2.0);"}
+    vec3 horizon = skyAt(normalize(vec3(view.x, 0.01, view.z)), 2.0);
     float haze = distance_ / (0.5 * uHaze);
     colour = mix(colour, horizon, 1.0 - exp(-haze));
     gl_FragColor = vec4(colour, 1.0);
@@ -184,15 +174,23 @@ const fragmentShader = (count, isPlain) => /* glsl */ `
     #include <colorspace_fragment>
   }`;
 
-const flatVertexShader = /* glsl */ `
-  varying vec3 vWorld;
-  varying vec3 vSwell;
-  void main() {
-    vec4 world = modelMatrix * vec4(position, 1.0);
-    vWorld = world.xyz;
-    vSwell = vec3(0.0);
-    gl_Position = projectionMatrix * viewMatrix * world;
-  }`;
+/** Bearings that a camera sees [rad]: where they begin, and how far they reach; all where it looks down. */
+function seenBearings(camera) {
+  const corners = [[-1, -1], [1, -1], [-1, 1], [1, 1]].map(([x, y]) => new THREE.Vector3(x, y, 0.5).unproject(camera).sub(camera.position).normalize());
+  if (corners.some(({ y }) => Math.abs(y) > 0.8)) return { start: 0, reach: 2 * Math.PI };
+  const middle = corners.reduce((sum, corner) => sum.add(corner), new THREE.Vector3());
+  const bearing = Math.atan2(middle.z, middle.x);
+  const turns = corners.map(({ x, z }) => Math.abs(Math.atan2(z * Math.cos(bearing) - x * Math.sin(bearing), x * Math.cos(bearing) + z * Math.sin(bearing))));
+  const half = Math.max(...turns);
+  return { start: bearing - half, reach: 2 * half };
+}
+
+/** Draws the sectors of rings within some bearings, and one more on both sides. */
+function showBearings(geometry, [rings, sectors], { start, reach }) {
+  const each = (2 * Math.PI) / sectors, corners = 3 + 6 * (rings - 1);
+  const first = ((Math.floor(start / each) - 1) % sectors + sectors) % sectors;
+  geometry.setDrawRange(first * corners, Math.min(sectors, Math.ceil(reach / each) + 3) * corners);
+}
 
 /**
  * `ships`: of each, half length, half breadth and height of the deck above the waterline [m], and its colour; `sky`:
@@ -201,36 +199,37 @@ const flatVertexShader = /* glsl */ `
 export function makeSea(ships, sky, field) {
   const places = ships.map(() => new THREE.Vector4()); // x, z, and where ahead is in them
   const uniforms = {
-    ...LIGHT, ...sky, ...field, ...WATER,
-    uHaze: { value: 9000 },
+    ...LIGHT, ...sky, ...field, ...WATER, ...HAZE,
     uPlaces: { value: places },
     uSizes: { value: ships.map(({ halfLength, halfBreadth, height }) => new THREE.Vector3(halfLength, halfBreadth, height)) },
     uColours: { value: ships.map(({ colour }) => new THREE.Color(colour).multiplyScalar(0.6)) },
   };
   const ripples = (WATER.uRipples.value = makeRipples());
-  const material = new THREE.ShaderMaterial({ uniforms, vertexShader: vertexShader(ships.length), fragmentShader: fragmentShader(ships.length, false) });
-  const plain = new THREE.ShaderMaterial({ uniforms, vertexShader: flatVertexShader, fragmentShader: fragmentShader(ships.length, true) });
-  const rings = makeRings(), disc = new THREE.CircleGeometry(RADIUS, 96).rotateX(-Math.PI / 2);
-  const mesh = new THREE.Mesh(rings, material);
+  const material = new THREE.ShaderMaterial({ uniforms, vertexShader: vertexShader(ships.length), fragmentShader: fragmentShader(ships.length) });
+  const plain = makePlainSea(uniforms);
+  const fine = makeRings(FINE), coarse = makeRings(COARSE, 2);
+  const mesh = new THREE.Mesh(fine, material);
   mesh.renderOrder = -5;
   mesh.frustumCulled = false;
   return {
     mesh,
     setPlain(isPlain) {
       mesh.material = isPlain ? plain : material;
-      mesh.geometry = isPlain ? disc : rings;
-      ripples.anisotropy = isPlain ? 1 : 8; // which costs a processor most of its time
+      mesh.geometry = isPlain ? coarse : fine;
+      mesh.renderOrder = isPlain ? 5 : -5; // what ships hide is not drawn
+      ripples.anisotropy = isPlain ? 1 : 8; // which costs a processor most of its time, and mixing two sizes half of the rest
+      ripples.minFilter = isPlain ? THREE.LinearMipmapNearestFilter : THREE.LinearMipmapLinearFilter;
       ripples.needsUpdate = true;
     },
-    /** `poses`: of each ship, where midship is and where ahead is, in the page's world; `haze`: how far one sees [m]. */
-    update(time, camera, poses, haze) {
-      uniforms.uHaze.value = haze;
+    /** `poses`: of each ship, where midship is and where ahead is, in the page's world. */
+    update(time, camera, poses) {
       poses.forEach(({ position, ahead }, i) => {
         const length = Math.hypot(ahead.x, ahead.z) || 1;
         places[i].set(position.x, position.z, ahead.x / length, ahead.z / length);
       });
       uniforms.uTime.value = time;
       mesh.position.set(camera.position.x, 0, camera.position.z);
+      if (mesh.geometry === coarse) showBearings(coarse, COARSE, seenBearings(camera));
     },
   };
 }

@@ -2,6 +2,8 @@
 // texture of the upper half of all directions; dome and sea read it.
 import * as THREE from "three";
 import { LIGHT, setHour } from "./daylight.js";
+import { FINISH_GLSL } from "./finish.js";
+import { makePlainSky } from "./plain_sky.js";
 import { randomNumbers } from "./random.js";
 
 /** Where the sun or the moon stands, as seen from anywhere. */
@@ -23,8 +25,10 @@ const VERTEX = /* glsl */ `
   varying vec2 vUv;
   void main() { vUv = uv; gl_Position = vec4(position.xy, 0.0, 1.0); }`;
 
-const BAKE = /* glsl */ `
+/** Paints the sky in linear light, or for the plain picture in finished colours. */
+const bakeGlsl = (isFinished) => /* glsl */ `
   varying vec2 vUv;
+  ${isFinished ? FINISH_GLSL : ""}
   uniform vec3 uSun, uZenith, uHorizon, uGlow, uCloud, uShade;
   uniform float uSpread, uClouds;
   float hash(vec2 p) { p = fract(p * vec2(0.1031, 0.1030)); p += dot(p, p.yx + 33.33); return fract((p.x + p.y) * p.x); }
@@ -64,7 +68,7 @@ const BAKE = /* glsl */ `
     float far = smoothstep(0.0, 0.16, high);
     sky = mix(sky, mix(sky, uCloud, 0.55), veil * far);
     sky = mix(sky, mix(sky, white, 0.35 + 0.6 * far), cloud * smoothstep(0.012, 0.08, high));
-    gl_FragColor = vec4(sky, 1.0);
+    gl_FragColor = vec4(${isFinished ? "finish(sky)" : "sky"}, 1.0);
   }`;
 
 function makeDome(uniforms) {
@@ -118,7 +122,6 @@ function makeStars() {
   const stars = new THREE.Points(geometry, new THREE.ShaderMaterial({
     uniforms: LIGHT,
     depthWrite: false,
-    depthTest: false,
     transparent: true,
     blending: THREE.AdditiveBlending,
     vertexShader: /* glsl */ `
@@ -145,25 +148,26 @@ function makeStars() {
 
 /** The sky around everything, and its lights; `setSky(name, from, isPlain)` makes it day, dusk or night. */
 export function makeSky(renderer) {
-  const bake = new THREE.WebGLRenderTarget(1024, 256, {
+  const bake = new THREE.WebGLRenderTarget(2048, 512, {
     type: THREE.HalfFloatType, generateMipmaps: true, minFilter: THREE.LinearMipmapLinearFilter, wrapS: THREE.RepeatWrapping, depthBuffer: false,
   });
+  const finished = new THREE.WebGLRenderTarget(1024, 256, { depthBuffer: false }); // which a processor reads fastest
   const uniforms = { ...LIGHT, uSky: { value: bake.texture } };
-  const page = new THREE.Mesh(new THREE.PlaneGeometry(2, 2), new THREE.ShaderMaterial({
-    uniforms: LIGHT, vertexShader: VERTEX, fragmentShader: BAKE, depthTest: false, depthWrite: false,
+  const [painter, finisher] = [false, true].map((isFinished) => new THREE.ShaderMaterial({
+    uniforms: LIGHT, vertexShader: VERTEX, fragmentShader: bakeGlsl(isFinished), depthTest: false, depthWrite: false,
   }));
+  const page = new THREE.Mesh(new THREE.PlaneGeometry(2, 2), painter);
   page.frustumCulled = false;
   const easel = new THREE.Scene().add(page);
-  const dome = makeDome(uniforms);
+  const dome = makeDome(uniforms), plain = makePlainSky(finished.texture);
   const stars = makeStars();
   const sun = new THREE.DirectionalLight(0xffffff, 1);
   const ambient = new THREE.HemisphereLight(0xffffff, 0x000000, 1);
   return {
-    nodes: [dome, stars, sun, sun.target, ambient],
+    nodes: [dome, ...plain, stars, sun, sun.target, ambient],
     sun,
     uniforms, // of whoever mirrors the sky
     setSky(name, from, isPlain) {
-      const width = isPlain ? 640 : 2048;
       const hour = setHour(name, from);
       sun.color.setRGB(...hour.sun);
       sun.intensity = hour.power;
@@ -171,8 +175,10 @@ export function makeSky(renderer) {
       ambient.groundColor.setRGB(...hour.below);
       ambient.intensity = hour.fill;
       stars.visible = hour.stars > 0;
-      if (bake.width !== width) bake.setSize(width, width / 4);
-      renderer.setRenderTarget(bake);
+      dome.visible = !isPlain;
+      for (const node of plain) node.visible = isPlain;
+      page.material = isPlain ? finisher : painter;
+      renderer.setRenderTarget(isPlain ? finished : bake);
       renderer.render(easel, new THREE.Camera());
       renderer.setRenderTarget(null);
       return hour;

@@ -1,11 +1,13 @@
 // Tracks in plan, north up, with the ships' outlines at the time of the clock.
 import * as THREE from "three";
 import { element } from "./dom.js";
+import { follow } from "./follow.js";
 import { makeSvg } from "./live/svg.js";
 import "./texts_replay.js";
 import { inWords } from "./texts.js";
 import { lineColour, onTheme } from "./theme.js";
 
+const GAP = 400; // [ms], see follow.js
 const SAMPLES = 300; // of a track over the run
 const LEFT = 44, BOTTOM = 18, PAD = 10; // around the plan [pixels]
 const LEAST = 190, MOST = 340; // height of the plot [pixels]
@@ -37,11 +39,12 @@ export function makeTrackPlot({ ships, events, obstacles, start }, clock) {
     return [north, east];
   }));
   const bounds = boundsOf([...samples.flat(), ...events.map(({ point }) => point)], 0.55 * Math.max(...ships.map(({ length }) => length)));
-  const svg = inWords(makeSvg("svg", { role: "img", class: "plan" }), { "aria-label": "track_plot_label" });
+  const svg = inWords(makeSvg("svg", { role: "img" }), { "aria-label": "track_plot_label" });
+  const moving = makeSvg("svg", { class: "moving", "aria-hidden": "true" }); // a picture of its own: the plan below is drawn once
   const chips = ships.filter(({ isOther }) => !isOther).map((ship) => ({ ship, dot: element("i") }));
   const node = element("figure", { class: "track" },
     element("figcaption", {}, element("span", { class: "unit", text: "m" }),
-      ...chips.map(({ ship, dot }) => element("span", { class: "chip" }, dot, element("span", { text: ship.name })))), svg);
+      ...chips.map(({ ship, dot }) => element("span", { class: "chip" }, dot, element("span", { text: ship.name })))), element("div", { class: "plan" }, svg, moving));
   const letter = inWords(makeSvg("text", { "text-anchor": "middle" }), { text: "north_short" });
   let lines = [], hulls = [], marks = [];
 
@@ -56,14 +59,16 @@ export function makeTrackPlot({ ships, events, obstacles, start }, clock) {
     const y = (north) => PAD + (height - PAD - BOTTOM) / 2 - scale * (north - (bounds.north + bounds.south) / 2);
     const at = ([north, east]) => `${x(east).toFixed(1)} ${y(north).toFixed(1)}`;
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    svg.style.height = `${height}px`;
+    moving.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    svg.style.height = moving.style.height = `${height}px`;
     svg.replaceChildren(...grid(width, height, scale, x, y));
     for (const obstacle of obstacles) svg.append(makeSvg("path", { class: "obstacle", d: `M${obstacle.map(at).join("L")}Z` }));
     lines = ships.map(({ isOther }, i) => makeSvg("path", { class: isOther ? "way other" : "way", d: `M${samples[i].map(at).join("L")}` }));
     marks = events.map(({ point }) => makeSvg("path", { class: "contact", d: "M-5-5 5 5M-5 5 5-5", transform: `translate(${x(point[1])} ${y(point[0])})` }));
     hulls = ships.map(({ outline, isOther }) => makeSvg("path", { class: isOther ? "hull other" : "hull",
       d: `M${outline.map(([ahead, starboard]) => `${(scale * starboard).toFixed(2)} ${(-scale * ahead).toFixed(2)}`).join("L")}Z` }));
-    svg.append(...lines, ...hulls, ...marks);
+    svg.append(...lines);
+    moving.replaceChildren(...hulls, ...marks);
     const show = () => ships.forEach(({ track }, i) => {
       const { north, east, yaw } = poseAt(track, clock.time - start);
       hulls[i].setAttribute("transform", `translate(${x(east).toFixed(2)} ${y(north).toFixed(2)}) rotate(${((yaw * 180) / Math.PI).toFixed(2)})`);
@@ -102,13 +107,8 @@ export function makeTrackPlot({ ships, events, obstacles, start }, clock) {
   }
 
   let showNow = () => {};
-  let isWaiting = false;
   new ResizeObserver(draw).observe(node);
   onTheme(paint);
-  clock.watch(() => {
-    if (isWaiting) return;
-    isWaiting = true;
-    requestAnimationFrame(() => ((isWaiting = false), showNow()));
-  });
+  follow(clock, () => showNow(), GAP);
   return node;
 }

@@ -5,9 +5,11 @@ import { Cameras } from "./cameras.js";
 import { LIGHT } from "./daylight.js";
 import { addEffects } from "./effects.js";
 import { makeFoam } from "./foam.js";
+import { HAZE, setHaze } from "./haze.js";
 import { makeLabels } from "./labels.js";
 import { addLights } from "./lights.js";
 import { makePace } from "./pace.js";
+import { makePlainShips } from "./plain_ships.js";
 import { growScratches } from "./scratches.js";
 import { makeSea } from "./sea.js";
 import { makeSky, SUN } from "./sky.js";
@@ -66,7 +68,7 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
     halfLength: 0.48 * info.L_oa, halfBreadth: 0.47 * info.B, height: info.height, colour: info.colour,
   })), sky.uniforms, foam.uniforms);
   world.fog = new THREE.Fog(0xffffff, 4000, 22000);
-  world.add(...sky.nodes, sea.mesh, ...foam.raised);
+  world.add(...sky.nodes, sea.mesh, ...foam.nodes);
   const { shadow } = sky.sun;
   shadow.mapSize.set(2048, 2048);
   shadow.bias = -0.0005;
@@ -86,9 +88,10 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
   const labels = makeLabels(ships, canvas);
   canvas.after(labels.node);
   const lights = addLights(gltf.scene);
-  const showScratches = growScratches(gltf.scene);
+  const scratches = growScratches(gltf.scene);
   const showSparks = addSparks(gltf.scene);
   const effects = [addEffects(data.effects, nodeOf)];
+  const plainShips = makePlainShips(gltf.scene, ships);
 
   const moved = []; // what else follows the time
 
@@ -105,9 +108,9 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
     motion.pose(time - data.start);
     for (const move of moved) move(time);
     gltf.scene.updateMatrixWorld(true);
-    shown.triangles = showScratches(time - data.start);
+    shown.triangles = scratches.show(time - data.start);
     shown.sparks = showSparks(time - data.start);
-    shown.effects = effects.reduce((count, showAt) => count + showAt(time), 0);
+    shown.effects = effects.reduce((count, showAt) => count + showAt(time, plain), 0);
   }
 
   function draw() {
@@ -118,13 +121,14 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
     cameras.follow(time);
     const { camera, controls } = cameras;
     foam.draw(time - data.start, controls.target, camera.position.distanceTo(controls.target));
-    const haze = Math.max(9000, 4 * camera.position.distanceTo(controls.target)); // it must not hide what is looked at
+    setHaze(Math.max(9000, 4 * camera.position.distanceTo(controls.target))); // it must not hide what is looked at
     lights.update(time);
     sea.update(time, camera, ships.map(({ node }) => ({
       position: node.getWorldPosition(new THREE.Vector3()),
       ahead: new THREE.Vector3(1, 0, 0).transformDirection(node.matrixWorld),
-    })), haze);
-    Object.assign(world.fog, { near: 0.45 * haze, far: 2.5 * haze });
+    })));
+    Object.assign(world.fog, { near: HAZE.uNear.value, far: HAZE.uFar.value });
+    plainShips.update(camera, canvas.height);
     sky.sun.target.position.copy(controls.target);
     sky.sun.position.copy(controls.target).addScaledVector(SUN, 1200);
     const seen = `${time} ${controls.target.toArray()}`;
@@ -151,7 +155,7 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
   function want() {
     if (wanted) return;
     wanted = true;
-    requestAnimationFrame(draw);
+    requestAnimationFrame(() => wanted && draw());
   }
 
   function resize() {
@@ -184,6 +188,11 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
       time = newTime;
       want();
     },
+    /** Draws a time at once: for whoever is in a frame of its own. */
+    showNow(newTime) {
+      time = newTime;
+      draw();
+    },
     chooseCamera(mode) {
       pose();
       cameras.choose(mode, time);
@@ -202,11 +211,13 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
       return () => (showAt(-Infinity), effects.splice(effects.indexOf(showAt), 1));
     },
     setSky,
-    /** Plain: a flat sea with smaller waves in its light, no shadows, and no more pixels than the screen's own. For weak computers. */
+    /** Plain: a flat sea, light worked out at corners, no shadows, and no more pixels than the screen's own. For processors that draw. */
     setPlain(isPlain) {
       plain = isPlain;
       sea.setPlain(isPlain);
       foam.setPlain(isPlain);
+      plainShips.setPlain(isPlain);
+      scratches.setPlain(isPlain);
       sky.sun.castShadow = !isPlain;
       shownHour = ""; // drawn anew, in the detail that is wanted now
       setSharpness();
@@ -214,6 +225,12 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
     /** While the run plays, a plain picture may have fewer pixels, so that it keeps its pace; at rest it has all. */
     setPlaying(isPlaying) {
       if (pace.setPlaying(isPlaying)) setSharpness();
+    },
+    /** What the last picture was made of: kinds of materials, number of triangles, share of the screen's pixels in each direction. */
+    made() {
+      const kinds = new Set();
+      world.traverseVisible(({ material }) => material && kinds.add(material.type));
+      return { materials: [...kinds], triangles: renderer.info.render.triangles, share: renderer.getPixelRatio() };
     },
     /** Where a point in n [m] is in the picture: [x, y] in CSS pixels from the canvas's top left. */
     project([north, east, down]) {

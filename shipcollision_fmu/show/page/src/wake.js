@@ -3,6 +3,8 @@
 // track up to the time that is shown.
 import * as THREE from "three";
 import { LIGHT } from "./daylight.js";
+import { FINISH_GLSL } from "./finish.js";
+import { HAZE } from "./haze.js";
 import { WATER } from "./ripples.js";
 import { toWorld } from "./tracks.js";
 import { findWaterline } from "./waterline.js";
@@ -16,8 +18,38 @@ const ADDING = {
 };
 const TO_FIELD = "gl_Position = vec4((place - uCover.xy) / uCover.z, 0.0, 1.0);";
 
+// The plain picture has no texture of foam: strips and bands lie on its sea, white over green over the water.
+const ON_SEA = {
+  blending: THREE.CustomBlending, blendSrc: THREE.OneFactor, blendDst: THREE.OneMinusSrcAlphaFactor,
+  transparent: true, depthWrite: false, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -1, toneMapped: false,
+};
+const ON_SEA_UNIFORMS = { ...WATER, ...HAZE, uFoam: LIGHT.uFoam, uDeep: LIGHT.uDeep, uScatter: LIGHT.uScatter, uHorizon: LIGHT.uHorizon, uSun: LIGHT.uSun };
+const ON_SEA_HEAD = /* glsl */ `
+  uniform float uTime, uHaze;
+  uniform vec3 uFoam, uDeep, uScatter, uHorizon, uSun;
+  varying vec2 vWaves;
+  varying vec3 vWhite, vGreen;
+  ${FINISH_GLSL}
+  vec4 onSea(vec2 place) {
+    vWaves = (place - 1.9 * vec2(0.94, 0.34) * uTime) / 23.0;
+    float clear = exp(-distance(vec3(place.x, 0.0, place.y), cameraPosition) / (0.5 * uHaze));
+    vWhite = finish(mix(uHorizon, uFoam * (0.82 + 0.3 * uSun.y), clear));
+    vGreen = finish(mix(uHorizon, uDeep + 2.2 * uScatter, clear));
+    return projectionMatrix * viewMatrix * vec4(place.x, 0.0, place.y, 1.0);
+  }
+`;
+const ON_SEA_PIXEL = /* glsl */ `
+  varying vec2 vWaves;
+  varying vec3 vWhite, vGreen;
+  vec4 paintFoam(float foam, float churned, float shade) {
+    float white = clamp(1.7 * foam * (0.3 + 0.9 * texture2D(uRipples, vWaves).b) - 0.1, 0.0, 0.94);
+    float green = 0.5 * churned * (1.0 - white), dark = 0.3 * shade * (1.0 - white);
+    return vec4(white * vWhite + green * vGreen, white + green + dark);
+  }
+`;
+
 /** A strip along the track: Kelvin's waves and the wake of the stern. */
-export function makeWake({ track, info }, cover, waves) {
+export function makeWake({ track, info }, cover) {
   const places = new Float32Array(SECTIONS * 2 * 3), water = new Float32Array(SECTIONS * 2 * 4);
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(places, 3));
@@ -25,40 +57,41 @@ export function makeWake({ track, info }, cover, waves) {
   const index = [];
   for (let i = 0; i + 1 < SECTIONS; i++) index.push(2 * i, 2 * i + 2, 2 * i + 1, 2 * i + 1, 2 * i + 2, 2 * i + 3);
   geometry.setIndex(index);
-  const material = new THREE.ShaderMaterial({
-    ...ADDING,
-    uniforms: { uCover: cover, uWaves: waves, uSize: { value: new THREE.Vector2(info.L_oa, info.B) } },
-    vertexShader: /* glsl */ `
+  const size = { value: new THREE.Vector2(info.L_oa, info.B) };
+  const vertexShader = (head, toPlace) => /* glsl */ `
       attribute vec4 aWater;
       uniform vec4 uCover;
       varying vec4 vWater;
+      ${head}
       void main() {
         vWater = aWater;
         vec2 place = position.xz;
-        ${TO_FIELD}
-      }`,
-    fragmentShader: /* glsl */ `
+        ${toPlace}
+      }`;
+  const fragmentShader = (hasWaves, head, colour) => /* glsl */ `
       uniform vec4 uCover;
       uniform vec2 uSize;
-      uniform float uWaves; // 0: foam alone
       varying vec4 vWater;
+      ${head}
       void main() {
         float x = max(vWater.x, 0.1), y = abs(vWater.y), age = vWater.z, speed = vWater.w;
         float L = uSize.x, B = uSize.y;
         float old = age / ${SECONDS.toFixed(1)};
+        float height = 0.0;
+        ${hasWaves ? /* glsl */ `
         // Kelvin (1887): of all waves that keep pace with the ship, those in phase at x, y have tan(theta) = t.
-        float k = 9.81 / max(speed * speed, 1.0), edge = 8.0 * y * y / (x * x), height = 0.0;
-        if (uWaves > 0.5 && edge < 1.0 && speed > 0.8) {
+        float k = 9.81 / max(speed * speed, 1.0), edge = 8.0 * y * y / (x * x);
+        if (edge < 1.0 && speed > 0.8) {
           float root = sqrt(1.0 - edge);
           float inside = smoothstep(1.0, 0.80, edge);
-          float amplitude = 0.075 * speed * speed / 9.81 * min(1.0, B / 12.0) * inverse_sqrt_(1.0 + k * x * 0.25);
+          float amplitude = 0.075 * speed * speed / 9.81 * min(1.0, B / 12.0) * inversesqrt(1.0 + k * x * 0.25);
           amplitude *= smoothstep(0.8, 3.0, speed) * (1.0 - old) * inside * smoothstep(0.0, 0.12 * L, x);
           float t1 = x * (1.0 + root) / (4.0 * max(y, 0.5)), t2 = x * (1.0 - root) / (4.0 * max(y, 0.5));
           float length1 = 6.2832 / (k * (1.0 + t1 * t1));
           float drawn = smoothstep(3.0 * uCover.w, 7.0 * uCover.w, length1) * smoothstep(0.08 * B, 0.4 * B, length1);
           height += amplitude * (0.9 + 0.9 * smoothstep(0.45, 0.95, edge)) * drawn * cos(k * sqrt(1.0 + t1 * t1) * (x - y * t1));
           height += amplitude * 0.55 * cos(k * sqrt(1.0 + t2 * t2) * (x - y * t2));
-        }
+        }` : ""}
         // Foam of the breaking bow wave, thrown aside, and of the water behind the stern.
         float arm = 0.5 * B * (1.0 - exp(-x / (0.10 * L))) + 0.17 * x;
         float thick = 1.2 + 0.10 * B * min(1.0, x / (0.5 * L)) + 0.015 * x;
@@ -72,15 +105,29 @@ export function makeWake({ track, info }, cover, waves) {
         float foam = 0.80 * bow + 0.92 * stern * strength * fresh;
         float churned = stern * strength * exp(-max(behind, 0.0) / max(speed, 0.5) / 110.0);
         height *= 1.0 - 0.8 * stern * strength;
-        gl_FragColor = vec4(foam, height, 0.0, churned);
-      }`.replace("inverse_sqrt_", "inversesqrt"),
-  });
-  const mesh = new THREE.Mesh(geometry, material);
-  mesh.frustumCulled = false;
+        gl_FragColor = ${colour};
+      }`;
+  const mesh = new THREE.Mesh(geometry, new THREE.ShaderMaterial({
+    ...ADDING, uniforms: { uCover: cover, uSize: size },
+    vertexShader: vertexShader("", TO_FIELD), fragmentShader: fragmentShader(true, "", "vec4(foam, height, 0.0, churned)"),
+  }));
+  const plain = new THREE.Mesh(geometry, new THREE.ShaderMaterial({
+    ...ON_SEA, uniforms: { ...ON_SEA_UNIFORMS, uSize: size },
+    vertexShader: vertexShader(ON_SEA_HEAD, "gl_Position = onSea(place);"), fragmentShader: fragmentShader(false, `uniform sampler2D uRipples;${ON_SEA_PIXEL}`, "paintFoam(foam, churned, 0.0)"),
+  }));
+  plain.renderOrder = -5;
+  mesh.frustumCulled = plain.frustumCulled = false;
   const middle = new THREE.Vector3(), before = new THREE.Vector3(), side = new THREE.Vector3(), ahead = new THREE.Vector3(), q = new THREE.Quaternion();
 
-  function section(i, distance, age, speed) {
-    const half = Math.min(0.37 * distance + 0.7 * info.B, 460);
+  /** How far from the track foam reaches: thrown aside from the bow at first, then behind the stern. */
+  function widthOfFoam(distance) {
+    const { L_oa: L, B } = info, behind = Math.max(0, distance - 0.96 * L);
+    const share = Math.min(1, Math.max(0, distance / L - 1.6));
+    return (1 - share) * (0.2 * Math.min(distance, 1.6 * L) + 0.75 * B) + share * 1.05 * (0.4 * B + 0.6 * Math.sqrt(behind) + 0.004 * behind);
+  }
+
+  function section(i, distance, age, speed, isPlain) {
+    const half = isPlain ? widthOfFoam(distance) : Math.min(0.37 * distance + 0.7 * info.B, 460); // Kelvin's waves are wider
     for (const [j, across] of [-half, half].entries()) {
       const k = 2 * i + j;
       places.set([middle.x + across * side.x, 0, middle.z + across * side.z], 3 * k);
@@ -90,7 +137,8 @@ export function makeWake({ track, info }, cover, waves) {
 
   return {
     mesh,
-    update(time) {
+    plain,
+    update(time, isPlain) {
       let distance = 0.5 * info.L_oa;
       const last = new THREE.Vector3();
       for (let i = 1; i < SECTIONS; i++) {
@@ -107,10 +155,10 @@ export function makeWake({ track, info }, cover, waves) {
         side.set(-side.z, 0, side.x).normalize();
         if (i > 1) distance += middle.distanceTo(last);
         last.copy(middle);
-        section(i, distance, age, speed);
+        section(i, distance, age, speed, isPlain);
         if (i === 1) {
           middle.addScaledVector(ahead, 0.5 * info.L_oa);
-          section(0, 0, 0, speed);
+          section(0, 0, 0, speed, isPlain);
         }
       }
       geometry.attributes.position.needsUpdate = true;
@@ -146,32 +194,31 @@ export function makeHullFoam(ship, cover) {
   geometry.setAttribute("aOut", new THREE.Float32BufferAttribute(outs, 1));
   geometry.setIndex(index);
   const pose = new THREE.Vector4(), flow = new THREE.Vector3();
-  const mesh = new THREE.Mesh(geometry, new THREE.ShaderMaterial({
-    ...ADDING,
-    uniforms: {
-      uCover: cover, uPose: { value: pose }, uFlow: { value: flow }, uEnds: { value: new THREE.Vector2(x[0], x.at(-1)) },
-      uReach: { value: reach }, uRipples: WATER.uRipples,
-    },
-    vertexShader: /* glsl */ `
+  const uniforms = {
+    uPose: { value: pose }, uFlow: { value: flow }, uEnds: { value: new THREE.Vector2(x[0], x.at(-1)) }, uReach: { value: reach }, uRipples: WATER.uRipples,
+  };
+  const vertexShader = (head, toPlace) => /* glsl */ `
       attribute float aOut;
       uniform vec4 uCover, uPose;
       uniform vec3 uFlow;
       uniform vec2 uEnds;
       varying vec4 vHull; // out, speed of the plating against the water, speed, share of the length from the bow
       varying vec2 vPlace;
+      ${head}
       void main() {
         vec2 p = position.xy;
         vec2 place = uPose.xy + uPose.zw * p.x + vec2(-uPose.w, uPose.z) * p.y;
         vec2 velocity = vec2(uFlow.x - uFlow.z * p.y, uFlow.y + uFlow.z * p.x);
         vHull = vec4(aOut, dot(velocity, normal.xy), length(velocity), (uEnds.y - p.x) / (uEnds.y - uEnds.x));
         vPlace = place;
-        ${TO_FIELD}
-      }`,
-    fragmentShader: /* glsl */ `
+        ${toPlace}
+      }`;
+  const fragmentShader = (head, colour) => /* glsl */ `
       uniform float uReach;
       uniform sampler2D uRipples;
       varying vec4 vHull;
       varying vec2 vPlace;
+      ${head}
       void main() {
         float out_ = max(vHull.x, 0.0), push = vHull.y, speed = vHull.z, from = vHull.w;
         // The edge of the foam is ragged: patches of the water that the ship passes keep it longer than others.
@@ -183,12 +230,19 @@ export function makeHullFoam(ship, cover) {
         foam += 0.55 * smoothstep(1.0, 8.0, speed) * exp(-2.2 * from) * exp(-2.0 * ragged) * smoothstep(1.0, 0.5, out_);
         foam += 0.55 * smoothstep(0.3, 6.0, speed) * thin;
         foam += 0.14 * exp(-1.3 * uReach * out_); // the swell laps at the plating
-        gl_FragColor = vec4(foam, clamp(height, -0.8, 1.6), vHull.x < 0.0 ? 1.0 : near, 0.35 * foam);
-      }`,
+        gl_FragColor = ${colour};
+      }`;
+  const mesh = new THREE.Mesh(geometry, new THREE.ShaderMaterial({
+    ...ADDING, uniforms: { ...uniforms, uCover: cover },
+    vertexShader: vertexShader("", TO_FIELD), fragmentShader: fragmentShader("", "vec4(foam, clamp(height, -0.8, 1.6), vHull.x < 0.0 ? 1.0 : near, 0.35 * foam)"),
   }));
-  mesh.frustumCulled = false;
-  const raised = new THREE.Mesh(geometry, makeRaised(pose, flow, mesh.material.uniforms.uEnds, reach));
-  raised.frustumCulled = false;
+  const plain = new THREE.Mesh(geometry, new THREE.ShaderMaterial({
+    ...ON_SEA, uniforms: { ...uniforms, ...ON_SEA_UNIFORMS },
+    vertexShader: vertexShader(ON_SEA_HEAD, "gl_Position = onSea(place);"), fragmentShader: fragmentShader(ON_SEA_PIXEL, "step(0.0, vHull.x) * paintFoam(foam, 0.35 * foam, near)"),
+  }));
+  plain.renderOrder = -4;
+  const raised = new THREE.Mesh(geometry, makeRaised(pose, flow, uniforms.uEnds, reach));
+  mesh.frustumCulled = plain.frustumCulled = raised.frustumCulled = false;
   raised.renderOrder = -4;
   const now = new THREE.Vector3(), before = new THREE.Vector3(), q = new THREE.Quaternion(), ahead = new THREE.Vector3();
   const bearing = (quaternion) => {
@@ -197,6 +251,7 @@ export function makeHullFoam(ship, cover) {
   };
   return {
     mesh,
+    plain,
     raised,
     update(time) {
       track.at(time - 0.25, before, q);

@@ -175,7 +175,7 @@ export async function startBridge() {
     if (viewer && !isChartLarge()) {
       addNewEffects(state);
       viewer.setPlaying(!session.state.paused); // a plain picture may have fewer pixels while the ships move
-      viewer.show(state.time);
+      viewer.showNow(state.time);
     }
     if (now >= numbers.next) {
       numbers.next = now + NUMBERS;
