@@ -113,6 +113,38 @@ def test_back_at_a_mark_the_run_is_as_if_nothing_had_been(tmp_path: Path) -> Non
     assert texts[0] == texts[1]
 
 
+def test_back_at_a_mark_what_is_seen_and_what_waits_are_as_they_were(timed: LiveRun, tmp_path: Path) -> None:
+    """In a pause everything is ordered, marked, and gone back to, from a pause and from later."""
+    texts = []
+
+    def look() -> list[object]:
+        return [timed.observe_ships(), timed.observe_environment(), timed.observe_contact(), timed.list_touches(),
+                timed.k, timed.recorded, timed.bridges["own"].failures, timed.write_scenario()]  # fmt: skip
+
+    advance(timed, 4.0)
+    timed.bridges["target"].order(None, 120.0, 0.3, None)
+    timed.bridges["own"].order(12.0, None, None, None)
+    timed.bridges["own"].fail("blackout", True)
+    timed.change(None, (17.0, 200.0))
+    timed.change((0.25, -0.5), None)
+    timed.mark("here")
+    seen = look()
+    assert timed.observe_environment().wind.speed == 17.0
+    for later in (4.0, 5.0, 9.0):
+        timed.change((1.0, 1.0), (2.0, 2.0))
+        advance(timed, later)
+        timed.go_back("here")
+        assert look() == seen
+        advance(timed, 6.0)
+        assert timed.observe_environment().wind.speed == 17.0
+        write_run(timed, tmp_path / str(later))
+        texts.append([(tmp_path / str(later) / name).read_bytes() for name in (*FILES, "scenario.toml")])
+        timed.go_back("here")
+    assert texts[0] == texts[1] == texts[2]
+    advance(timed, 6.0)
+    assert_same_again(timed, tmp_path)
+
+
 def test_a_stuck_rudder_stays_where_it_is_on_its_way(run: LiveRun) -> None:
     bridge = run.bridges["own"]
     bridge.order(35.0, None, None, None)

@@ -12,7 +12,7 @@ import pytest
 from shipcollision_fmu import load_scenario
 from shipcollision_fmu.errors import InputError
 from shipcollision_fmu.live.session import session as module
-from shipcollision_fmu.live.session.commands import Back, End, Mark, Order, Pause, Rate, Step, TakeCommand
+from shipcollision_fmu.live.session.commands import Back, End, Horn, Leave, Mark, Order, Pause, Rate, Step, TakeCommand
 from shipcollision_fmu.live.session.pacer import MOST_LAG, WINDOW, Pacer
 from shipcollision_fmu.live.session.session import Session
 from shipcollision_fmu.scenario.scenario import Scenario
@@ -124,6 +124,66 @@ def test_simulated_time_follows_rate_pause_and_single_steps() -> None:
     expected = 2.0 + 4.0 * 1.0 + 2 * H + 4.0 * 2.0
     assert session.snapshot.time == pytest.approx(expected, abs=0.3)
     assert not session.snapshot.running
+
+
+FLOOD = [n / 45.0 for n in range(90)]
+"""When the commands of a hand that never rests come, in two seconds."""
+
+
+@pytest.mark.parametrize(
+    ("commands", "seconds"),
+    [
+        ([Rate(1.0)], 2.0),  # unchanged
+        ([Rate(1.0), Rate(1.01)], 2.01),
+        ([Pause(False)], 2.0),
+        ([Pause(True), Pause(False)], 1.0),
+        ([Pause(True), Rate(4.0), Pause(False), Rate(2.0)], 22 * (4.0 + 2.0) / 45.0),
+    ],
+)
+def test_who_sets_the_pace_again_and_again_does_not_stop_time(commands: list[Any], seconds: float) -> None:
+    """The next command comes before the next step is due, each time."""
+    script = [(at, commands[n % len(commands)]) for n, at in enumerate(FLOOD)]
+    session, _, _ = played([*script, (2.0, End())])
+    assert session.snapshot.time == pytest.approx(H + seconds, abs=1.5 * H)
+
+
+def test_a_pace_that_is_as_it_was_is_no_news() -> None:
+    script = [(1.0, Rate(1.0)), (1.0, Pause(False)), (2.0, Pause(True)), (2.5, Pause(True)), (3.0, End())]
+    _, events, clock = played(script)
+    assert [event["kind"] for event in events] == ["pause", "end"]
+    assert all(answer.result(0.0) is None for answer in clock.answers)
+
+
+def test_a_pause_at_any_moment_of_a_step_takes_none_of_it() -> None:
+    """Two steps of 50 ms, in the second of which there is a pause of 1 s."""
+    session, _, _ = played([(0.09, Pause(True)), (1.09, Pause(False)), (1.11, Pause(True)), (1.2, End())])
+    assert session.snapshot.step_count == 1 + 2
+
+
+@pytest.mark.parametrize(
+    "loses", [Leave("a"), TakeCommand("a", "own", take=False), TakeCommand("teacher", "own", force=True)]
+)
+def test_a_horn_is_silent_once_who_sounded_it_has_lost_command(loses: Any) -> None:
+    script = [(1.0, TakeCommand("a", "own")), (1.5, Horn("a", "own", True)), (2.0, loses), (3.0, End())]
+    session, events, _ = played(script)
+    assert not session.snapshot.ships["own"].horn
+    assert [(event["time"], event["on"]) for event in events if event["kind"] == "horn"] == [
+        (pytest.approx(1.5, abs=0.1), True), (pytest.approx(2.0, abs=0.1), False),
+    ]  # fmt: skip
+
+
+def test_a_horn_sounds_on_for_who_takes_command_again() -> None:
+    take = TakeCommand("a", "own")
+    session, _, _ = played([(1.0, take), (1.5, Horn("a", "own", True)), (2.0, take), (3.0, End())])
+    assert session.snapshot.ships["own"].horn
+
+
+def test_a_horn_of_the_past_does_not_sound_again() -> None:
+    """Nobody has a hand on it any more."""
+    script = [(1.0, TakeCommand("a", "own")), (1.5, Horn("a", "own", True)), (2.0, Mark("here")), (3.0, Leave("a")),
+              (4.0, Back("here")), (5.0, End())]  # fmt: skip
+    session, _, _ = played(script)
+    assert not session.snapshot.ships["own"].horn
 
 
 def test_a_duration_ends_the_run() -> None:

@@ -55,13 +55,13 @@ class _Memory:
     waiting: Logged | None = None
     failures: tuple[str, ...] = ()
     evasion_ended: int | None = None
-    horn: bool = False
 
 
 class Bridge:
     """The bridge of one ship, whose helm is at communication point 0.
 
     `limits` None: it takes no orders. `spool`: folder for the log. A ship that follows a recorded track has no helm.
+    `horn`: whether it sounds. A hand is on it now, so that it is no part of what save() keeps.
     """
 
     def __init__(
@@ -77,7 +77,7 @@ class Bridge:
     ) -> None:
         self.name, self.limits, self._helm, self._step = name, limits, helm or Helm(_NoGroup()), step
         self._machines: Group = _NoGroup() if helm is None else ship.reals(STEERING)
-        self.log = OrderLog(spool)
+        self.log, self.horn = OrderLog(spool), False
         self._memory = _Memory(timed=tuple(_list_points(start.orders, step)))
         if limits is None or helm is None:
             return
@@ -94,15 +94,6 @@ class Bridge:
     def failures(self) -> tuple[str, ...]:
         """Of "rudder" and "blackout", those that last."""
         return self._memory.failures
-
-    @property
-    def horn(self) -> bool:
-        """Whether the horn sounds."""
-        return self._memory.horn
-
-    @horn.setter
-    def horn(self, on: bool) -> None:
-        self._memory.horn = on
 
     @property
     def evasion_ended(self) -> int | None:

@@ -56,6 +56,7 @@ class _Kept:
     recorded: RecorderMark
     changes: dict[int, EnvironmentChange]
     around: list[float]
+    waiting: EnvironmentChange | None
     end: EndValues
 
 
@@ -176,7 +177,7 @@ class LiveRun:
         self._marks[name] = _Kept(
             self.k, [component.save() for component in self._components],
             {ship: bridge.save() for ship, bridge in self.bridges.items()}, self._stepper.recorder.mark(),
-            dict(self._changes), list(self._around), self._end,
+            dict(self._changes), list(self._around), self._waiting, self._end,
         )  # fmt: skip
 
     def go_back(self, name: str) -> None:
@@ -198,7 +199,7 @@ class LiveRun:
         self._coming = {k: values for k, values in changed_surroundings(self.scenario).items() if k >= kept.k}
         if self._changes:
             self._coming.clear()
-        self._waiting = None
+        self._waiting = kept.waiting
         self._marks = {name: mark for name, mark in self._marks.items() if mark.k <= kept.k}
 
     # -- what is seen -------------------------------------------------------------------------------------------------

@@ -35,16 +35,21 @@ class Pacer:
         self.rate = rate
         self.restart(now, simulated)
 
-    def restart(self, now: float, simulated: float, rate: float | None = None) -> None:
-        """Begin a pace anew: after a pause, at another rate, at another time."""
+    def restart(self, now: float, simulated: float, rate: float | None = None, begun: float = 0.0) -> None:
+        """Begin a pace anew: after a pause, at another rate, at another time. `begun`: see read_begun()."""
         self.rate = self.rate if rate is None else rate
-        self._wall, self._simulated = now, simulated
+        self._wall, self._simulated = now, simulated + begun
         self._samples: deque[tuple[float, float]] = deque([(now, simulated)])
         self._lagged: float | None = None
 
     def due(self, simulated: float) -> float:
         """The wall time [s] at which the step that begins at that simulated time [s] is to end."""
         return self._wall + (simulated - self._simulated) / self.rate
+
+    def read_begun(self, now: float, simulated: float, step: float) -> float:
+        """How much of the step to come has passed [s] of simulated time. Without it, whoever sets the pace again and
+        again would stop the run."""
+        return min(step, max(0.0, self._simulated + (now - self._wall) * self.rate - simulated))
 
     def note(self, now: float, simulated: float) -> None:
         """A step has ended, at wall time `now`, at that simulated time."""

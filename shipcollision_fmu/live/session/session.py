@@ -34,6 +34,7 @@ from .commands import (
     Back,
     ChangeEnvironment,
     Command,
+    End,
     Fail,
     Horn,
     Leave,
@@ -108,7 +109,12 @@ class Session:
         self._out, self._duration, self._clock = out, min(ends, default=None), clock or WallClock()
         self._waiting: queue.Queue[Waiting] = queue.Queue(MOST_WAITING)
         self._pacer = Pacer(check_rate(rate), self._clock.now(), self._run.time)
-        self._paused, self._reason = paused, ""
+        self._paused, self._reason, self._begun = paused, "", 0.0
+        self._actions: dict[type[Command], Callable[[Any], None]] = {
+            Order: self._order, TakeCommand: self._take, Leave: self._leave, Horn: self._sound, Fail: self._fail,
+            ChangeEnvironment: self._change, Mark: self._mark, Back: self._go_back, Rate: self._set_rate,
+            Pause: self._pause, Step: self._step, End: self._end,
+        }  # fmt: skip
         self._command: dict[str, str] = {}
         self._listeners: list[Callable[[Event], None]] = []
         self._touching: dict[int, bool] = {}
@@ -153,7 +159,7 @@ class Session:
 
     def start(self) -> None:
         """Begin."""
-        self._pacer.restart(self._clock.now(), self._run.time)
+        self._restart()
         self._thread.start()
 
     def join(self, timeout: float | None = None) -> bool:
@@ -162,7 +168,7 @@ class Session:
         return not self._thread.is_alive()
 
     def submit(self, command: Command) -> Future[Any]:
-        """Hand in a command. The Future has its result (for most None), or the InputError that refuses it."""
+        """Hand in a command. The Future has None when it is done, or the InputError that refuses it."""
         answer: Future[Any] = Future()
         if not self._snapshot.running:
             answer.set_exception(InputError("the run has ended: start another one"))
@@ -240,7 +246,7 @@ class Session:
         if not answer.set_running_or_notify_cancel():
             return
         try:
-            result = self._execute(command)
+            self._actions[type(command)](command)
         except InputError as error:
             answer.set_exception(error)
         except StepError as error:
@@ -248,43 +254,56 @@ class Session:
             raise
         else:
             self._publish()
-            answer.set_result(result)
+            answer.set_result(None)
 
-    def _execute(self, command: Command) -> Any:  # noqa: C901  # one line for each kind of command
-        if isinstance(command, Order):
-            self._require_command(command.client, command.ship)
-            self._run.bridges[command.ship].order(
-                command.rudder_deg, command.heading_deg, command.rev_per_s, command.telegraph
-            )
-        elif isinstance(command, TakeCommand):
-            self._take(command)
-        elif isinstance(command, Leave):
-            for ship in [ship for ship, client in self._command.items() if client == command.client]:
-                self._give_up(ship)
-        elif isinstance(command, Horn):
-            self._require_command(command.client, command.ship)
-            self._run.bridges[command.ship].horn = command.on
-            self._tell("horn", ship=command.ship, on=command.on)
-        elif isinstance(command, Fail):
-            self._fail(command)
-        elif isinstance(command, ChangeEnvironment):
-            self._change(command)
-        elif isinstance(command, Mark):
-            self._mark(command.name)
-        elif isinstance(command, Back):
-            self._go_back(command.name)
-        elif isinstance(command, Rate):
-            self._pacer.restart(self._clock.now(), self._run.time, check_rate(command.rate))
-            self._tell("rate", rate=self._pacer.rate)
-        elif isinstance(command, Pause):
-            self._paused = command.paused
-            self._pacer.restart(self._clock.now(), self._run.time)
+    def _order(self, command: Order) -> None:
+        self._require_command(command.client, command.ship)
+        self._run.bridges[command.ship].order(
+            command.rudder_deg, command.heading_deg, command.rev_per_s, command.telegraph
+        )
+
+    def _leave(self, command: Leave) -> None:
+        for ship in [ship for ship, client in self._command.items() if client == command.client]:
+            self._give_up(ship)
+
+    def _sound(self, command: Horn) -> None:
+        self._require_command(command.client, command.ship)
+        self._set_horn(command.ship, command.on)
+
+    def _set_horn(self, ship: str, on: bool) -> None:
+        self._run.bridges[ship].horn = on
+        self._tell("horn", ship=ship, on=on)
+
+    def _silence(self, ship: str) -> None:
+        """Who sounded the horn can no longer end it."""
+        if self._run.bridges[ship].horn:
+            self._set_horn(ship, False)
+
+    def _set_rate(self, command: Rate) -> None:
+        rate = check_rate(command.rate)
+        if rate != self._pacer.rate:
+            self._pacer.restart(self._clock.now(), self._run.time, rate, self._read_begun())
+            self._tell("rate", rate=rate)
+
+    def _pause(self, command: Pause) -> None:
+        if command.paused != self._paused:
+            begun, self._paused = self._read_begun(), command.paused
+            self._restart(begun)
             self._tell("pause", paused=command.paused)
-        elif isinstance(command, Step):
-            self._step()
-        else:
-            self._reason = command.reason
-        return None
+
+    def _end(self, command: End) -> None:
+        self._reason = command.reason
+
+    def _restart(self, begun: float = 0.0) -> None:
+        """Begin the pace anew from here; `begun` [s] of the step to come has passed."""
+        self._begun = begun
+        self._pacer.restart(self._clock.now(), self._run.time, begun=begun)
+
+    def _read_begun(self) -> float:
+        """How much of the step to come has passed [s]; nothing does in a pause."""
+        if self._paused:
+            return self._begun
+        return self._pacer.read_begun(self._clock.now(), self._run.time, self._run.step)
 
     def _require_ship(self, ship: str) -> None:
         if ship not in self._run.bridges:
@@ -309,10 +328,13 @@ class Session:
             return
         if in_command not in (None, command.client) and not command.force:
             raise InputError(f"{in_command} is in command of {ship}: ask for it, or let the instructor take it")
+        if in_command != command.client:
+            self._silence(ship)
         self._command[ship] = command.client
         self._tell("command", ship=ship, client=command.client)
 
     def _give_up(self, ship: str) -> None:
+        self._silence(ship)
         del self._command[ship]
         self._tell("command", ship=ship, client=None)
 
@@ -331,23 +353,24 @@ class Session:
             wind={"speed": environment.wind.speed, "from_deg": environment.wind.from_deg},
         )  # fmt: skip
 
-    def _mark(self, name: str) -> None:
+    def _mark(self, command: Mark) -> None:
+        name = command.name
         if not name.strip() or len(name) > LONGEST_NAME or not name.isprintable():
             raise InputError(f"mark {name[:LONGEST_NAME]!r}: give a name of 1 to {LONGEST_NAME} printable characters")
         self._run.mark(name)
         self._tell("mark", name=name)
 
-    def _go_back(self, name: str) -> None:
-        self._run.go_back(name)
-        self._pacer.restart(self._clock.now(), self._run.time)
+    def _go_back(self, command: Back) -> None:
+        self._run.go_back(command.name)
+        self._restart()
         self._touching = {number: on for number, on in self._touching.items() if number in self._run.list_touches()}
-        self._tell("back", name=name)
+        self._tell("back", name=command.name)
 
-    def _step(self) -> None:
+    def _step(self, command: Step) -> None:
         if not self._paused:
             raise InputError("a single step needs a pause: pause first")
         self._advance()
-        self._pacer.restart(self._clock.now(), self._run.time)
+        self._restart()
 
     # -- what is told -------------------------------------------------------------------------------------------------
 
