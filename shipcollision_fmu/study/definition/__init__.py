@@ -13,6 +13,7 @@
     situations.py         files of traffic in place of kinds of encounter
     table_checks.py       checks that need the tables of data
       level_checks.py       checks that need the level of detail
+    warnings.py           what is hardly meant
 
 Imports from: encounters (kinds), ship. Used by: study/rows, study/engine.
 """

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 from ...encounters.request import KINDS
 from ...errors import StudyError
@@ -11,7 +12,7 @@ from .empirical import EmpiricalTable
 from .study_file import StudyFile
 from .variables import IMPACT, NUMBERS, SAILED, SITUATION, SURROUNDINGS, WORDS, acts_with
 
-__all__ = ["check_level"]
+__all__ = ["check_level", "find_limits"]
 
 
 def check_level(
@@ -29,8 +30,9 @@ def check_level(
             raise StudyError(
                 f'{place} has no effect at level = "{level}": remove it, or take level = "{NUMBERS[name].levels[0]}"'
             )
-        _check_astern(place, name, level, _find_limits(name, file, variables, tables))
-        _check_kinds(place, name, kinds, _find_limits(name, file, variables, tables))
+        limits = find_limits(name, file.grid, variables, tables)
+        _check_astern(place, name, level, limits)
+        _check_kinds(place, name, kinds, limits)
     _check_surroundings(file, source)
     place = f"{source}: [{'grid' if 'kind' in file.grid else 'encounter'}] kind"
     for kind in kinds:
@@ -74,14 +76,15 @@ def _list_kinds(
     return given.words()
 
 
-def _find_limits(
-    name: str, file: StudyFile, variables: Mapping[str, Distribution], tables: Mapping[str, EmpiricalTable]
-) -> tuple[float, float] | None:
-    """Least and greatest value of a number; None of a word."""
-    if name in WORDS:
+def find_limits(
+    name: str, grid: Mapping[str, list[Any]], variables: Mapping[str, Distribution],
+    tables: Mapping[str, EmpiricalTable],
+) -> tuple[float, float] | None:  # fmt: skip
+    """Least and greatest value of a number; None of a word, and of a variable that is not given."""
+    if name in WORDS or name not in (*grid, *variables):
         return None
-    if name in file.grid:
-        return min(file.grid[name]), max(file.grid[name])
+    if name in grid:
+        return min(grid[name]), max(grid[name])
     given = variables[name]
     if isinstance(given, TableColumn):
         values = tables[given.table].columns[given.column]

@@ -31,6 +31,7 @@ from .situations import read_situations
 from .study_file import MOST_ROWS, Header, RunTable, StudyFile
 from .table_checks import check_columns
 from .variables import SAILED, WORDS
+from .warnings import list_warnings
 
 __all__ = ["Study", "list_study_names", "parse_study", "read_study"]
 
@@ -87,6 +88,11 @@ class Study:
     def dimensions(self) -> list[str]:
         """What is drawn at random, in the order of the sampler's dimensions."""
         return list_dimensions(self.tables, {"own": self.own, "target": self.target}, self.variables, self.grid)
+
+    @property
+    def warnings(self) -> list[str]:
+        """What is hardly meant, in a line each."""
+        return list(list_warnings(self.rows, self.dimensions, self.grid, self.variables, self.tables))
 
     @property
     def seed(self) -> int:

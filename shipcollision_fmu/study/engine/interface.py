@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, Protocol
 
 import pyarrow as pa
@@ -28,6 +28,10 @@ class Study(Protocol):
     @property
     def inputs(self) -> Mapping[str, str]:
         """SHA-256 of each ship, table and folder that the study file names, by a name for messages."""
+
+    @property
+    def warnings(self) -> Sequence[str]:
+        """What is hardly meant, in a line each, for the user."""
 
     @property
     def rows(self) -> int:

@@ -42,7 +42,7 @@ def run_study(
     engine           "native", "python", or "auto": native where this machine has the library, python elsewhere
     csv              whether both tables are written as CSV as well
     progress         called with the number of rows that are done and that of all
-    notify           called with lines for the user, such as the address of the dashboard
+    notify           called with lines for the user, such as the address of the dashboard and warnings
     compute          what computes rows, compute_rows() by default
 
     The files depend on the study and the engine alone, not on workers or interruptions. A script that starts a local

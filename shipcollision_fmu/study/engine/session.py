@@ -59,6 +59,8 @@ def _run(
     tally = Tally()
     missing = list(_find_missing(folder, tally, notify))
     there = tally.rows
+    for line in study.warnings:
+        notify(f"warning: {line}")
     try:
         loop = _compute(study, compute, folder, means if missing else HERE, notify, missing, tally, progress)
         folder.write_status("complete", tally.as_counts())

@@ -68,6 +68,11 @@ class StandIn:
         return {}
 
     @property
+    def warnings(self) -> list[str]:
+        """None."""
+        return []
+
+    @property
     def fingerprint(self) -> str:
         """That of what determines the rows."""
         return hashlib.sha256(f"{self.rows} {self.level} {self.seed}".encode()).hexdigest()
