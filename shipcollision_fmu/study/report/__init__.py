@@ -6,6 +6,7 @@
     charts.py        what is drawn: numbers, axes and captions
     study_table.py   StudyTable: columns of the encounters, read part by part
     worst.py         the cases that lose most energy
+    ship_names.py    names of ships from files
     replays.py       rows computed again, and run for their replays
     statistics, pure functions of arrays:
       exceedance.py    exceedance curve; clopper_pearson.py: its band

@@ -38,7 +38,9 @@ figcaption { font-size: 0.88rem; color: #44525f; max-width: 560px; }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; font-size: 0.92rem; }
 th, td { text-align: left; padding: 4px 12px 4px 0; border-bottom: 1px solid #d5dce3; vertical-align: top; }
-.cases th, .cases td { white-space: nowrap; }
+.cases th { vertical-align: bottom; }
+.cases td.number, code.line { white-space: nowrap; }
+@media (max-width: 1000px) { .cases td { white-space: nowrap; } }
 td.number, th.number { text-align: right; font-variant-numeric: tabular-nums; }
 code { font-size: 0.85em; background: #eef2f6; padding: 2px 5px; border-radius: 3px; }
 code.line { user-select: all; }
@@ -145,7 +147,7 @@ def _format_worst(table: StudyTable, worst: Sequence[Worst], is_repeatable: bool
         heading for heading in _HEADINGS
         if heading[0] == "row" or any(case.values.get(heading[0]) is not None for case in worst)
     ]  # fmt: skip
-    head = "".join(f"<th{_mark(spec)}>{html.escape(title)}</th>" for _, title, spec, _ in columns) + "<th>replay</th>"
+    head = "<th>replay</th>" + "".join(f"<th{_mark(spec)}>{html.escape(title)}</th>" for _, title, spec, _ in columns)
     what, lines = "case" if len(worst) == 1 else f"{len(worst)} cases", []
     for case in worst:
         values = {**case.values, "row": case.row}
@@ -159,7 +161,7 @@ def _format_worst(table: StudyTable, worst: Sequence[Worst], is_repeatable: bool
             if found
             else f'<code class="line">{html.escape(format_command(case.row))}</code>'
         )
-        lines.append(f"<tr>{cells}<td>{replay}</td></tr>")
+        lines.append(f"<tr><td>{replay}</td>{cells}</tr>")
     return (
         f"<h2>The {what} of most energy</h2>\n<p>{_describe_replays(table, worst, is_repeatable)}</p>\n"
         f'<div class="wide"><table class="cases">\n<tr>{head}</tr>\n' + "\n".join(lines) + "\n</table></div>"

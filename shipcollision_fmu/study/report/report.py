@@ -41,6 +41,7 @@ def write_report(
     from .figures import save_figure
     from .page import PageFigure, build_page
     from .replays import read_own_study, write_replays
+    from .ship_names import name_ships
     from .study_table import StudyTable
     from .worst import find_worst
 
@@ -54,7 +55,8 @@ def write_report(
         files[f"{chart.name}.svg"], files[f"{chart.name}.png"] = svg, save_figure(chart.figure, "png")
         files[f"{chart.name}.csv"] = _format_csv(chart.data).encode()
         figures.append((chart.name, chart.title, chart.caption, svg))
-    study, worst = read_own_study(table), find_worst(table)
+    study = read_own_study(table)
+    worst = find_worst(table, {} if study is None else name_ships(study))
     if replays and study is not None:
         write_replays(table, study, [case.row for case in worst], progress, notify)
     page = build_page(table, figures, worst, study is not None)

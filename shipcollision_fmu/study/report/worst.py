@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -23,11 +24,14 @@ class Worst(NamedTuple):
     values: dict[str, Any]
 
 
-def find_worst(table: StudyTable, count: int = 10) -> list[Worst]:
-    """The cases of most energy, the worst first; of equal ones the lower row first."""
+def find_worst(table: StudyTable, ships: Mapping[str, str], count: int = 10) -> list[Worst]:
+    """The cases of most energy, the worst first; of equal ones the lower row first. ships: names by label."""
     order = np.lexsort((table.row, -table.energy))[:count]
     rows = [int(row) for row in table.row[order]]
-    return [Worst(row, values) for row, values in zip(rows, table.read_cases(rows, COLUMNS), strict=True)]
+    cases = table.read_cases(rows, COLUMNS)
+    for case in cases:
+        case |= {key: ships.get(case.get(key, ""), case.get(key)) for key in ("own_ship", "target_ship")}
+    return [Worst(row, values) for row, values in zip(rows, cases, strict=True)]
 
 
 def format_command(row: int) -> str:

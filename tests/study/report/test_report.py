@@ -476,3 +476,61 @@ def test_captions_say_what_the_intervals_take_as_given(finished: Path, folder: P
     (folder / "study.toml").write_text(pools + '\n[tables.traffic]\nfile = "traffic.csv"\n', encoding="utf-8")
     assert shown(folder).exit_code == 0
     assert GIVEN.format(" and ".join(told)) in read_page(folder)
+
+
+SHIP = """
+[ship]
+name = "{name}"
+kind = "{kind}"
+source = "sketch"
+
+[particulars]
+L_pp = {L_pp}
+B = 20.0
+T = 5.5
+C_b = 0.61
+"""
+
+
+@pytest.mark.usefixtures("undrawn")
+@pytest.mark.parametrize("names", [("Ferry 120", "Coaster 90"), ("Twin", "Twin")])
+def test_ships_from_files_have_their_names(tmp_path: Path, names: tuple[str, str]) -> None:
+    """With the file beside them where two have one name. Shipped ships have the names that the study gives."""
+    for file, name, L_pp in zip(("ferry.toml", "coaster.toml"), names, (120.0, 90.0), strict=True):
+        text = SHIP.format(name=name, kind="ferry", L_pp=L_pp)
+        (tmp_path / file).write_text(text, encoding="utf-8")
+    text = TEXT.replace('"kvlcc2"]', '"ferry.toml", "coaster.toml"]\nloading = 0.8').replace("rows = 400", "rows = 60")
+    page = read_page(write_study(tmp_path, text))
+    if names[0] == names[1]:
+        names = ("Twin (ferry.toml)", "Twin (coaster.toml)")
+    cells = set(re.findall(r"<td>([^<]*)</td>", page))
+    assert cells & {*names, "kcs", "ferry.toml"} == set()
+    assert {f"{name} at 0.8 T" for name in (*names, "kcs")} <= cells
+
+
+@pytest.mark.parametrize("kind", ["container ship, loaded 100", "general cargo ship, pool 2: 100"])
+@pytest.mark.parametrize("has_replays", [True, False])
+def test_the_table_of_the_worst_cases_fits_1200_pixels(
+    folder: Path, browser: Chrome, kind: str, has_replays: bool, undrawn: None
+) -> None:
+    """On a phone, which scrolls it sideways, the replay, the row and the energy stand first and are seen."""
+    for role in ("own", "target"):
+        change_part(folder, f"{role}_ship", pa.array([kind] * 400))
+    if has_replays:
+        for row in find_worst_rows(folder):
+            (folder / f"replays/row-{row}").mkdir(parents=True)
+            (folder / f"replays/row-{row}/replay.html").touch()
+    assert shown(folder).exit_code == 0
+    try:
+        for width in (1200, 390):
+            size = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": width < 500}
+            browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+            browser.get((folder / "report.html").as_uri())
+            over = "const w = document.querySelector('.wide'); return w.scrollWidth - w.clientWidth"
+            assert browser.execute_script(over) <= 0 or width == 390
+            right = "return document.querySelectorAll('.cases tr')[1].cells[2].getBoundingClientRect().right"
+            assert browser.execute_script(right) <= width
+            first = browser.execute_script("return document.querySelector('.cases th').textContent")
+            assert first == "replay"
+    finally:
+        browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
