@@ -7,6 +7,7 @@ Exit status: 0 done, 1 the run or the check failed, 2 bad usage or input, 130 in
     table.py          the form of all tables               console.py       stdout, and progress on stderr
     mistakes.py       one line for every mistake           options.py       options of several commands
     help.py           help on a narrow terminal      row_progress.py   progress of a study on stderr
+    study_keys.py     the keys of a study file       study_refusals.py   why most rows of a study are refused
 
 Imports from every room, but inside the commands: help is fast, and a missing package becomes one clear line.
 """

@@ -16,12 +16,21 @@ from .console import say
 from .mistakes import fail
 from .options import PATH, STUDY, WHOLE_NUMBER, Choice
 from .row_progress import row_progress
+from .study_keys import print_keys
+from .study_refusals import describe_refusals
 
 __all__ = ["study"]
 
 
 class _EndedError(KeyboardInterrupt):
     """SIGTERM came: the study stays as resumable as after Ctrl-C."""
+
+
+def _print_keys(ctx: click.Context, param: click.Parameter, is_asked: bool) -> None:
+    del param
+    if is_asked and not ctx.resilient_parsing:
+        print_keys()
+        ctx.exit()
 
 
 @click.command()
@@ -40,6 +49,10 @@ class _EndedError(KeyboardInterrupt):
 )  # fmt: skip
 @click.option("--csv", is_flag=True, help="Write both tables as CSV as well.")
 @click.option("--row", type=WHOLE_NUMBER, metavar="N", help="Write row N alone, as a scenario file.")
+@click.option(
+    "--keys", is_flag=True, is_eager=True, expose_value=False, callback=_print_keys,
+    help="Print all keys of a study file, and all columns.",
+)  # fmt: skip
 def study(
     study: str, out: Path | None, scheduler: str | None, scheduler_file: Path | None, workers: int | None, resume: bool,
     engine: str, csv: bool, row: int | None,
@@ -80,6 +93,9 @@ def study(
             f"{result.contact_at_end} rows end with hulls that touch, column contact_at_end: a longer `after` in [run] "
             "gives more of their energy"
         )
+    refusals = describe_refusals(folder, result.refused, result.rows)
+    if refusals is not None:
+        say(f"warning: {refusals}", err=True)
     say(f"stored in {folder}: {folder}/encounters and {folder}/collisions are tables in Parquet files")
 
 

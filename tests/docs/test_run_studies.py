@@ -50,6 +50,13 @@ def test_numbers_of_the_page_are_those_of_the_code() -> None:
     assert "no worker, or no scheduler, for ten minutes" in text
 
 
+def read_time_of_a_case(level: str) -> float:
+    """The time [s] of a case that the page Studies has."""
+    text = (GUIDE / "studies.md").read_text(encoding="utf-8")
+    number, unit = re.search(rf"^\| `{level}` \|.* \| ([\d.]+) (m?s)\b[^|]*\|$", text, re.MULTILINE).groups()  # type: ignore[union-attr]
+    return float(number) * {"ms": 1e-3, "s": 1.0}[unit]
+
+
 def test_what_many_cases_cost_follows_from_what_is_measured() -> None:
     """10^8 cases on 100 cores, of the time of a case, that of a batch, and those of the client."""
     text = (GUIDE / PAGE).read_text(encoding="utf-8")
@@ -58,8 +65,12 @@ def test_what_many_cases_cost_follows_from_what_is_measured() -> None:
         for words in ("for a batch", "workers elsewhere send the files")
     )
     cases, cores, hour = 1e8, 100, 3600.0
-    for level, seconds in (("impact", 0.032e-3), ("encounter", 20e-3), ("sailed", 0.5)):
+    of_a_worker = float(re.search(r"for 1 000 rows of level `impact`, their files.* \| ([\d.]+) ms \|", text)[1])  # type: ignore[index]
+    for level in ("impact", "encounter", "sailed"):
         row = re.search(rf"^\| `{level}` \| (.*) \|$", text, re.MULTILINE)[1].split(" | ")  # type: ignore[index]
+        seconds = of_a_worker * 1e-6 if level == "impact" else read_time_of_a_case(level)
+        number, unit = row[0].split()
+        assert float(number) * {"ms": 1e-3, "s": 1.0}[unit] == pytest.approx(seconds)
         computing, parts = cases * seconds, cases / PART_ROWS[level]
         batches = parts * max(1, round(PART_ROWS[level] * seconds / TARGET))
         client = max(cases / 1000 * per_1000 if level == "impact" else 0.0, batches * per_batch)

@@ -14,6 +14,7 @@
     table_checks.py       checks that need the tables of data
       level_checks.py       checks that need the level of detail
     warnings.py           what is hardly meant
+    reference.py          keys and distributions, for `shipcollision study --keys` and the documents
 
 Imports from: encounters (kinds), ship. Used by: study/rows, study/engine.
 """

@@ -20,6 +20,7 @@
     changes.py       what has changed in a study since its folder was begun
     folder.py        StudyFolder: what is there, what is missing, what is of other origin
     csv_tables.py    both tables as CSV
+    reasons.py       why rows are refused
 
 Data flow: study -> parts -> batches -> workers -> bytes -> assembly -> folder. The client alone writes, so workers need
 no common disk. Bytes of a part depend on the study alone: not on workers, batches, order or resumption.

@@ -22,6 +22,6 @@ def describe_missing_package(package: str) -> str:
 
 def _name_remedy(client: str) -> str:
     return (
-        f"run `python -m pip install '{DISTRIBUTION}[study]=={client}'` on every machine of the cluster, and start it "
-        "again"
+        f"run `python -m pip install '{DISTRIBUTION}[study]=={client}'` (in a clone: '.[study]') on every machine of "
+        "the cluster, and start it again"
     )

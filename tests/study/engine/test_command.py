@@ -16,7 +16,10 @@ import pytest
 from click.testing import CliRunner, Result
 
 from shipcollision_fmu.cli import main, row_progress
+from shipcollision_fmu.study.definition.distributions import DISTRIBUTIONS
+from shipcollision_fmu.study.definition.variables import NUMBERS, WORDS
 from shipcollision_fmu.study.engine import run as run_module
+from shipcollision_fmu.study.rows.columns import COLLISIONS, ENCOUNTERS
 from tests.study.engine.cluster import PROJECT
 from tests.study.engine.folders import digest
 
@@ -134,8 +137,66 @@ def test_contact_that_the_end_cuts_off_is_counted(folder: Path) -> None:
     assert json.loads((folder / "t" / "study.json").read_text())["counts"]["contact_at_end"] == count
     assert CliRunner().invoke(main, ["show", "t", "--no-replays"]).exit_code == 0
     assert (
-        f"{count} cases end with hulls that touch (column `contact_at_end`)" in (folder / "t/report.html").read_text()
+        f"{count} cases end with hulls that touch (column <code>contact_at_end</code>)"
+        in (folder / "t/report.html").read_text()
     )
+
+
+def read_reasons(folder: Path) -> list[str | None]:
+    reasons: list[str | None] = pq.read_table(folder / "encounters")["reason"].to_pylist()
+    return reasons
+
+
+def refuse(folder: Path, rows: int, most_speed: float) -> tuple[list[str], list[str | None]]:
+    """Lines on stderr, and the reasons in the table, of a study whose ships do not close at low speeds of own."""
+    speed = f'{{ distribution = "uniform", least = 0.0, most = {most_speed} }}'
+    text = SMALL.replace("rows = 40", f"rows = {rows}").replace("own_speed = 5.0", f"own_speed = {speed}")
+    text = text.replace('angle_deg = { distribution = "uniform", least = 60.0, most = 120.0 }', "angle_deg = 20.0")
+    (folder / "few.toml").write_text(text, encoding="utf-8")
+    out = f"{rows}_{most_speed}"
+    result = called("few.toml", *OPTIONS, "--out", out)
+    assert result.exit_code == 0
+    assert "refused; the" not in result.stdout
+    return result.stderr.splitlines(), read_reasons(folder / out)
+
+
+def test_many_refused_rows_are_said_with_the_commonest_reason(folder: Path) -> None:
+    """On stderr, once; none where half of the rows or more are done."""
+    lines, reasons = refuse(folder, 30, 0.1)
+    assert None not in reasons
+    (line,) = lines
+    assert line.startswith("warning: all 30 rows are refused; the commonest reason, 30 times: ")
+    assert line.partition(" times: ")[2] in reasons
+    lines, reasons = refuse(folder, 30, 0.4)
+    refused = 30 - reasons.count(None)
+    assert 15 < refused < 30
+    assert lines[-1].startswith(f"warning: {refused} of 30 rows are refused; the commonest reason, {refused} times: ")
+    lines, reasons = refuse(folder, 1, 0.1)
+    assert lines == [f"warning: the only row is refused: {reasons[0]}"]
+    lines, reasons = refuse(folder, 30, 4.0)
+    assert 0 < 30 - reasons.count(None) <= 15
+    assert lines == []
+
+
+def test_keys_and_columns_are_printed() -> None:
+    """All of them, with the words that refusals and the schema have."""
+    result = called("--keys")
+    assert (result.exit_code, result.stderr) == (0, "")
+    words = " ".join(result.stdout.split())
+    for text in (
+        "sampler latin-hypercube how the numbers fill the range: latin-hypercube, random or sobol",
+        "level required the level of detail: impact",
+        "[[own.sampled]], [[target.sampled]]", "L_over_B length over breadth, 4 to 9 for most ships",
+        "angle_deg 0 to 180 deg all of the kind the angle between the headings; 0 is overtaking, 180 head-on",
+        "kind head-on, crossing,",
+        'distribution = "lognormal": A value whose logarithm is normal', "median required the median, before anything",
+        "energy double J kinetic energy lost to contact", "contact_at_end bool", "ship_a string",
+    ):  # fmt: skip
+        assert text in words
+    shown = set(words.split())
+    for columns in (ENCOUNTERS, COLLISIONS):
+        assert {column.name for column in columns} <= shown
+    assert {*NUMBERS, *WORDS, *DISTRIBUTIONS} - {"constant"} <= {word.strip('":') for word in shown}
 
 
 def test_without_the_extra_the_remedy_is_a_command(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
