@@ -5,6 +5,7 @@ from __future__ import annotations
 from contextlib import ExitStack, suppress
 from datetime import datetime
 from pathlib import Path
+from threading import Thread
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
@@ -158,8 +159,8 @@ def _tell_of_start(app: LiveApp, at: tuple[str, int], offered: _Offered, in_brow
         say(line)
     _warn_of_orders(offered.orders)
     say("Ctrl-C ends the run and stores it")
-    if in_browser:
-        _open(bridge)
+    if in_browser:  # in a thread: a browser of the terminal is there until it is left
+        Thread(target=_open, args=(bridge,), name="browser", daemon=True).start()
 
 
 def _describe_outlets(offered: _Offered) -> list[str]:
@@ -181,14 +182,14 @@ def _warn_of_orders(orders: str | None) -> None:
 def _tell_of_end(session: Session, folder: Path) -> None:
     """Print where the run is. Raises the session's error."""
     from ..live.session.run_folder import SCENARIO as SCENARIO_FILE
-    from ..show.outputs import PAGE
 
     if session.error is not None:
-        say(f"stored in {folder}")
+        if session.folder is not None:
+            say(f"stored in {folder}")
         raise session.error
     say(f"stored in {folder}: {folder / SCENARIO_FILE} gives the same run again")
-    if (folder / PAGE).is_file():
-        say(f"open {folder / PAGE} in a browser to see it")
+    if session.page is not None:
+        say(f"open {session.page} in a browser to see it")
     else:
         say(f"no page yet: `shipcollision show {folder}` writes it")
 

@@ -5,12 +5,17 @@ from __future__ import annotations
 import json
 import socket
 import threading
+import time
+import webbrowser
 from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
 
 from shipcollision_fmu.cli import main
+from shipcollision_fmu.errors import StepError
+from shipcollision_fmu.live.session import session as session_module
+from shipcollision_fmu.live.session.live_run import LiveRun
 
 
 def live(folder: Path, *arguments: str) -> Result:
@@ -81,10 +86,60 @@ def test_an_order_port_for_other_machines_is_warned_of(tmp_path: Path, address: 
 
 def test_where_no_page_was_written_a_command_writes_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Of a run that is too long for its page at once."""
-    monkeypatch.setattr("shipcollision_fmu.live.session.run_folder.LARGEST_PAGE", 1)
-    result = live(tmp_path, "--duration", "0.1")
     folder = tmp_path / "run"
+    assert live(tmp_path, "--duration", "0.1").exit_code == 0  # an older run, whose page must not stand for the later
+    assert (folder / "replay.html").exists()
+    monkeypatch.setattr("shipcollision_fmu.live.session.run_folder.LARGEST_PAGE", 1)
+    result = live(tmp_path, "--duration", "0.1", "--overwrite")
     assert result.output.splitlines()[-1] == f"no page yet: `shipcollision show {folder}` writes it"
     assert not (folder / "replay.html").exists()
     assert CliRunner().invoke(main, ["show", str(folder)]).exit_code == 0
     assert (folder / "replay.html").is_file()
+
+
+def test_a_run_that_could_not_be_written_is_not_said_to_be_stored(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:  # fmt: skip
+    def fail(run: object, out: Path) -> list[str]:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(session_module, "write_run", fail)
+    result = live(tmp_path, "--duration", "0.1")
+    assert result.exit_code == 1
+    assert "stored" not in result.output
+    assert result.stderr == "error: cannot write the run: [Errno 28] No space left on device\n"
+
+
+def test_what_a_model_that_failed_has_left_is_stored_and_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    advance = LiveRun.advance
+
+    def fail(run: LiveRun) -> None:
+        if run.k > 0:
+            raise StepError("own: the motion diverges in the step at t = 0.05 s")
+        advance(run)
+
+    monkeypatch.setattr(LiveRun, "advance", fail)
+    result = live(tmp_path)
+    assert result.exit_code == 1
+    assert result.stdout.splitlines()[-1] == f"stored in {tmp_path / 'run'}"
+    assert result.stderr == "error: own: the motion diverges in the step at t = 0.05 s\n"
+
+
+def test_a_browser_of_the_terminal_does_not_hold_the_run_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It is there until somebody leaves it; the run goes on and ends meanwhile."""
+    left, opened = threading.Event(), list[str]()
+    monkeypatch.setattr(webbrowser, "open", lambda address: bool(opened.append(address)) or left.wait(60.0))
+    started = time.monotonic()
+    try:
+        result = live(tmp_path, "--browser", "--duration", "0.1")
+    finally:
+        left.set()
+    assert time.monotonic() - started < 60.0
+    assert (result.exit_code, len(opened)) == (0, 1)
+    assert f"bridge of own: {opened[0]}\n" in result.stdout
+
+
+def test_without_a_browser_the_address_is_left_to_the_reader(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(webbrowser, "open", lambda address: False)
+    result = live(tmp_path, "--browser", "--duration", "0.1")
+    assert result.stderr == "found no browser: open the address of the bridge yourself\n"

@@ -19,6 +19,8 @@ from shipcollision_fmu.errors import StepError
 from shipcollision_fmu.live.server import access, hub
 from shipcollision_fmu.live.server.access import Allowance, Tokens, is_own_origin
 from shipcollision_fmu.live.server.serve import MOST_MESSAGE
+from shipcollision_fmu.live.session import run_folder
+from shipcollision_fmu.live.session import session as session_module
 from shipcollision_fmu.live.session.live_run import LiveRun
 from tests.live.live_server import LiveServer, receive, receive_until, serving
 
@@ -406,6 +408,34 @@ def test_the_end_is_told_and_the_replay_served(tmp_path: Path) -> None:
             assert (end["folder"], end["replay"], end["error"]) == (str(tmp_path / "run"), "/replay.html", None)
         status, body, _ = server.get(f"/replay.html?token={server.app.tokens.bridge}")
         assert (status, body) == (200, (tmp_path / "run" / "replay.html").read_bytes())
+
+
+def test_where_no_page_was_written_none_is_offered_nor_that_of_an_older_run(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:  # fmt: skip
+    monkeypatch.setattr(run_folder, "LARGEST_PAGE", 1)
+    (tmp_path / "replay.html").write_text("of another run", encoding="utf-8")
+    with serving(out=tmp_path) as server, server.connect("instructor") as instructor:
+        instructor.send('{"type": "end"}')
+        end = receive_until(instructor, "end")
+        assert (end["folder"], end["replay"], end["error"]) == (str(tmp_path), None, None)
+        status, body, _ = server.get(f"/replay.html?token={server.app.tokens.bridge}")
+        assert (status, body) == (404, b"there is no replay: none was written\n")
+
+
+def test_where_the_run_could_not_be_written_no_page_of_an_older_one_is_served(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:  # fmt: skip
+    def fail(run: LiveRun, out: Path) -> list[str]:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(session_module, "write_run", fail)
+    (tmp_path / "replay.html").write_text("of another run", encoding="utf-8")
+    with serving(out=tmp_path) as server, server.connect("instructor") as instructor:
+        instructor.send('{"type": "end"}')
+        end = receive_until(instructor, "end")
+        assert (end["folder"], end["replay"]) == (None, None)
+        assert server.get(f"/replay.html?token={server.app.tokens.bridge}")[0] == 404
 
 
 def test_a_model_that_fails_ends_the_run_with_a_line_for_all(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

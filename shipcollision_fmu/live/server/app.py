@@ -19,7 +19,6 @@ from starlette.routing import Route, WebSocketRoute
 from starlette.websockets import WebSocket
 
 from ... import __version__
-from ...show.page import PAGE
 from ..session.pacer import FASTEST, SLOWEST
 from ..session.session import Session
 from .access import Tokens, is_own_origin
@@ -82,10 +81,11 @@ class LiveApp:
     async def _replay(self, request: Request) -> Response:
         if not self._admits(request, "bridge"):
             return _deny()
-        folder = self.session.folder
-        if self.session.snapshot.running or folder is None or not (folder / PAGE).is_file():
-            return PlainTextResponse("there is no replay: the run has not ended\n", 404, HEADERS)
-        return Response((folder / PAGE).read_bytes(), media_type="text/html", headers=HEADERS)
+        page = self.session.page
+        if page is None:
+            why = "the run has not ended" if self.session.snapshot.running else "none was written"
+            return PlainTextResponse(f"there is no replay: {why}\n", 404, HEADERS)
+        return Response(page.read_bytes(), media_type="text/html", headers=HEADERS)
 
     async def _script(self, request: Request) -> Response:
         return Response(read_bundle("live.js"), media_type="text/javascript", headers=HEADERS)

@@ -131,7 +131,7 @@ class Hub:
     def _pass_on(self, event: dict[str, Any]) -> None:
         if event["kind"] == "end":
             what = {key: value for key, value in event.items() if key != "kind"}
-            message = {"type": "end", **what, "replay": "/replay.html" if event["folder"] else None}
+            message = {"type": "end", **what, "replay": "/replay.html" if self._session.page else None}
         else:
             message = {"type": "event", **event}
         for client in self._clients:

@@ -29,6 +29,7 @@ from typing import Any, Protocol
 
 from ...errors import HostError, InputError, ShipCollisionError, StepError
 from ...scenario.scenario import Scenario
+from ...show.page import PAGE
 from .commands import (
     FAILURES,
     Back,
@@ -121,6 +122,7 @@ class Session:
         self._separation = scenario.collision.minimum_separation_time or 10.0
         self._refused, self._counting = 0, threading.Lock()
         self._failed: ShipCollisionError | None = None
+        self._folder: Path | None = None
         self._thread = threading.Thread(target=self._work, name="live session", daemon=True)
         self._published = -PUBLISHED
         self._snapshot = self._observe(running=True)
@@ -149,8 +151,13 @@ class Session:
 
     @property
     def folder(self) -> Path | None:
-        """The folder of the run's files; None when none are written."""
-        return self._out
+        """The folder of the run's files, once they are written; None before, and where none are."""
+        return self._folder
+
+    @property
+    def page(self) -> Path | None:
+        """The run's replay, once it is written; None before, and where there is none."""
+        return None if self._folder is None or not (self._folder / PAGE).is_file() else self._folder / PAGE
 
     @property
     def error(self) -> ShipCollisionError | None:
@@ -412,12 +419,11 @@ class Session:
     def _finish(self) -> None:
         """Write the run, tell of the end, refuse what still waits."""
         error = None if self._failed is None else str(self._failed)
-        folder: str | None = None
         try:
             if self._out is not None:
                 self._tell("log", message="writing the run")
                 lines = write_run(self._run, self._out)
-                folder = str(self._out)
+                self._folder = self._out
                 for line in lines:
                     self._tell("log", message=line)
         except Exception as fault:  # a full disk, say; the pages are to hear of it
@@ -426,6 +432,7 @@ class Session:
             )
             error = str(self._failed)
         self._snapshot = self._observe(running=False)
+        folder = None if self._folder is None else str(self._folder)
         self._tell("end", folder=folder, message=self._reason, error=error)
         while (left := WallClock().wait(self._waiting, 0.0)) is not None:
             if left[1].set_running_or_notify_cancel():
