@@ -98,6 +98,19 @@ def test_the_impact_is_seen_low_from_outside_the_opened_side(page: Page, scene: 
 
 
 @pytest.mark.one_in(2)
+def test_a_ship_is_followed_from_where_the_other_is_not(browser: Chrome, kvlcc2_crossing: Path) -> None:
+    """After the impact they lie side by side, and the starboard quarter of the struck ship looks at the other one."""
+    scene = load_scene(kvlcc2_crossing)
+    crossing = Page(browser, write_page(kvlcc2_crossing), "plain=yes&t=75&camera=ship-1", (500, 440))
+    own, target = scene.ships
+    pose = crossing.run("return replay.drawn().poses")[own.name]
+    R = rotation_from_quaternion(np.array(pose["quaternion"]))
+    middle = place(crossing, scene, target.name, np.zeros(3))
+    for share in np.linspace(0.0, 0.7, 15):  # of the way to the middle
+        x, y, _ = R.T @ (eye(crossing) + share * (middle - eye(crossing)) - np.array(pose["position"]))
+        assert abs(x) > 0.5 * own.L_oa or abs(y) > 0.5 * own.B
+
+
 @pytest.mark.parametrize("sky", ["dusk", "night"])
 def test_scrubbing_back_brings_the_same_sea_and_sky(page: Page, sky: str) -> None:
     page.run("replay.sky(arguments[0]); replay.camera('impact')", sky)

@@ -222,8 +222,8 @@ export class Cameras {
   openSide(effect, struck, distance) {
     const tried = [];
     for (const rise of [CLOSE, 0.22]) {
-      for (let i = -7; i <= 7; i++) {
-        tried.push({ turn: 0.16 * i, rise, score: -Math.abs(Math.abs(0.16 * i) - 0.75) - 6 * (rise - CLOSE) + 1e-3 * i });
+      for (let i = -9; i <= 9; i++) {
+        tried.push({ turn: 0.16 * i, rise, score: -Math.abs(Math.abs(0.16 * i) - 0.75) - 6 * (rise - CLOSE) - (Math.abs(i) > 7 ? 5 : 0) + 1e-3 * i });
       }
     }
     const outwards = new THREE.Vector3();
@@ -235,13 +235,27 @@ export class Cameras {
         const low = point.clone().setY(0.5 * point.y);
         for (const one of tried) {
           const eye = low.clone().addScaledVector(outwards.clone().applyAxisAngle(UP, one.turn), distance).setY(low.y + one.rise * distance);
-          one.score -= this.countHidden(eye, [point, low]);
+          one.score -= this.countHidden(eye, [point, low]) + (this.isWithinAnother(struck.node, eye) ? 3 : 0); // from within, walls do not hide
         }
       });
     }
     const { turn, rise } = tried.reduce((a, b) => (b.score > a.score ? b : a));
     outwards.set(...effect.outwards).transformDirection(struck.node.matrixWorld).setY(0).normalize();
     return { from: outwards.applyAxisAngle(UP, turn), rise };
+  }
+
+  /** Whether a place in the world is within a ship other than `node` in plan, or beside it. */
+  isWithinAnother(node, place) {
+    return this.ships.some((ship) => {
+      if (ship.node === node) return false;
+      const { x, y } = ship.node.worldToLocal(place.clone());
+      return Math.abs(x) < 0.55 * ship.info.L_oa && Math.abs(y) < 0.5 * ship.info.B + 4;
+    });
+  }
+
+  /** Whether another ship takes the view of a point: not close to the point, for ships may touch there. */
+  isAnotherInTheWay(node, point, eye) {
+    return Array.from({ length: 30 }, (_, i) => eye.clone().lerp(point, i / 40)).some((place) => this.isWithinAnother(node, place));
   }
 
   closeUp(mode, time) {
@@ -257,9 +271,11 @@ export class Cameras {
       height = rise;
     } else {
       const { node, info } = this.ships[Number(mode.slice(5))];
-      out.set(-1, 0.75, 0).transformDirection(node.matrixWorld);
       distance = 1.5 * info.L_oa;
       height = 0.16;
+      const sides = [[-1, 0.75], [-1, -0.75], [1, 0.75], [1, -0.75]].map(([along, across]) => new THREE.Vector3(along, across, 0).transformDirection(node.matrixWorld).setY(0).normalize());
+      const isFree = (side) => !this.isAnotherInTheWay(node, target, target.clone().addScaledVector(side, distance));
+      out.copy(sides.find(isFree) ?? sides[0]);
     }
     out.y = 0;
     out.normalize().addScaledVector(UP, height).normalize();

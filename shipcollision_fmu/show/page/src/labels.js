@@ -2,6 +2,7 @@
 import * as THREE from "three";
 import { element } from "./dom.js";
 
+const HOUSE = 34; // height of house and mast above the deck [m], at most
 const SMALL = 0.16; // of the picture's width: a ship that is longer needs no name
 
 export function makeLabels(ships, canvas) {
@@ -17,7 +18,8 @@ export function makeLabels(ships, canvas) {
     update(camera) {
       const { clientWidth: width, clientHeight: height } = canvas;
       ships.forEach(({ node: ship, info }, i) => {
-        ends.forEach((end, k) => ship.localToWorld(end.set((k - 0.5) * info.L_oa, 0, -info.height)).project(camera));
+        const top = info.height + Math.min(HOUSE, 0.4 * info.L_oa);
+        ends.forEach((end, k) => ship.localToWorld(end.set((k - 0.5) * info.L_oa, 0, -top)).project(camera));
         const [a, b] = ends;
         const middle = [(a.x + b.x) / 2, (a.y + b.y) / 2];
         const length = Math.hypot(((a.x - b.x) * width) / 2, ((a.y - b.y) * height) / 2);
@@ -25,7 +27,7 @@ export function makeLabels(ships, canvas) {
         labels[i].hidden = !isShown;
         if (!isShown) return;
         const x = ((middle[0] + 1) / 2) * width;
-        const y = ((1 - Math.max(a.y, b.y)) / 2) * height - 14;
+        const y = ((1 - Math.max(a.y, b.y)) / 2) * height - 4;
         labels[i].style.transform = `translate(-50%, -100%) translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
       });
     },

@@ -10,7 +10,7 @@ const SMALLEST = 0.0034, GLARE = 0.0085, FAR = 260; // [rad], [rad], [m]
 
 const VERTEX = /* glsl */ `
   const float SMALLEST = ${SMALLEST.toFixed(4)}, GLARE = ${GLARE.toFixed(4)}, FAR = ${FAR.toFixed(1)};
-  uniform float uLamps, uMirror;
+  uniform float uLamps, uMirror, uOpen;
   uniform vec2 uSector; // start and arc [rad] clockwise from ahead
   varying vec2 vCorner;
   varying float vLight;
@@ -37,7 +37,7 @@ const VERTEX = /* glsl */ `
       at.xz += vec2(-along.y, along.x) * position.x * width * 1.1;
       at.y = 0.35;
       place = at;
-      vLight *= 0.5 * smoothstep(0.1, 0.9, seen);
+      vLight *= uOpen * 0.5 * smoothstep(0.1, 0.9, seen) * (0.3 + 0.7 * smoothstep(20.0, 150.0, distance_)); // waves scatter near ones
       gl_Position = projectionMatrix * viewMatrix * vec4(place, 1.0);
     } else {
       vec4 view = viewMatrix * vec4(light, 1.0);
@@ -67,11 +67,28 @@ const FRAGMENT = /* glsl */ `
     #include <colorspace_fragment>
   }`;
 
+/** Whether the hull of another ship takes the way of a light over its mirror image on the water to the eye. */
+function isHidden(ships, light, camera) {
+  const eye = camera.position, lamp = light.getWorldPosition(new THREE.Vector3());
+  const share = eye.y / Math.max(eye.y + lamp.y, 0.1);
+  return ships.some((ship) => {
+    if (ship.getObjectById(light.id)) return false;
+    const { L_oa, B } = ship.userData;
+    const a = ship.worldToLocal(eye.clone()), b = ship.worldToLocal(lamp.clone());
+    for (let i = 1; i < 40; i++) {
+      const t = i / 40, height = t < share ? eye.y * (1 - t / share) : (lamp.y * (t - share)) / (1 - share);
+      if (Math.abs(a.x + t * (b.x - a.x)) < 0.47 * L_oa && Math.abs(a.y + t * (b.y - a.y)) < 0.47 * B && height < 0.4 * B) return true;
+    }
+    return false;
+  });
+}
+
 /** Gives every light of the scene its glow and its streak; returns what keeps their waves moving, and their number. */
 export function addLights(root) {
   const time = { value: 0 };
-  const found = [], meshes = [];
+  const found = [], ships = [], meshes = [];
   root.traverse((node) => {
+    if (node.userData.ship !== undefined) ships.push(node);
     if (typeof node.userData.light === "string") found.push(node);
   });
   const geometry = new THREE.BufferGeometry();
@@ -82,7 +99,7 @@ export function addLights(root) {
     for (const mirror of [0, 1]) {
       const mesh = new THREE.Mesh(geometry, new THREE.ShaderMaterial({
         uniforms: {
-          uLamps: LIGHT.uLamps, uTime: time, uMirror: { value: mirror }, uColour: { value: new THREE.Color(colour) },
+          uLamps: LIGHT.uLamps, uTime: time, uOpen: { value: 1 }, uMirror: { value: mirror }, uColour: { value: new THREE.Color(colour) },
           uSector: { value: new THREE.Vector2(start, arc).multiplyScalar(Math.PI / 180) },
         },
         vertexShader: VERTEX, fragmentShader: FRAGMENT, side: THREE.DoubleSide,
@@ -90,6 +107,7 @@ export function addLights(root) {
       }));
       mesh.frustumCulled = false;
       mesh.renderOrder = 5;
+      if (mirror) mesh.onBeforeRender = (_, __, camera) => (mesh.material.uniforms.uOpen.value = isHidden(ships, node, camera) ? 0 : 1);
       node.add(mesh);
       meshes.push(mesh);
     }

@@ -304,7 +304,7 @@ function makeRaised(pose, flow, ends, reach) {
         vec2 q = vec2(vWave.z + 2.5 * uTime, vWave.w * 1.6 - 1.2 * uTime);
         float net = 0.45 * texture2D(uRipples, q / 9.0).a + 0.3 * texture2D(uRipples, q.yx / 4.0).a + 0.25 * texture2D(uRipples, q / 23.0).b;
         float left = vAbove / (vWave.y + 0.12); // 1 at the plating, 0 where it dips into the sea: it thins out on the way
-        float opacity = smoothstep(0.05, 0.7, vWave.y) * smoothstep(0.0, 0.4, net - 0.8 + 1.2 * left);
+        float opacity = smoothstep(0.05, 0.7, vWave.y) * smoothstep(0.0, 0.45, net - 1.0 + 1.25 * left * left);
         if (opacity < 0.01) discard;
         gl_FragColor = vec4(uFoam * (0.62 + 0.55 * net), min(opacity, 0.95));
         #include <tonemapping_fragment>
