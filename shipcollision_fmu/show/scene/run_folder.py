@@ -36,6 +36,11 @@ FILES = ("states.csv", "contacts.csv", "signals.csv", "events.json", "bodies.jso
 SIGNALS = ("clearance", "energy.dissipated")
 CONTACT_NUMBERS = ("time", "scratch", "impulse_normal", "impulse_tangential", "energy")
 REMEDY = "give a folder that `shipcollision run` has stored a run in, or run the scenario again"
+OTHER_FOLDER = (
+    "give a folder that `shipcollision run` or `shipcollision study` has written; a study begins its folder some "
+    "seconds after its start"
+)
+"""Remedy where nothing of a run is found."""
 
 Vector = tuple[float, float, float]
 Content = TypeVar("Content", bound="_Model")
@@ -182,13 +187,13 @@ def read_run_folder(path: str | Path) -> RunFolder:
 def _read_texts(folder: Path) -> dict[str, str]:
     if not folder.is_dir():
         fault = "is not a folder" if folder.exists() else "does not exist"
-        raise InputError(f"{folder} {fault}: {REMEDY}")
+        raise InputError(f"{folder} {fault}: {OTHER_FOLDER}")
     missing = [name for name in FILES if not (folder / name).is_file()]
     if missing:
         if len(missing) == len(FILES):
-            fault = "is empty" if not any(folder.iterdir()) else "is not the folder of a run"
-        else:
-            fault = f"has no {' and no '.join(missing)}, so it is not the whole folder of a run"
+            fault = "is empty" if not any(folder.iterdir()) else "is not the folder of a run or a study"
+            raise InputError(f"{folder} {fault}: {OTHER_FOLDER}")
+        fault = f"has no {' and no '.join(missing)}, so it is not the whole folder of a run"
         raise InputError(f"{folder} {fault}: {REMEDY}")
     return {name: read_text(folder / name) for name in FILES}
 

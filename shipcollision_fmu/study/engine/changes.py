@@ -33,7 +33,7 @@ def describe_changes(study: Study, found: Mapping[str, Any], folder: Path) -> st
             f"rows = {study.rows} in place of {found['rows']}, and all rows of a latin-hypercube depend on their number"
         )
     if not changes:
-        return f"it was begun by another build of version {__version__}"
+        return f"it was begun by another build of version {__version__}, or its study.toml was edited"
     more = f" and {len(changes) - MOST_NAMED} more" if len(changes) > MOST_NAMED else ""
     return f"changed since: {', '.join(changes[:MOST_NAMED])}{more}"
 

@@ -39,6 +39,7 @@ figcaption { font-size: 0.88rem; color: #44525f; max-width: 560px; }
 table { border-collapse: collapse; font-size: 0.92rem; }
 th, td { text-align: left; padding: 4px 12px 4px 0; border-bottom: 1px solid #d5dce3; vertical-align: top; }
 .cases th { vertical-align: bottom; }
+.cases th.number { width: 1%; }
 .cases td.number, code.line { white-space: nowrap; }
 @media (max-width: 1000px) { .cases td { white-space: nowrap; } }
 td.number, th.number { text-align: right; font-variant-numeric: tabular-nums; }
@@ -80,16 +81,16 @@ def build_page(
     table: StudyTable,
     figures: Iterable[PageFigure],
     worst: Sequence[Worst],
-    is_repeatable: bool,
+    change: str,
 ) -> str:
-    """The page. is_repeatable: whether the study file is complete."""
+    """The page. change: why no case can be run again; empty where each can."""
     return _TEMPLATE.format(
         policy=_POLICY,
         name=html.escape(table.name),
         style=_STYLE,
         summary=_describe(table),
         figures="\n".join(_format_figure(*figure) for figure in figures),
-        worst=_format_worst(table, worst, is_repeatable),
+        worst=_format_worst(table, worst, change),
     )
 
 
@@ -142,7 +143,7 @@ def _format_figure(name: str, title: str, caption: str, svg: bytes | None) -> st
     )
 
 
-def _format_worst(table: StudyTable, worst: Sequence[Worst], is_repeatable: bool) -> str:
+def _format_worst(table: StudyTable, worst: Sequence[Worst], change: str) -> str:
     columns = [
         heading for heading in _HEADINGS
         if heading[0] == "row" or any(case.values.get(heading[0]) is not None for case in worst)
@@ -163,17 +164,14 @@ def _format_worst(table: StudyTable, worst: Sequence[Worst], is_repeatable: bool
         )
         lines.append(f"<tr><td>{replay}</td>{cells}</tr>")
     return (
-        f"<h2>The {what} of most energy</h2>\n<p>{_describe_replays(table, worst, is_repeatable)}</p>\n"
+        f"<h2>The {what} of most energy</h2>\n<p>{_describe_replays(table, worst, change)}</p>\n"
         f'<div class="wide"><table class="cases">\n<tr>{head}</tr>\n' + "\n".join(lines) + "\n</table></div>"
     )
 
 
-def _describe_replays(table: StudyTable, worst: Sequence[Worst], is_repeatable: bool) -> str:
-    if not is_repeatable:
-        return (
-            "A ship or table of the study has changed, or is not where it was: without it no case can be run again. "
-            "Put it back, and show the study again."
-        )
+def _describe_replays(table: StudyTable, worst: Sequence[Worst], change: str) -> str:
+    if change:
+        return _escape(f"No case can be run again: {change}. Put back what was there, and show the study again.")
     text = "Each case was run again for its replay."
     if any(find_replay(table, case.row) is None for case in worst):
         text = "In the folder of this page, the line beside a case runs it again, and writes its replay."

@@ -14,6 +14,7 @@ from ...files import IN_PLACE, describe_failure
 from ...scenario.scenario import load_scenario
 from ...show.page import PAGE, write_page
 from ..definition.study import Study, read_study
+from ..engine.changes import describe_changes
 from ..rows.case_scenario import write_case
 from ..rows.compute import compute_rows
 from .study_table import REMEDY, StudyTable
@@ -36,13 +37,15 @@ class Replay(NamedTuple):
     is_identical: bool
 
 
-def read_own_study(table: StudyTable) -> Study | None:
-    """The study of a folder by its copy of the study file; None where a file that it names is missing or another."""
+def read_own_study(table: StudyTable) -> tuple[Study | None, str]:
+    """The study of a folder by its copy of the study file; None, and why, where no row of it can be computed again."""
     try:
         study = read_study(table.folder / "study.toml")
-    except InputError:
-        return None
-    return study if study.fingerprint == table.fingerprint else None
+    except InputError as error:
+        return None, str(error)
+    if study.fingerprint == table.fingerprint:
+        return study, ""
+    return None, describe_changes(study, table.told, table.folder)
 
 
 def find_replay(table: StudyTable, row: int) -> str | None:

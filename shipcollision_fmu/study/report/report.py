@@ -55,11 +55,13 @@ def write_report(
         files[f"{chart.name}.svg"], files[f"{chart.name}.png"] = svg, save_figure(chart.figure, "png")
         files[f"{chart.name}.csv"] = _format_csv(chart.data).encode()
         figures.append((chart.name, chart.title, chart.caption, svg))
-    study = read_own_study(table)
+    study, change = read_own_study(table)
     worst = find_worst(table, {} if study is None else name_ships(study))
     if replays and study is not None:
         write_replays(table, study, [case.row for case in worst], progress, notify)
-    page = build_page(table, figures, worst, study is not None)
+    elif replays and notify is not None:
+        notify(f"no replays: {change}")
+    page = build_page(table, figures, worst, change)
     _remove_earlier(folder / FIGURES, files)
     write_files(folder / FIGURES, files, IN_PLACE)
     return write_file(folder / REPORT, page, IN_PLACE)
@@ -72,11 +74,9 @@ def replay_row(folder: Path, row: int) -> Replay:
     from .study_table import StudyTable
 
     table = StudyTable(folder)
-    study = read_own_study(table)
+    study, change = read_own_study(table)
     if study is None:
-        raise StudyError(
-            f"{folder / 'study.toml'}: a ship or table of the study has changed, or is not where it was: put it back"
-        )
+        raise StudyError(f"{folder}: row {row} cannot be run again: {change}: put back what was there")
     return write_replay(table, study, row)
 
 

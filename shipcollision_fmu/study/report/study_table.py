@@ -26,6 +26,7 @@ REMEDY = "go on with `shipcollision study STUDY.toml --out DIR --resume`, then s
 class StudyTable:
     """The encounters of a study's folder. Cases that are done are those with an energy; others are refused.
 
+    told: study.json
     name, level, sampler, engine: as in the study; rows: its cases; present: those whose part is written
     row: numbers of the cases that are done, rising; energy: what they lost [J]
     contact_at_end: number of cases that end with hulls that touch
@@ -36,6 +37,7 @@ class StudyTable:
         """Raises StudyError for a folder whose files are damaged or have no case that is done."""
         self.folder = folder
         told = _read_json(folder)
+        self.told = told
         self.fingerprint, self.rows = str(told["fingerprint"]), int(told["rows"])
         self.level, self.engine = str(told["level"]), str(told["engine"])
         file = _read_file(folder)
@@ -114,7 +116,7 @@ class StudyTable:
     def _find_parts(self) -> list[Path]:
         parts = sorted((self.folder / "encounters").glob("part-*.parquet"))
         if not parts:
-            raise StudyError(f"{self.folder} has no part of its rows yet: {REMEDY}")
+            raise StudyError(f"{self.folder} has no part of its rows yet: wait while the study runs, or {REMEDY}")
         for part in parts:
             mark = read_mark(part)
             if mark is None or mark.fingerprint != self.fingerprint:

@@ -18,7 +18,7 @@ import pytest
 from click.testing import CliRunner, Result
 from selenium.webdriver import Chrome
 
-from shipcollision_fmu import run_study
+from shipcollision_fmu import __version__, run_study
 from shipcollision_fmu.cli import main
 from shipcollision_fmu.errors import HostError
 from shipcollision_fmu.show import extras
@@ -232,9 +232,10 @@ def test_rows_that_cannot_be_replayed_are_refused(folder: Path, tmp_path: Path) 
     assert "row = 400 is not in the study" in called("show", folder, "--row", "400").stderr
     assert "--row shows a row of a study" in called("show", tmp_path, "--row", "1").stderr
     (folder / "study.toml").write_text(TEXT.replace("seed = 3", "seed = 4"), encoding="utf-8")
-    assert "a ship or table of the study has changed, or is not where it was: put it back" in called(
-        "show", folder, "--row", "1"
-    ).stderr  # fmt: skip
+    assert called("show", folder, "--row", "1").stderr == (
+        f"error: {folder}: row 1 cannot be run again: it was begun by another build of version {__version__}, or its "
+        "study.toml was edited: put back what was there\n"
+    )
     assert not (folder / "replays").exists()
 
 
@@ -333,7 +334,7 @@ def test_a_study_file_with_files_beside_it_is_said(folder: Path) -> None:
     text = TEXT.replace('"kvlcc2"]', '"ships/mine.toml"]')
     (folder / "study.toml").write_text(text, encoding="utf-8")
     assert called("show", folder).exit_code == 0
-    assert "A ship or table of the study has changed, or is not where it was" in read_page(folder)
+    assert "No case can be run again: study.toml: [own] ships: ships/mine.toml: no such file in" in read_page(folder)
 
 
 @pytest.mark.usefixtures("undrawn")
@@ -380,7 +381,7 @@ def test_damaged_folders_are_refused(folder: Path) -> None:
     part.write_bytes(content[: len(content) // 2])
     assert refused(folder) == f"{part} is cut short or of another study: {remedy}"
     part.unlink()
-    assert refused(folder) == f"{folder} has no part of its rows yet: {remedy}"
+    assert refused(folder) == f"{folder} has no part of its rows yet: wait while the study runs, or {remedy}"
     (folder / "study.json").write_text("{}", encoding="utf-8")
     assert refused(folder) == (
         f"{folder / 'study.json'} is not that of a study: give a folder that `shipcollision study` has written"
@@ -534,3 +535,35 @@ def test_the_table_of_the_worst_cases_fits_1200_pixels(
             assert first == "replay"
     finally:
         browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_the_ship_that_has_changed_is_named(tmp_path: Path) -> None:
+    """By `show`, by `show --row` and on the page, as --resume names it."""
+    ship, text = tmp_path / "ferry.toml", SHIP.format(name="Ferry 120", kind="ferry", L_pp=120.0)
+    ship.write_text(text, encoding="utf-8")
+    file = TEXT.replace('"kvlcc2"]', '"ferry.toml"]').replace("rows = 400", "rows = 30")
+    out = write_study(tmp_path, file)
+    ship.write_text(text.replace("B = 20.0", "B = 21.0"), encoding="utf-8")
+    change = "changed since: ship ferry.toml of [own] (its content)"
+    line = f"error: {out}: row 1 cannot be run again: {change}: put back what was there\n"
+    assert called("show", out, "--row", "1").stderr == line
+    result = called("show", out)
+    assert (result.exit_code, result.stderr) == (0, f"no replays: {change}\n")
+    assert f"No case can be run again: {change}. Put back what was there" in read_page(out)
+    ship.write_text(text, encoding="utf-8")  # the remedy
+    assert "has the numbers of the table" in called("show", out, "--row", str(find_worst_rows(out)[0])).stdout
+
+
+def test_a_folder_of_neither_a_run_nor_a_study_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "other").mkdir()
+    (tmp_path / "other" / "a.txt").touch()
+    (tmp_path / "empty").mkdir()
+    faults = {"other": "is not the folder of a run or a study", "empty": "is empty", "missing": "does not exist"}
+    for name, fault in faults.items():
+        result = called("show", tmp_path / name)
+        assert (result.exit_code, result.stderr) == (
+            2,
+            f"error: {tmp_path / name} {fault}: give a folder that `shipcollision run` or `shipcollision study` has "
+            "written; a study begins its folder some seconds after its start\n",
+        )
