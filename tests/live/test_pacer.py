@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import queue
 import random
+from concurrent.futures import Future
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from shipcollision_fmu import load_scenario
-from shipcollision_fmu.errors import InputError
+from shipcollision_fmu.errors import HostError, InputError
 from shipcollision_fmu.live.session import session as module
 from shipcollision_fmu.live.session.commands import Back, End, Horn, Leave, Mark, Order, Pause, Rate, Step, TakeCommand
 from shipcollision_fmu.live.session.pacer import MOST_LAG, WINDOW, Pacer
@@ -252,3 +253,82 @@ def test_a_fault_of_ours_ends_the_run_with_a_line(monkeypatch: pytest.MonkeyPatc
     assert str(session.error) == "the live session failed: ZeroDivisionError: oops"
     assert events[-1]["error"] == str(session.error)
     assert (tmp_path / "out" / "states.csv").is_file()
+
+
+def test_a_fault_in_a_command_is_answered_and_the_run_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(self: Any, name: str) -> None:
+        raise MemoryError("no room")
+
+    monkeypatch.setattr(module.LiveRun, "mark", lambda self, name: name == "start" or fail(self, name))
+    session, events, clock = played([(1.0, Mark("here")), (2.0, End())])
+    assert session.snapshot.time == pytest.approx(2.0, abs=0.1)
+    with pytest.raises(HostError, match="Mark failed: MemoryError: no room"):
+        clock.answers[0].result(0.0)
+    assert [event["message"] for event in events if event["kind"] == "log"] == ["Mark failed: MemoryError: no room"]
+
+
+def test_a_fault_in_the_midst_of_the_models_is_answered_and_ends_the_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(self: Any, name: str) -> None:
+        raise ZeroDivisionError("oops")
+
+    monkeypatch.setattr(module.LiveRun, "go_back", fail)
+    clock, events = FakeClock([(1.0, Back("start"))]), list[dict[str, Any]]()
+    clock.session = session = Session(load_scenario("kvlcc2_crossing"), clock=clock)
+    session.listen(events.append)
+    session.start()
+    assert session.join(30.0)
+    with pytest.raises(HostError, match="Back failed: ZeroDivisionError: oops"):
+        clock.answers[0].result(0.0)
+    assert events[-1]["error"] == "the live session failed: ZeroDivisionError: oops"
+
+
+def test_the_end_is_told_whatever_fails_at_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A model that can no longer be looked at, and a listener that fails."""
+    clock, events = FakeClock([]), list[dict[str, Any]]()
+    session = Session(load_scenario("kvlcc2_crossing"), clock=clock)
+
+    def fail(*_: Any) -> None:
+        raise ZeroDivisionError("oops")
+
+    session.listen(fail)
+    session.listen(events.append)
+    monkeypatch.setattr(module.LiveRun, "observe_ships", fail)
+    session.start()
+    assert session.join(30.0)
+    assert events[-1]["kind"] == "end"
+    assert not session.snapshot.running
+
+
+def test_no_command_slips_in_behind_the_last_that_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It comes while the session ends: between the look whether it runs and the queue."""
+    session = Session(load_scenario("kvlcc2_crossing"))
+    session.start()
+    put = session._waiting.put_nowait
+
+    def put_late(waiting: Any) -> None:
+        put((End(), Future()))
+        session.join(0.5)
+        put(waiting)
+
+    monkeypatch.setattr(session._waiting, "put_nowait", put_late)
+    with pytest.raises(InputError, match="the run has ended: start another one"):
+        session.submit(Mark("late")).result(10.0)
+    assert session.join(30.0)
+
+
+def test_marks_may_be_read_while_one_is_set(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Another thread lists them for a page that opens; here it is interrupted after the first."""
+    run = Session(load_scenario("kvlcc2_crossing")).run
+    step, marked = run.step, list[str]()
+
+    def step_and_mark(self: Any) -> float:
+        if not marked:
+            marked.append("meanwhile")
+            monkeypatch.setattr(module.LiveRun, "step", property(lambda self: step))
+            run.mark("meanwhile")
+        return step
+
+    monkeypatch.setattr(module.LiveRun, "step", property(step_and_mark))
+    assert run.marks == {"start": step}
+    assert list(run.marks) == ["start", "meanwhile"]
+    run.close()

@@ -173,12 +173,13 @@ class LiveRun:
         """Keep the state under a name; one of that name is replaced. Raises InputError for too many marks."""
         if name not in self._marks and len(self._marks) >= MOST_MARKS:
             raise InputError(f"mark {name!r}: there are {MOST_MARKS} marks, which is the limit: take the name of one")
-        self._marks.pop(name, None)
-        self._marks[name] = _Kept(
+        kept = _Kept(
             self.k, [component.save() for component in self._components],
             {ship: bridge.save() for ship, bridge in self.bridges.items()}, self._stepper.recorder.mark(),
             dict(self._changes), list(self._around), self._waiting, self._end,
         )  # fmt: skip
+        others = {other: mark for other, mark in self._marks.items() if other != name}
+        self._marks = {**others, name: kept}  # a new one, as other threads may read the one before
 
     def go_back(self, name: str) -> None:
         """Go back to a mark; what was recorded and marked since is forgotten. Raises InputError for an unknown name."""

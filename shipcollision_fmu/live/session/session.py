@@ -23,11 +23,13 @@ import queue
 import threading
 from collections.abc import Callable
 from concurrent.futures import Future
+from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 from time import monotonic
 from typing import Any, Protocol
 
-from ...errors import HostError, InputError, ShipCollisionError, StepError
+from ...errors import HostError, InputError, ShipCollisionError
 from ...scenario.scenario import Scenario
 from ...show.page import PAGE
 from .commands import (
@@ -120,12 +122,12 @@ class Session:
         self._listeners: list[Callable[[Event], None]] = []
         self._touching: dict[int, bool] = {}
         self._separation = scenario.collision.minimum_separation_time or 10.0
-        self._refused, self._counting = 0, threading.Lock()
+        self._refused, self._counting, self._entering = 0, threading.Lock(), threading.Lock()
         self._failed: ShipCollisionError | None = None
         self._folder: Path | None = None
         self._thread = threading.Thread(target=self._work, name="live session", daemon=True)
         self._published = -PUBLISHED
-        self._snapshot = self._observe(running=True)
+        self._snapshot = self._observe()
 
     # -- for other threads --------------------------------------------------------------------------------------------
 
@@ -177,13 +179,14 @@ class Session:
     def submit(self, command: Command) -> Future[Any]:
         """Hand in a command. The Future has None when it is done, or the InputError that refuses it."""
         answer: Future[Any] = Future()
-        if not self._snapshot.running:
-            answer.set_exception(InputError("the run has ended: start another one"))
-            return answer
-        try:
-            self._waiting.put_nowait((command, answer))
-        except queue.Full:
-            answer.set_exception(InputError(f"{MOST_WAITING} commands wait already: send fewer"))
+        with self._entering:  # none comes in after those that wait were refused
+            if not self._snapshot.running:
+                answer.set_exception(InputError("the run has ended: start another one"))
+                return answer
+            try:
+                self._waiting.put_nowait((command, answer))
+            except queue.Full:
+                answer.set_exception(InputError(f"{MOST_WAITING} commands wait already: send fewer"))
         return answer
 
     def listen(self, listener: Callable[[Event], None]) -> Callable[[], None]:
@@ -208,11 +211,8 @@ class Session:
                 self._obey()
                 if not self._reason and self._is_due():
                     self._advance()
-        except ShipCollisionError as error:
-            self._failed = error
-            self._reason = str(error)
-        except BaseException as error:  # a fault of ours; people are to hear of it
-            self._failed = HostError(f"the live session failed: {type(error).__name__}: {error}")
+        except BaseException as error:  # a model's, or a fault of ours; people are to hear of it
+            self._failed = _describe_fault("the live session failed", error)
             self._reason = str(self._failed)
         self._finish()
 
@@ -254,13 +254,16 @@ class Session:
             return
         try:
             self._actions[type(command)](command)
+            self._publish()
         except InputError as error:
             answer.set_exception(error)
-        except StepError as error:
-            answer.set_exception(error)
-            raise
+        except Exception as error:
+            fault = _describe_fault(f"{type(command).__name__} failed", error)
+            answer.set_exception(fault)
+            if isinstance(command, Step | Back):  # the models may be in the midst of it
+                raise
+            self._tell("log", message=str(fault))
         else:
-            self._publish()
             answer.set_result(None)
 
     def _order(self, command: Order) -> None:
@@ -381,23 +384,26 @@ class Session:
 
     # -- what is told -------------------------------------------------------------------------------------------------
 
-    def _observe(self, running: bool) -> Snapshot:
+    def _observe(self) -> Snapshot:
         now, run = self._clock.now(), self._run
         return Snapshot(
             time=run.time, step_count=run.k, rate=self._pacer.rate, paced=self._pacer.is_paced(now),
             real_rate=0.0 if self._paused else self._pacer.measure(now, run.time), paused=self._paused,
-            running=running, ships=run.observe_ships(), environment=run.observe_environment(),
+            running=True, ships=run.observe_ships(), environment=run.observe_environment(),
             contact=run.observe_contact(), command=dict(self._command), refused=self._refused,
         )  # fmt: skip
 
     def _publish(self) -> None:
-        self._snapshot = self._observe(running=True)
+        self._snapshot = self._observe()
         self._published = self._clock.now()
 
     def _tell(self, kind: str, **what: Any) -> None:
         event = {"kind": kind, "time": self._run.time, **what}
         for listener in self._listeners:
-            listener(event)
+            try:
+                listener(event)
+            except Exception:  # the others are to hear of it, and the run goes on
+                self._listeners = [other for other in self._listeners if other is not listener]
 
     def _tell_of_collisions(self) -> None:
         touches = self._run.list_touches()
@@ -431,13 +437,21 @@ class Session:
                 fault if isinstance(fault, ShipCollisionError) else HostError(f"cannot write the run: {fault}")
             )
             error = str(self._failed)
-        self._snapshot = self._observe(running=False)
+        with suppress(Exception):  # what cannot be seen any more stays as it was last
+            self._publish()
+        with self._entering:
+            self._snapshot = replace(self._snapshot, running=False)
         folder = None if self._folder is None else str(self._folder)
         self._tell("end", folder=folder, message=self._reason, error=error)
         while (left := WallClock().wait(self._waiting, 0.0)) is not None:
             if left[1].set_running_or_notify_cancel():
                 left[1].set_exception(InputError("the run has ended: start another one"))
         self._run.close()
+
+
+def _describe_fault(what: str, error: BaseException) -> ShipCollisionError:
+    """The error as people read it: as it is where it has a line of ours, else with its kind."""
+    return error if isinstance(error, ShipCollisionError) else HostError(f"{what}: {type(error).__name__}: {error}")
 
 
 def check_rate(rate: float) -> float:
