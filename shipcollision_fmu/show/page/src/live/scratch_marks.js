@@ -7,7 +7,7 @@ const MOST = 500; // strokes on a ship; the oldest go
 const RECENT = 5; // a stroke begins at a place that was touched so long before at most [s],
 const NEAR = 30; // and so far away [m]
 const LIFT = 0.12; // over the plating [m]
-const MATERIAL = new THREE.MeshStandardMaterial({ color: "#ff7a2e", roughness: 0.5, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: -2, polygonOffsetUnits: -2 });
+const MATERIAL = new THREE.MeshLambertMaterial({ color: "#ff7a2e", side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: -2, polygonOffsetUnits: -2 });
 
 /** The breadth of a scratch [m], as in the .glb (show/gltf/ribbons.py). */
 const breadthOf = (length) => 2 * Math.min(0.6, Math.max(0.02, 0.0016 * length));
