@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from contextlib import ExitStack, suppress
 from datetime import datetime
+from functools import partial
 from pathlib import Path
 from threading import Thread
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -141,7 +142,7 @@ def _open_outlets(session: Session, offered: _Offered, folder: Path) -> Outlets 
 
     addresses = OutletAddresses(*offered[1:])
     try:
-        return Outlets(session, offered.own, addresses) if addresses else None
+        return Outlets(session, offered.own, addresses, partial(say, err=True)) if addresses else None
     except ShipCollisionError:
         session.run.close()
         with suppress(OSError):

@@ -54,6 +54,8 @@ class Recorded:
         self.orders: list[tuple[str, Mapping[str, float | int]]] = []
         self.command: dict[str, str] = {}
         self.refused = 0
+        self.slow: list[Future[None]] = []
+        self.state: dict[str, float] = {"time": 1.5}
 
     def done(self, error: Exception | None = None) -> Future[None]:
         answer: Future[None] = Future()
@@ -72,6 +74,10 @@ class Recorded:
     def order(self, client: str, ship: str, values: Mapping[str, float | int]) -> Future[None]:
         if self.command.get(ship) != client:
             return self.done(InputError(f"nobody is in command of {ship}"))
+        if self.slow:
+            return self.slow.pop(0)
+        if values.get("rudder_deg", 0.0) > 90.0:
+            return self.done(InputError("99 is beyond"))
         self.orders.append((ship, values))
         return self.done()
 
@@ -82,7 +88,7 @@ class Recorded:
         self.refused += 1
 
     def connect(self) -> Orders:
-        return Orders(self.take, self.order, self.command_of, self.leave, lambda: {"time": 1.5}, self.count)
+        return Orders(self.take, self.order, self.command_of, self.leave, lambda: self.state, self.count)
 
     def command_of(self, ship: str) -> str | None:
         return self.command.get(ship)
@@ -212,6 +218,45 @@ def test_a_page_in_a_browser_cannot_order(
     assert bridge.ask(b"[1]")["ok"] is False
     assert bridge.ask(b"full ahead")["ok"] is False
     assert bridge.ask(ORDER.strip())["ok"]
+
+
+@pytest.mark.parametrize("more", [{}, {"command": True}])
+def test_a_first_order_that_is_refused_leaves_nobody_in_command(
+    session: Recorded, connect: Connect, more: dict[str, Any]
+) -> None:  # fmt: skip
+    bridge, line = connect(), {"ship": "own", "rudder_deg": 99, **more}
+    assert bridge.ask(line) == {"ok": False, "error": "99 is beyond"}
+    assert session.command == {}
+    assert bridge.ask({"ship": "own", "rudder_deg": 5})["ok"]
+    assert bridge.ask(line)["ok"] is False
+    assert list(session.command) == ["own"]  # it had command before
+
+
+def test_an_order_that_is_not_answered_in_time_is_withdrawn(
+    session: Recorded, connect: Connect, monkeypatch: pytest.MonkeyPatch
+) -> None:  # fmt: skip
+    """A session that is at a long step: when it comes to the order, it does what was not cancelled."""
+    monkeypatch.setattr(order_port, "LONGEST_ANSWER", 0.05)
+    bridge, waits, begun = connect(), Future[None](), Future[None]()
+    begun.set_running_or_notify_cancel()
+    session.slow = [waits, begun]
+    first = bridge.ask({"ship": "own", "rudder_deg": 5})
+    assert first["error"] == "the simulation did not answer within 0.05 s; it is withdrawn: try again"
+    assert waits.cancelled()
+    second = bridge.ask({"ship": "own", "rudder_deg": 5})
+    assert second["error"] == "the simulation did not answer within 0.05 s; it may still be done: ask for the state"
+
+
+def test_a_fault_costs_one_client_its_connection(session: Recorded, connect: Connect) -> None:
+    """A state that is no JSON, of a motion that diverges, say."""
+    other, bridge = connect(), connect()
+    assert other.ask({"ship": "own", "rudder_deg": 5})["ok"]
+    session.state = {"time": float("nan")}
+    error = bridge.ask({"state": True})["error"]
+    assert error.startswith("the order port failed: ValueError: Out of range float values are not JSON compliant")
+    assert error.endswith("; the connection ends")
+    assert bridge.answers.readline() == b""
+    assert other.ask({"ship": "own", "rudder_deg": 6})["ok"]
 
 
 def test_too_many_lines_in_a_second_are_refused(connect: Connect) -> None:

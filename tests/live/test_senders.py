@@ -12,7 +12,9 @@ import pytest
 from shipcollision_fmu import load_scenario
 from shipcollision_fmu.errors import HostError, InputError
 from shipcollision_fmu.live.protocols.addresses import parse_address
+from shipcollision_fmu.live.protocols.feeds import NmeaFeed
 from shipcollision_fmu.live.protocols.outlets import OutletAddresses, Outlets
+from shipcollision_fmu.live.protocols.sample import Sample
 from shipcollision_fmu.live.protocols.senders import MOST_CLIENTS, MOST_PENDING, TcpSender, UdpSender
 from shipcollision_fmu.live.session.commands import End
 from shipcollision_fmu.live.session.session import Session
@@ -151,3 +153,28 @@ def test_a_live_session_speaks_to_all(receiver: socket.socket) -> None:
             session.submit(End())
             assert session.join(20.0)
     assert session.error is None
+
+
+def test_a_fault_while_sending_is_told_once_and_what_comes_later_is_sent(
+    receiver: socket.socket, monkeypatch: pytest.MonkeyPatch
+) -> None:  # fmt: skip
+    session, told, left = Session(load_scenario("kvlcc2_crossing"), rate=20.0), list[str](), [3]
+    take = NmeaFeed.take
+
+    def fail_at_first(feed: NmeaFeed, sample: Sample) -> list[bytes]:
+        left[0] -= 1
+        if left[0] >= 0:
+            raise ZeroDivisionError("oops")
+        return take(feed, sample)
+
+    monkeypatch.setattr(NmeaFeed, "take", fail_at_first)
+    outlets = Outlets(session, "own", OutletAddresses((f"udp://127.0.0.1:{receiver.getsockname()[1]}",)), told.append)
+    session.start()
+    outlets.start()
+    try:
+        assert receiver.recv(1000).startswith((b"$", b"!"))
+    finally:
+        outlets.close()
+        session.submit(End())
+        session.join(20.0)
+    assert told == ["warning: NMEA, AIS and DIS have gaps: ZeroDivisionError: oops"]

@@ -114,7 +114,17 @@ class OrderPort:
                     continue
                 client = self._clients.get(key.fileobj)  # type: ignore[call-overload]
                 if client is not None:
-                    self._attend(client, events)
+                    self._guard(client, events)
+
+    def _guard(self, client: _Client, events: int) -> None:
+        """A fault of ours costs one client its connection, and the others nothing."""
+        try:
+            self._attend(client, events)
+        except Exception as fault:
+            message = f"the order port failed: {type(fault).__name__}: {fault}; the connection ends"
+            client.answers += json.dumps({"ok": False, "error": message}).encode() + b"\n"
+            self._send(client)
+            self._drop(client)
 
     def _accept(self) -> None:
         try:
@@ -199,12 +209,17 @@ class OrderPort:
         if line.state:
             return {"state": self._orders.state()}
         ship = line.ship or ""
-        if line.command is not None:
-            _wait(self._orders.take(client.name, ship, line.command))
-        elif self._orders.in_command(ship) is None:
-            _wait(self._orders.take(client.name, ship, True))
+        before = self._orders.in_command(ship)
+        has_taken = before != client.name and (line.command or (line.command is None and before is None))
+        if line.command is not None or has_taken:
+            _wait(self._orders.take(client.name, ship, line.command is not False))
         if line.order and line.command is not False:
-            _wait(self._orders.order(client.name, ship, line.order))
+            try:
+                _wait(self._orders.order(client.name, ship, line.order))
+            except InputError:
+                if has_taken:  # what is refused changes nothing
+                    _wait(self._orders.take(client.name, ship, False))
+                raise
         return {}
 
     def _refuse_line(self, client: _Client, message: str) -> None:
@@ -246,7 +261,8 @@ def _wait(answer: Future[Any]) -> None:
     try:
         answer.result(LONGEST_ANSWER)
     except TooLate:
-        raise InputError(f"the simulation did not answer within {LONGEST_ANSWER:g} s: try again") from None
+        end = "it is withdrawn: try again" if answer.cancel() else "it may still be done: ask for the state"
+        raise InputError(f"the simulation did not answer within {LONGEST_ANSWER:g} s; {end}") from None
     except InputError:
         raise
     except Exception as error:

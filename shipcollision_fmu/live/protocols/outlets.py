@@ -7,7 +7,7 @@ a snapshot that it misses is not sent, and what a receiver does not take is drop
 from __future__ import annotations
 
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
 from math import radians
 from typing import Any, NamedTuple
@@ -72,9 +72,12 @@ def make_sample(snapshot: Snapshot) -> Sample:
 
 class Outlets:
     """All outlets of a session; start() them, and close() them. Raises HostError for an address that cannot be used,
-    InputError for one that is none."""
+    InputError for one that is none. `tell` is given a line on the first fault while it sends."""
 
-    def __init__(self, session: Session, own: str, addresses: OutletAddresses) -> None:
+    def __init__(
+        self, session: Session, own: str, addresses: OutletAddresses, tell: Callable[[str], object] = lambda line: None
+    ) -> None:
+        self._tell = tell
         fleet = make_fleet(session.scenario, own)
         self._session = session
         self.senders: list[Sender] = []
@@ -94,6 +97,7 @@ class Outlets:
             self.close()
             raise
         self._feeds = [(feed, to) for feed, to in ((NmeaFeed(fleet), nmea), (DisFeed(fleet), dis)) if to]
+        self.fault: str | None = None
         self._ending, self._step = threading.Event(), -1
         self._thread = threading.Thread(target=self._pump, name="protocols", daemon=True)
         self.silenced = 0
@@ -116,7 +120,12 @@ class Outlets:
 
     def _pump(self) -> None:
         while not self._ending.wait(PERIOD):
-            self.send(self._session.snapshot)
+            try:
+                self.send(self._session.snapshot)
+            except Exception as fault:  # of ours; what comes later is sent, and somebody is to hear of it
+                if self.fault is None:
+                    self.fault = f"{type(fault).__name__}: {fault}"
+                    self._tell(f"warning: NMEA, AIS and DIS have gaps: {self.fault}")
 
     def send(self, snapshot: Snapshot) -> None:
         """Send what is due at a snapshot; one that was seen before gives clients alone the chance to come and go."""
