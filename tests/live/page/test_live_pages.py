@@ -230,6 +230,40 @@ def test_one_is_in_command_and_the_others_see_who(bridge: BridgePage, server: Li
 
 
 @pytest.mark.slow
+def test_the_instructor_cons_one_ship_after_another_and_sees_the_marks_that_there_are(
+    browser: Chrome, server: LiveServer
+) -> None:  # fmt: skip
+    page = BridgePage(browser, server.address("instructor"))
+    page.wait("return live.state && document.querySelector('[data-conn=own]')")
+    for ship in ("target", "own"):
+        browser.find_element(By.CSS_SELECTOR, f'[data-conn="{ship}"]').click()
+        page.wait(f"return live.state.command.{ship} === live.client")
+        page.run(f"live.ask('order', {{ship: '{ship}', rudder_deg: 0}})")
+        page.wait(f"return live.state.ships.{ship}.rudder_order === 0")
+    page.wait("return document.getElementById('wheel').getAttribute('aria-valuenow') === '0'")
+    page.run("""
+        const buttons = [...document.querySelectorAll('.conn-tools button')];
+        const starboard = buttons.find((button) => button.textContent.startsWith('5°'));
+        starboard.click();
+        document.querySelector('[data-conn="target"]').click();
+        starboard.click();
+    """)
+    for ship in ("own", "target"):
+        page.wait(f"return Math.abs(live.state.ships.{ship}.rudder_order - 5 * Math.PI / 180) < 1e-9")
+    for name in ("first", "second"):
+        page.run(f"live.ask('mark', {{name: '{name}'}})")
+        page.wait(f"return document.querySelector('[data-mark={name}]')")
+        page.wait(f"return live.state.time > {page.state('.time')} + 0.5")
+    page.run("live.ask('back', {name: 'first'})")
+    page.wait("return !document.querySelector('[data-mark=second]')")
+    assert page.run("return document.querySelector('[data-mark=first]') !== null")
+    page.run("live.session.watch({...live.state, paused: false, paced: false, real_rate: 0.97})")
+    assert page.run("return live.session.alarms.list.get('slow').words()").endswith(": 0.97\u00d7")
+    page.run("for (const ship of ['own', 'target']) live.ask('command', {ship, take: false})")
+    assert page.complaints() == []
+
+
+@pytest.mark.slow
 def test_the_instructor_sets_what_there_is_to_set(browser: Chrome, server: LiveServer) -> None:
     page = BridgePage(browser, server.address("instructor"))
     page.wait("return live.state")

@@ -107,17 +107,28 @@ export class Conning {
     this.gauge.setLimit(this.limit);
   }
 
+  /** Another ship is to be conned, in this state: the one before gets what waits for it, the other begins with its own. */
+  reset(ship) {
+    this.blow(false);
+    if (this.timer) this.flush();
+    this.pending = 0;
+    this.show(ship, false);
+  }
+
   /** An order, no more often than the server likes: the last one counts. */
   send(fields) {
     this.fields = { ...this.fields, ...fields };
     this.pending = performance.now() + 1000; // the wheel is not turned back meanwhile
     if (this.timer) return;
     const wait = Math.max(0, OFTEN - (performance.now() - (this.sent ?? -Infinity)));
-    this.timer = setTimeout(() => {
-      const order = this.fields;
-      Object.assign(this, { timer: null, fields: {}, sent: performance.now() });
-      this.give(order);
-    }, wait);
+    this.timer = setTimeout(() => this.flush(), wait);
+  }
+
+  flush() {
+    const order = this.fields;
+    clearTimeout(this.timer);
+    Object.assign(this, { timer: null, fields: {}, sent: performance.now() });
+    this.give(order);
   }
 
   setRudder(degrees) {
@@ -166,7 +177,7 @@ export class Conning {
   }
 
   blow(on) {
-    if (this.isBlowing === on) return;
+    if (Boolean(this.isBlowing) === on) return;
     this.isBlowing = on;
     this.whistle.classList.toggle("on", on);
     this.horn(on);

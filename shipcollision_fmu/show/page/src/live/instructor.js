@@ -59,16 +59,18 @@ export async function startInstructor() {
   }
 
   async function conn(name) {
+    conning.setLimits(session.infoOf(name).limits ?? null);
+    if (name !== conned) conning.reset(session.state.ships[name]);
     conned = name;
     conningPlace.hidden = false;
     conningHead.textContent = name;
-    conning.setLimits(session.infoOf(name).limits ?? null);
     if (session.state.command[name] !== session.hello.client) await ask("command", { ship: name, take: true });
   }
 
-  /** A line of the log; a new mark is listed. */
+  /** A line of the log; a new mark is listed, and those are not that are later than where the run has gone back to. */
   function note(event) {
     if (event.kind === "mark") marks.add(event);
+    if (event.kind === "back") marks.keep(event.time);
     const text = describeEvent(event);
     if (text === null) return;
     book.prepend(element("li", {}, element("time", { text: clockTime(event.time, 0) }), ` ${text}`));
@@ -162,6 +164,9 @@ function makeMarks(ask) {
     node: element("section", {}, inWords(element("h2", {}), { text: "marks" }), list, none, element("div", { class: "row wide-first" }, name, textButton("set_mark", set, { id: "set-mark" }))),
     add({ name: called, time }) {
       this.show([...this.known.filter((mark) => mark.name !== called), { name: called, time }]);
+    },
+    keep(latest) {
+      this.show(this.known.filter((mark) => mark.time <= latest));
     },
     /** `known`: [{name, time}]. */
     show(known) {

@@ -87,7 +87,7 @@ export class Session {
     const isNews = last !== undefined && (state.contact.points > 0 || state.time - last.time < JUST);
     for (const collision of state.contact.collisions) this.meet(collision);
     alarms.set("contact", isNews, "alarm", () => say("alarm_contact", { a: last.ship_a, b: last.ship_b }));
-    alarms.set("slow", !state.paused && !state.paced, "caution", () => say("alarm_slow", { rate: number(state.real_rate, 1) }));
+    alarms.set("slow", !state.paused && !state.paced, "caution", () => say("alarm_slow", { rate: number(state.real_rate, 2) }));
     const failing = this.role === "bridge" ? [this.own] : [];
     for (const what of ["blackout", "rudder"]) {
       alarms.set(what, failing.some((name) => state.ships[name].failures.includes(what)), "alarm", () => say(`alarm_${what}`));
