@@ -8,6 +8,7 @@ import socket
 import time
 from base64 import b64encode
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,7 @@ from websockets.sync.client import ClientConnection, connect
 
 from shipcollision_fmu.errors import StepError
 from shipcollision_fmu.live.server import access, hub
+from shipcollision_fmu.live.server import serve as serve_module
 from shipcollision_fmu.live.server.access import Allowance, Tokens, is_own_origin
 from shipcollision_fmu.live.server.serve import MOST_MESSAGE
 from shipcollision_fmu.live.session import run_folder
@@ -332,6 +334,23 @@ def test_clients_that_vanish_in_the_middle(server: LiveServer) -> None:
         bare.sendall(b"GET / HT")
     eventually(lambda: server.app.hub.clients == 0)
     assert_alive(server)
+
+
+@pytest.mark.parametrize("sent", [b"", b"GET / HT", b"GET / HTTP/1.1\r\nHost: a\r\n\r\nGET"])
+def test_connections_that_say_nothing_lock_nobody_out(monkeypatch: pytest.MonkeyPatch, sent: bytes) -> None:
+    """Nor those that begin a request and do not end it, the first or a later one."""
+    monkeypatch.setattr(serve_module, "IDLE", 0.3)
+    monkeypatch.setattr(serve_module, "MOST_CONNECTIONS", 5)
+    with serving() as server, ExitStack() as stack:
+        path = f"/?token={server.app.tokens.bridge}"
+        for _ in range(8):
+            stack.enter_context(socket.create_connection(("127.0.0.1", server.port))).sendall(sent)
+        eventually(lambda: server.get(path)[0] == 503)
+        eventually(lambda: server.get(path)[0] == 200)
+        with server.connect() as client:  # a WebSocket may be silent
+            end = time.monotonic() + 0.8
+            while time.monotonic() < end:
+                receive_until(client, "state")
 
 
 def draw_message(rng: random.Random) -> str | bytes:

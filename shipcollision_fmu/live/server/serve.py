@@ -13,6 +13,7 @@ from collections.abc import Callable
 from contextlib import AbstractContextManager, nullcontext
 
 import uvicorn
+from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from ...errors import HostError
 from ..session.commands import End
@@ -24,6 +25,9 @@ MOST_MESSAGE = 16_384
 """Bytes in a message of a client. An order has some hundred."""
 MOST_CONNECTIONS = 200
 """Connections at a time, of browsers that fetch and of clients."""
+IDLE = 8.0
+"""[s] without any progress after which a connection ends that is no WebSocket: a request that does not come, an answer
+that is not read. Without it, whoever opens connections and is silent locks all others out, token or not."""
 SEND_BUFFER = 65_536
 """Bytes that the system keeps for a client: some three seconds of states. More would show a slow client the past."""
 LINGER = 60.0
@@ -61,11 +65,36 @@ class _Server(uvicorn.Server):
         return nullcontext()
 
 
+class _Http(H11Protocol):
+    """uvicorn's protocol, which has no limit for a request that never comes."""
+
+    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
+        super().connection_made(transport)
+        self._seen: object = self._look()
+        self.loop.call_later(IDLE, self._end_if_idle)
+
+    def _look(self) -> tuple[object, bool, int]:
+        """What changes while there is progress."""
+        is_answered = self.cycle is not None and self.cycle.response_complete
+        return self.cycle, is_answered, self.transport.get_write_buffer_size()
+
+    def _end_if_idle(self) -> None:
+        if self not in self.connections:  # it has gone, or is a WebSocket now
+            return
+        seen = self._look()
+        if seen == self._seen:
+            self.transport.abort()
+            return
+        self._seen = seen
+        self.loop.call_later(IDLE, self._end_if_idle)
+
+
 def make_server(app: LiveApp) -> uvicorn.Server:
     """The server of the application, with its limits; it writes no log."""
     return _Server(
         uvicorn.Config(
-            app.asgi, log_config=None, log_level="critical", access_log=False, lifespan="off", server_header=False,
+            app.asgi, http=_Http, log_config=None, log_level="critical", access_log=False, lifespan="off",
+            server_header=False,
             ws="websockets-sansio", ws_max_size=MOST_MESSAGE, ws_per_message_deflate=False, ws_ping_interval=10.0,
             ws_ping_timeout=10.0, limit_concurrency=MOST_CONNECTIONS, timeout_keep_alive=5,
             timeout_graceful_shutdown=2,
