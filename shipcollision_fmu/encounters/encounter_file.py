@@ -43,6 +43,8 @@ def write_encounter(
         "target's stem" if s == 0.5 else "target's stern" if s == -0.5 else f"target's {request.side} side, s = {s:g}"
     )
     predicate = kind.words if s == kind.at or not kind.elsewhere else kind.elsewhere
+    if kind.moving and request.target_speed:
+        predicate = kind.moving
     comment = [
         f"Made by `shipcollision encounter {request.kind}`, backwards from the impact.",
         f"Own {predicate}.",

@@ -44,6 +44,7 @@ class Kind:
 
     words, elsewhere          predicate of the sentence "Own ... ." in the scenario file, and that for a place s other
                               than the kind's own; empty where the predicate names no place
+    moving                    predicate where a target that lies stopped by default has a speed
     angles                    least and greatest angle between the headings [deg] that the name of the kind allows
     angle_deg, at             angle between the headings [deg], place s on the target
     own_speed, target_speed   approach speeds through the water [m/s]
@@ -63,6 +64,7 @@ class Kind:
     before: float = 0.0
     rudder_deg: float = 0.0
     drift_speed: float = 0.0
+    moving: str = ""
     elsewhere: str = ""
     angles: tuple[float, float] = (0.0, 180.0)
 
@@ -88,7 +90,9 @@ KINDS: dict[str, Kind] = {
         angles=OVERTAKING_ANGLES,
     ),
     "glancing": Kind("strikes target's side at a small angle", 20.0, 0.1, 6.0, 5.0, angles=GLANCING_ANGLES),
-    "t-bone": Kind("strikes the side of target, which lies stopped", 90.0, 0.0, 5.0, 0.0),
+    "t-bone": Kind(
+        "strikes the side of target, which lies stopped", 90.0, 0.0, 5.0, 0.0, moving="strikes the side of target"
+    ),
     "drifting-target": Kind("strikes target, which drifts across", 90.0, 0.0, 5.0, 0.0, drift_speed=1.0),
     "late-evasive": Kind(
         "puts its rudder over too late and strikes target", 70.0, 0.0, 6.0, 5.0, True, "evades", 40.0, 35.0

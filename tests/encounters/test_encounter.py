@@ -309,3 +309,10 @@ def test_the_description_names_the_place_that_is_struck() -> None:
     amidships = encounter("overtaking", at=0.3, angle_deg=30.0, step=0.5).text
     assert "Own overtakes target and strikes it." in amidships
     assert "stern" not in amidships
+
+
+def test_the_description_says_that_the_target_lies_stopped_only_where_it_does() -> None:
+    assert "Own strikes the side of target, which lies stopped." in encounter("t-bone", step=0.5).text
+    moving = encounter("t-bone", step=0.5, target_speed=3.0).text
+    assert "Own strikes the side of target." in moving
+    assert "stopped" not in moving
