@@ -77,6 +77,8 @@ def live(
 
     require_live()
     loaded = load_scenario(scenario)
+    for note in loaded.notes:
+        say(f"note: {note}")
     own = choose_own(loaded, ship)
     check_rate(rate)
     if duration is not None and not duration > 0.0:
@@ -88,7 +90,8 @@ def live(
         loaded, offered, folder, host, port, {"rate": rate, "duration": duration, "paused": paused},
         sets_pace=not instructor_only, in_browser=browser,
     )  # fmt: skip
-    _tell_of_end(session, folder)
+    if session.error is not None:
+        raise session.error
 
 
 class _Offered(NamedTuple):
@@ -132,7 +135,7 @@ def _run(
             stack.callback(outlets.close)
             outlets.start()
         at = listening.getsockname()[:2]
-        serve(app, listening, lambda: _tell_of_start(app, at, offered, in_browser))
+        serve(app, listening, lambda: _tell_of_start(app, at, offered, in_browser), lambda: _tell_of_end(app, folder))
     return session
 
 
@@ -180,19 +183,22 @@ def _warn_of_orders(orders: str | None) -> None:
         say(f"warning: --orders {orders} has no token: whoever reaches this address may steer any ship", err=True)
 
 
-def _tell_of_end(session: Session, folder: Path) -> None:
-    """Print where the run is. Raises the session's error."""
+def _tell_of_end(app: LiveApp, folder: Path) -> None:
+    """Print where the run is, and that open pages still lead to its replay."""
     from ..live.session.run_folder import SCENARIO as SCENARIO_FILE
 
+    session = app.session
     if session.error is not None:
         if session.folder is not None:
             say(f"stored in {folder}")
-        raise session.error
+        return
     say(f"stored in {folder}: {folder / SCENARIO_FILE} gives the same run again")
-    if session.page is not None:
-        say(f"open {session.page} in a browser to see it")
-    else:
+    if session.page is None:
         say(f"no page yet: `shipcollision show {folder}` writes it")
+        return
+    say(f"open {session.page} in a browser to see it")
+    if app.hub.clients:
+        say("open pages lead to it for a minute; Ctrl-C leaves now")
 
 
 def _make_spool(folder: Path) -> Path:

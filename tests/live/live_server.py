@@ -26,8 +26,8 @@ __all__ = ["LiveServer", "receive", "receive_until", "serving"]
 class LiveServer:
     """The address of a server, its application and its session."""
 
-    def __init__(self, app: LiveApp, port: int) -> None:
-        self.app, self.session, self.port = app, app.session, port
+    def __init__(self, app: LiveApp, port: int, ended: threading.Event) -> None:
+        self.app, self.session, self.port, self.ended = app, app.session, port, ended
 
     def address(self, role: str = "bridge", token: str | None = None) -> str:
         """Of the WebSocket."""
@@ -59,12 +59,12 @@ def serving(*, out: Any = None, patience: float = 5.0, **options: Any) -> Iterat
     with bind("127.0.0.1", 0) as listening:
         session = Session(scenario, out=out, **options)
         app = LiveApp(session, next(iter(scenario.ships)), patience=patience)
-        ready = threading.Event()
-        thread = threading.Thread(target=serve, args=(app, listening, ready.set), daemon=True)
+        ready, ended = threading.Event(), threading.Event()
+        thread = threading.Thread(target=serve, args=(app, listening, ready.set, ended.set), daemon=True)
         thread.start()
         assert ready.wait(20.0)
         try:
-            yield LiveServer(app, listening.getsockname()[1])
+            yield LiveServer(app, listening.getsockname()[1], ended)
         finally:
             goodbye, serve_module.GOODBYE, serve_module.LINGER = serve_module.GOODBYE, 0.02, 0.0
             session.submit(End())

@@ -16,6 +16,7 @@ from shipcollision_fmu.cli import main
 from shipcollision_fmu.errors import StepError
 from shipcollision_fmu.live.session import session as session_module
 from shipcollision_fmu.live.session.live_run import LiveRun
+from shipcollision_fmu.scenario.scenario import Scenario
 
 
 def live(folder: Path, *arguments: str) -> Result:
@@ -123,6 +124,12 @@ def test_what_a_model_that_failed_has_left_is_stored_and_said(tmp_path: Path, mo
     assert result.exit_code == 1
     assert result.stdout.splitlines()[-1] == f"stored in {tmp_path / 'run'}"
     assert result.stderr == "error: own: the motion diverges in the step at t = 0.05 s\n"
+
+
+def test_notes_of_the_scenario_are_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Scenario, "notes", property(lambda _: ["gap.csv: the longest gap is 200 s"]))
+    result = live(tmp_path, "--duration", "0.1")
+    assert result.stdout.startswith("note: gap.csv: the longest gap is 200 s\nbridge of own: ")
 
 
 def test_a_browser_of_the_terminal_does_not_hold_the_run_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -220,6 +220,7 @@ def test_a_collision_is_told_once_at_its_beginning_and_once_at_its_end(scenario_
         (Rate(float("nan")), "rate = nan must be from 0.25 to 20: give one such as 1"),
         (Step(), "a single step needs a pause: pause first"),
         (Back("there"), "there is no mark 'there': the marks are start"),
+        (Mark("start"), "mark 'start' is the beginning of the run: take another name"),
         (Mark(""), "mark '': give a name of 1 to 60 printable characters"),
         (Order("a", "own", rudder_deg=1.0), "nobody is in command of own: take command first"),
         (Order("a", "tug", rudder_deg=1.0), "there is no ship 'tug': the ships are own, target"),

@@ -23,6 +23,7 @@ from shipcollision_fmu.live.server.access import Allowance, Tokens, is_own_origi
 from shipcollision_fmu.live.server.serve import MOST_MESSAGE
 from shipcollision_fmu.live.session import run_folder
 from shipcollision_fmu.live.session import session as session_module
+from shipcollision_fmu.live.session.commands import End
 from shipcollision_fmu.live.session.live_run import LiveRun
 from tests.live.live_server import LiveServer, receive, receive_until, serving
 
@@ -413,6 +414,14 @@ def test_ten_thousand_random_messages_never_stop_it(monkeypatch: pytest.MonkeyPa
 
 
 # -- the end ----------------------------------------------------------------------------------------------------------
+
+
+def test_the_end_is_said_while_pages_are_open() -> None:
+    """Whoever started the command sees at once where the run is, and not a minute later."""
+    with serving() as server, server.connect():
+        server.session.submit(End())
+        assert server.ended.wait(20.0)
+        assert server.app.hub.clients == 1
 
 
 def test_the_end_is_told_and_the_replay_served(tmp_path: Path) -> None:

@@ -76,8 +76,10 @@ def _read_order(data: Mapping[str, Any]) -> dict[str, float | int]:
     for key in NUMBERS:
         if data.get(key) is not None:
             value = data[key]
-            if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) < LARGEST:
+            if isinstance(value, bool) or not isinstance(value, int | float):
                 raise InputError(f"{key} = {_shorten(value)} must be a number")
+            if not abs(value) < LARGEST:
+                raise InputError(f"{key} = {_shorten(value)} must be between -{LARGEST:g} and {LARGEST:g}")
             order[key] = float(value)
     telegraph = data.get("telegraph")
     if telegraph is not None:

@@ -102,12 +102,18 @@ def make_server(app: LiveApp) -> uvicorn.Server:
     )  # fmt: skip
 
 
-def serve(app: LiveApp, listening: socket.socket, ready: Callable[[], None] | None = None) -> None:
-    """Run session and server to the end. `ready` is called when pages can be asked for."""
-    asyncio.run(_serve(app, listening, ready))
+def serve(
+    app: LiveApp,
+    listening: socket.socket,
+    ready: Callable[[], None] = lambda: None,
+    ended: Callable[[], None] = lambda: None,
+) -> None:
+    """Run session and server to the end. `ready` is called when pages can be asked for, `ended` once the run is stored;
+    open pages may then still go to the replay."""
+    asyncio.run(_serve(app, listening, ready, ended))
 
 
-async def _serve(app: LiveApp, listening: socket.socket, ready: Callable[[], None] | None) -> None:
+async def _serve(app: LiveApp, listening: socket.socket, ready: Callable[[], None], ended: Callable[[], None]) -> None:
     server, interrupted = make_server(app), asyncio.Event()
     loop = asyncio.get_running_loop()
 
@@ -120,9 +126,9 @@ async def _serve(app: LiveApp, listening: socket.socket, ready: Callable[[], Non
     app.session.start()
     serving = asyncio.create_task(server.serve(sockets=[listening]))
     try:
-        if ready is not None:
-            ready()
+        ready()
         await app.hub.has_ended.wait()
+        ended()
         await _linger(app, interrupted)
     finally:
         server.should_exit = True

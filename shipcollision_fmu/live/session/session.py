@@ -66,6 +66,8 @@ PUBLISHED = 0.01
 """[s] of wall time between two snapshots at least. Pages ask twenty times a second, protocols less."""
 LONGEST_WAIT = 0.25
 """[s] without a command after which a paused session publishes again."""
+START = "start"
+"""Name of the mark at the beginning."""
 LONGEST_NAME = 60
 """Characters in the name of a mark."""
 
@@ -107,7 +109,7 @@ class Session:
         duration: float | None = None, paused: bool = False, clock: Clock | None = None,
     ) -> None:  # fmt: skip
         self._run = LiveRun(scenario, spool)
-        self._run.mark("start")
+        self._run.mark(START)
         ends = [end for end in (duration, self._run.latest_end) if end is not None]
         self._out, self._duration, self._clock = out, min(ends, default=None), clock or WallClock()
         self._waiting: queue.Queue[Waiting] = queue.Queue(MOST_WAITING)
@@ -367,6 +369,8 @@ class Session:
         name = command.name
         if not name.strip() or len(name) > LONGEST_NAME or not name.isprintable():
             raise InputError(f"mark {name[:LONGEST_NAME]!r}: give a name of 1 to {LONGEST_NAME} printable characters")
+        if name == START:
+            raise InputError(f"mark {name!r} is the beginning of the run: take another name")
         self._run.mark(name)
         self._tell("mark", name=name)
 
