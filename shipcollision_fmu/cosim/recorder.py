@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..collision.interface import contact_point_count
-from ..fmi.names import CONTACT_INTEGERS, CONTACT_START, IMPULSE, STATE, STEERING, contact_point, named
+from ..fmi.names import AXES, CONTACT_INTEGERS, CONTACT_START, IMPULSE, STATE, STEERING, contact_point, named
 from ..results.record import CONTACT_COLUMNS, SIGNALS, CollisionStart, Record
 from ..ship.frames import Array
 from .component import Component, Group
@@ -24,6 +24,7 @@ from .row_log import RowLog
 __all__ = ["CollisionSoFar", "ContactPoint", "EndValues", "Recorder", "RecorderMark"]
 
 ENERGY = CONTACT_COLUMNS.index("energy")
+PLACES = [[CONTACT_COLUMNS.index(column) for column in named(body, AXES)] for body in "ab"]
 CONTACT_ROOM = 64
 """Rows for contact points at first; they double when they are full."""
 
@@ -38,12 +39,17 @@ class EndValues(NamedTuple):
 
 
 class CollisionSoFar(NamedTuple):
-    """A collision while a run goes on: its ships, the energy dissipated so far [J], and when they last touched [s]."""
+    """A collision while a run goes on: its ships, the energy dissipated so far [J], and when they last touched [s].
+
+    a, b: where they touched first, in the b of each [m].
+    """
 
     ship_a: str
     ship_b: str
     energy: float
     last: float
+    a: tuple[float, float, float]
+    b: tuple[float, float, float]
 
 
 class ContactPoint(NamedTuple):
@@ -238,7 +244,10 @@ class Recorder:
                     self.starts[impact] = self._read_start(i)
                 before = self.collisions.get(impact)
                 energy = values[ENERGY] + (before.energy if before else 0.0)
-                self.collisions[impact] = CollisionSoFar(self._bodies[a - 1], self._bodies[b - 1], energy, time)
+                places = (before.a, before.b) if before else [tuple(values[j] for j in place) for place in PLACES]
+                self.collisions[impact] = CollisionSoFar(
+                    self._bodies[a - 1], self._bodies[b - 1], energy, time, *places
+                )
             self._contact_rows.append((time, self._bodies[a - 1], self._bodies[b - 1], impact, scratch, *values))
         self._issued_rows.append((k, *_read(self._issued)))
 

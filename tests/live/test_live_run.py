@@ -282,6 +282,10 @@ def test_contact_points_are_those_that_are_recorded(run: LiveRun, tmp_path: Path
     for place, columns in ((touch.a, "a."), (touch.b, "b.")):
         assert place == tuple(float(row[f"{columns}{axis}"]) for axis in "xyz")
     assert touch.normal == tuple(float(row[f"normal.{axis}"]) for axis in ("north", "east", "down"))
+    for _ in range(20):
+        run.advance()
+    (collision,) = run.observe_contact().collisions  # has them as the ships move on
+    assert (collision.a, collision.b) == (touch.a, touch.b)
 
 
 def test_a_run_longer_than_its_scenario(timed: LiveRun, tmp_path: Path) -> None:

@@ -228,7 +228,7 @@ class LiveRun:
             tuple(
                 CollisionSnapshot(
                     number, recorder.starts[number].time, so_far.ship_a, so_far.ship_b, recorder.starts[number].point,
-                    so_far.energy,
+                    so_far.energy, so_far.a, so_far.b,
                 )
                 for number, so_far in latest
             ),

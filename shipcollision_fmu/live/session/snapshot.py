@@ -52,7 +52,10 @@ class EnvironmentSnapshot:
 
 @dataclass(frozen=True)
 class CollisionSnapshot:
-    """A collision: number, time of its start [s], bodies, first point in n [m], energy dissipated so far [J]."""
+    """A collision: number, time of its start [s], bodies, first point in n [m], energy dissipated so far [J].
+
+    a, b: the first point in the b of each body [m].
+    """
 
     id: int
     time: float
@@ -60,6 +63,8 @@ class CollisionSnapshot:
     ship_b: str
     point: tuple[float, float, float]
     energy: float
+    a: tuple[float, float, float]
+    b: tuple[float, float, float]
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ import { inWords, onLanguage, say } from "../texts.js";
 import { drawsInSoftware, makeViewer } from "../viewer.js";
 import { Chart } from "./chart.js";
 import { Conning } from "./conning.js";
-import { effectsOf, ignites } from "./effects_live.js";
+import { effectsOf, ignitionOf } from "./effects_live.js";
 import { makeInstruments } from "./instruments.js";
 import { LiveCameras, MODES } from "./live_cameras.js";
 import { makeLivePage } from "./live_page.js";
@@ -49,7 +49,8 @@ export async function startBridge() {
   let chart = null;
   let scratches = null;
   let shown = null;
-  const effects = new Map(); // collision -> what takes its effects away
+  const effects = new Map(); // collision -> {made, remove}: its effects, and what takes them away
+  const unlit = new Set(); // collisions that this page has seen before they set something on fire
   const numbers = { next: 0, chart: 0 };
 
   const isInCommand = () => session.state?.command[session.own] === session.hello?.client;
@@ -139,24 +140,30 @@ export async function startBridge() {
   }
 
   function addNewEffects(state) {
-    const ships = viewer.ships.map(({ info }) => ({ info, eta: state.ships[info.name].eta }));
     for (const collision of state.contact.collisions) {
       const { id, time: start, energy, ship_a, ship_b } = collision;
-      const infos = ships.map(({ info }) => info).filter(({ name }) => name === ship_a || name === ship_b);
-      const due = { hit: state.time >= start + SETTLED, fire: ignites(energy, infos) };
-      for (const [what, isDue] of Object.entries(due)) {
-        const key = `${id} ${start} ${what}`;
-        if (!isDue || effects.has(key)) continue;
-        effects.set(key, viewer.addEffects(effectsOf(collision, ships, what === "hit" ? start : state.time, what === "fire")));
-      }
+      const key = `${id} ${start}`;
+      const infos = viewer.ships.map(({ info }) => info).filter(({ name }) => name === ship_a || name === ship_b);
+      const ignition = ignitionOf(infos);
+      if (state.time >= start + SETTLED) addOnce(`${key} hit`, () => effectsOf(collision, infos, start, energy, false));
+      // What burnt already when this page first saw it began to burn at most a few seconds after the collision did.
+      if (energy < ignition) unlit.add(key);
+      else addOnce(`${key} fire`, () => effectsOf(collision, infos, unlit.has(key) ? state.time : start, ignition, true));
     }
+  }
+
+  function addOnce(key, make) {
+    if (effects.has(key)) return;
+    const made = make();
+    effects.set(key, { made, remove: viewer.addEffects(made) });
   }
 
   /** Time has gone back: all effects go, and come again where their collisions have happened; so do later scratches. */
   function forgetEffects(state) {
     scratches?.forget(state.time);
-    for (const remove of effects.values()) remove();
+    for (const { remove } of effects.values()) remove();
     effects.clear();
+    unlit.clear();
   }
 
   function showCommand() {
@@ -172,8 +179,8 @@ export async function startBridge() {
     const state = session.present(now);
     if (!state || !session.hello) return;
     shown = state;
+    if (viewer) addNewEffects(state); // behind the chart, too: a fire begins when it does
     if (viewer && !isChartLarge()) {
-      addNewEffects(state);
       viewer.setPlaying(!session.state.paused); // a plain picture may have fewer pixels while the ships move
       viewer.showNow(state.time);
     }
@@ -207,6 +214,10 @@ export async function startBridge() {
     /** Contacts as they came into the page: [{id, time, wall}], wall [ms] when the frame was made that shows one. */
     get contacts() {
       return session.contacts.filter(({ wall }) => wall);
+    },
+    /** Effects of collisions so far, those that are over as well: [{kind, ship, point, time}] and more. */
+    get effects() {
+      return [...effects.values()].flatMap(({ made }) => made);
     },
     order: (fields) => session.connection.ask("order", { ship: session.own, ...fields }),
     camera: chooseCamera,

@@ -1,5 +1,5 @@
-// The effects of a collision that has just happened, as show/scene/effects.py makes them of a run that is over: dust and
-// splash at once, fire from the moment at which the energy dissipated so far reaches what sets a cargo on fire.
+// The effects of a collision, as show/scene/effects.py makes them of a run that is over: dust and splash at once, fire
+// from the moment at which the energy dissipated so far reaches what sets a cargo on fire.
 
 const FULL = 1e8; // energy of an effect at full strength [J]
 const FAINTEST = 0.05;
@@ -9,29 +9,21 @@ const IGNITION_OF_OIL_AND_GAS = 3.27e7;
 const HITS = { dust: [0, 1.2], splash: [0, 1] }; // delay, duration [s]
 const FIRES = { explosion: [0, 1], debris: [0, 1], fire: [0.4, 25], smoke: [0.8, 60] };
 
-/** Whether a collision sets something on fire. `infos`: what is known of the ships that take part. */
-export const ignites = (energy, infos) => energy >= (infos.some(({ kind }) => /tanker|gas/i.test(kind)) ? IGNITION_OF_OIL_AND_GAS : IGNITION);
+/** The energy [J] that sets something on fire. `infos`: what is known of the ships that take part. */
+export const ignitionOf = (infos) => (infos.some(({ kind }) => /tanker|gas/i.test(kind)) ? IGNITION_OF_OIL_AND_GAS : IGNITION);
 
 /**
- * Effects of {id, ship_a, ship_b, point, energy} at a time, on the ship that is struck: that whose contact point is
- * farther aft. `ships`: [{info, eta}] of all.
+ * Effects of {id, ship_a, ship_b, a, b} of an energy [J] from a time on, on the ship that is struck: that whose contact
+ * point is farther aft. `infos`: what is known of the ships that take part.
  */
-export function effectsOf(collision, ships, time, isFire) {
-  const borne = ships.filter(({ info }) => info.name === collision.ship_a || info.name === collision.ship_b)
-    .map(({ info, eta }) => ({ info, point: inShip(eta, collision.point) }));
+export function effectsOf(collision, infos, time, energy, isFire) {
+  const borne = infos.map((info) => ({ info, point: info.name === collision.ship_a ? collision.a : collision.b }));
   if (!borne.length) return [];
   const { info, point } = borne.reduce((a, b) => (b.point[0] / b.info.L_oa < a.point[0] / a.info.L_oa ? b : a));
-  const intensity = Math.min(1, Math.max(FAINTEST, Math.cbrt(Math.max(0, collision.energy) / FULL)));
+  const intensity = Math.min(1, Math.max(FAINTEST, Math.cbrt(Math.max(0, energy) / FULL)));
   return Object.entries(isFire ? FIRES : HITS).map(([kind, [delay, duration]], k) => ({
     kind, ship: info.name, point, outwards: [0, Math.sign(point[1]) || 1, 0],
     time: time + delay * intensity, duration: duration * intensity, intensity, size: LARGEST * intensity,
     seed: 6 * collision.id + k + (isFire ? 2 : 0),
   }));
-}
-
-/** A point of n in a ship's b, for a ship that is upright. */
-function inShip(eta, point) {
-  const [north, east, down] = [0, 1, 2].map((k) => point[k] - eta[k]);
-  const [cos, sin] = [Math.cos(eta[5]), Math.sin(eta[5])];
-  return [cos * north + sin * east, -sin * north + cos * east, down];
 }

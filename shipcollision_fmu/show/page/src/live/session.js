@@ -12,6 +12,7 @@ import { miles } from "./targets.js";
 
 const keyOf = ({ id, time }) => `${id} ${time}`;
 const JUST = 10; // a collision is news for so long [s]
+const KEPT = 0.98; // of the rate that is set: a machine that does so much keeps up
 
 export class Session {
   /** `role` is "bridge" or "instructor"; `hear(type, message)` is called after this object is up to date. */
@@ -20,7 +21,7 @@ export class Session {
     Object.assign(this, {
       role, hear, token: query.get("token") ?? "", wantedShip: query.get("ship"), hello: null, state: null, ended: null,
       snapshots: new Snapshots(), histories: {}, alarms: new Alarms(), sound: new Sound(), dangers: new Set(),
-      limits: { cpa: 0.3 * MILE, tcpa: 360 }, contacts: [], known: new Set(),
+      limits: { cpa: 0.3 * MILE, tcpa: 360 }, contacts: [], known: new Set(), old: new Set(),
     });
     this.connection = new Connection(role, this.token, (type, message) => this.listen(type, message));
     setInterval(() => this.sounds(), 250);
@@ -54,11 +55,13 @@ export class Session {
 
   take(state) {
     const isBack = this.snapshots.push(state, performance.now());
+    const isFirst = this.state === null;
     this.state = state;
-    if (isBack) {
-      this.known = new Set(state.contact.collisions.map(keyOf));
-      this.hear("back", state);
+    if (isFirst || isBack) {
+      this.old = new Set(state.contact.collisions.map(keyOf)); // no news, unless ships still touch
+      this.known = new Set(this.old);
     }
+    if (isBack) this.hear("back", state);
     this.watch(state);
   }
 
@@ -84,10 +87,10 @@ export class Session {
   watch(state) {
     const { alarms } = this;
     const last = state.contact.collisions.at(-1);
-    const isNews = last !== undefined && (state.contact.points > 0 || state.time - last.time < JUST);
+    const isNews = last !== undefined && (state.contact.points > 0 || (!this.old.has(keyOf(last)) && state.time - last.time < JUST));
     for (const collision of state.contact.collisions) this.meet(collision);
     alarms.set("contact", isNews, "alarm", () => say("alarm_contact", { a: last.ship_a, b: last.ship_b }));
-    alarms.set("slow", !state.paused && !state.paced, "caution", () => say("alarm_slow", { rate: number(state.real_rate, 2) }));
+    alarms.set("slow", !state.paused && !state.paced && state.real_rate < KEPT * state.rate, "caution", () => say("alarm_slow", { rate: number(state.real_rate, 2) }));
     const failing = this.role === "bridge" ? [this.own] : [];
     for (const what of ["blackout", "rudder"]) {
       alarms.set(what, failing.some((name) => state.ships[name].failures.includes(what)), "alarm", () => say(`alarm_${what}`));
