@@ -396,6 +396,109 @@ def test_contact_is_seen_and_heard_at_once(browser: Chrome, scenario_file: Write
     assert median(delays) < SEEN_WITHIN
 
 
+@pytest.mark.slow
+def test_a_page_opened_after_a_collision_neither_burns_anew_nor_raises_an_alarm(browser: Chrome) -> None:
+    """Of a collision that has burnt out, and after which the ships have parted: on bridge and instructor's page, and in
+    the chart meanwhile. One that is fresh burns at its own time, at the points of the ships that touched."""
+    with serve_live(browser, "guan2014", paused=True) as served:
+        page = BridgePage(browser, served.address(), SMALL)
+        page.wait("return document.body.dataset.ready")
+        page.run("document.getElementById('chart-large').click()")
+        press_on = "live.ask('rate', {rate: 20}), live.ask('pause', {paused: false})"
+        page.run(press_on)
+        page.wait("return live.state.contact.count > 0 && live.state.time > live.state.contact.collisions[0].time + 5")
+        page.run("live.ask('pause', {paused: true})")
+        page.wait("return live.state.paused")
+        page.run("document.getElementById('chart-large').click()")
+        begun = "Math.max(...live.effects.map(({ time }) => time)) - live.state.contact.collisions[0].time"
+        page.wait("return live.effects.some(({ kind }) => kind === 'fire')")
+        assert page.run(f"return {begun}") < 2.0
+        page.run("location.reload()")
+        page.wait("return window.live?.effects?.some(({ kind }) => kind === 'fire')")
+        assert page.run(f"return {begun}") < 2.0
+        ends = page.run("return live.state.contact.collisions[0]")
+        points = {ends["ship_a"]: ends["a"], ends["ship_b"]: ends["b"]}
+        assert all(points[effect["ship"]] == effect["point"] for effect in page.run("return live.effects"))
+        assert page.state(".contact.points") == 0
+        assert page.run("return live.session.alarms.list.has('contact')") is False
+        page.run(press_on)
+        page.wait("return live.state.time > 100")  # they touch again at 167 s
+        page.run("live.ask('pause', {paused: true})")
+        page.wait("return live.state.paused")
+        assert page.state(".contact.points") == 0
+        for role in ("bridge", "instructor"):
+            browser.get("about:blank")
+            opened = BridgePage(browser, served.address(role), SMALL)
+            opened.wait("return live.state && document.body.dataset.ready")
+            assert opened.state(".contact.count") > 0
+            assert opened.run("return live.session.alarms.list.has('contact')") is False
+            if role == "bridge":
+                opened.wait("return live.effects.length > 0")
+                assert opened.run("return live.drawn().effects") == 0
+
+
+@pytest.mark.slow
+def test_an_alarm_of_a_slow_machine_ends_once_it_keeps_up(bridge: BridgePage) -> None:
+    """While the lag is still told, the rate that is measured may be that which is set, or more."""
+    for rate, is_slow in ((3.9, True), (3.95, False), (5.1, False)):
+        bridge.run(
+            f"live.session.watch({{...live.state, rate: 4, paused: false, paced: false, real_rate: {rate}}});"
+            "window.slow = live.session.alarms.list.has('slow')"
+        )
+        assert bridge.run("return slow") is is_slow
+
+
+def test_on_a_phone_the_tools_of_the_large_chart_can_be_tapped(browser: Chrome, server: LiveServer) -> None:
+    with as_phone(browser):
+        page = BridgePage(browser, server.address())
+        page.wait("return live.state && document.body.dataset.ready")
+        page.run("document.getElementById('chart-large').click()")
+        hidden = page.run("""
+            return [...document.querySelectorAll('.chart-tools button, .stage-tools button, .stage-tools select')]
+                .filter((one) => {
+                    const { left, right, top, bottom } = one.getBoundingClientRect();
+                    return [[left + 4, top + 4], [right - 4, bottom - 4], [(left + right) / 2, (top + bottom) / 2]]
+                        .some(([x, y]) => !one.contains(document.elementFromPoint(x, y)));
+                }).map((one) => one.id || one.textContent)""")
+        browser.get("about:blank")
+    assert hidden == []
+
+
+def test_on_a_phone_the_most_urgent_alarm_is_seen_first(browser: Chrome, server: LiveServer) -> None:
+    """A collision, whatever else has been raised, acknowledged or is over before it; of others the newest."""
+    with as_phone(browser):
+        page = BridgePage(browser, server.address())
+        page.wait("return live.state && document.body.dataset.ready")
+        seen = page.run("""
+            const { alarms } = live.session;
+            alarms.list.clear();
+            const raise = (key, priority = 'alarm', isThere = true) =>
+                alarms.set(key, isThere, priority, () => 'Words of alarm ' + key);
+            const first = () => {
+                live.session.hear('event', {});
+                const list = document.getElementById('alarms').getBoundingClientRect();
+                return document.elementFromPoint(list.left + 20, list.top + list.height / 2).dataset.alarm;
+            };
+            const found = [];
+            for (const key of ['one', 'two', 'three']) raise(key);
+            found.push(first());
+            raise('two', 'alarm', false);
+            raise('contact');
+            document.getElementById('alarms').scrollLeft = 400;
+            raise('four');
+            found.push(first());
+            alarms.acknowledge();
+            raise('five');
+            raise('five', 'alarm', false);
+            found.push(first());
+            raise('careful', 'caution');
+            found.push(first());
+            return found;
+        """)
+        browser.get("about:blank")
+    assert seen == ["three", "contact", "contact", "contact"]
+
+
 def assert_places_of_contacts(scratches: dict[str, list[list[float]]], contacts: Path) -> None:
     """Scratches of the page are at places where the model has contact, on each ship."""
     rows = list(csv.DictReader(contacts.read_text(encoding="utf-8").splitlines()))

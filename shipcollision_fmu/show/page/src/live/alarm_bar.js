@@ -19,16 +19,18 @@ export function makeAlarmBar({ alarms, sound }, acknowledge) {
         item.remove();
         shown.delete(key);
       }
-      for (const { key, priority, state, words } of sorted) {
+      for (const [place, { key, priority, state, words }] of sorted.entries()) {
         const item = shown.get(key) ?? element("li", { "data-alarm": key });
         if (!shown.has(key)) {
           shown.set(key, item);
           list.append(item);
+          list.scrollLeft = 0; // on a narrow screen, where the most urgent is
           spoken.textContent = words();
         }
         const text = words();
         if (item.textContent !== text) item.textContent = text;
         item.className = `${priority} ${state}`;
+        item.style.order = place; // not moved, as that would begin its flashing anew
       }
       silent.hidden = sound.isAllowed || alarms.sounding === null;
       node.hidden = sorted.length === 0;

@@ -15,6 +15,7 @@ export class Alarms {
   set(key, isThere, priority, words) {
     const known = this.list.get(key);
     if (isThere) {
+      if (known?.state === "over") this.list.delete(key); // raised anew, it is the newest
       if (!known || known.state === "over") this.list.set(key, { key, priority, words, state: "raised" });
       else known.words = words;
     } else if (known?.state === "raised" && priority !== "caution") known.state = "over";
@@ -39,9 +40,10 @@ export class Alarms {
     return PRIORITIES.slice(0, 2).find((priority) => raised.includes(priority)) ?? null;
   }
 
-  /** All, the most urgent first. */
+  /** All, the most urgent first: what is to be acknowledged; what else is there; what is over. In each by priority, a collision before others, the newest first. */
   get sorted() {
-    const order = ({ priority, state }) => (state === "silent" ? 10 : 0) + PRIORITIES.indexOf(priority);
-    return [...this.list.values()].sort((a, b) => order(a) - order(b));
+    const group = ({ priority, state }) => (state === "over" ? 2 : state === "silent" || priority === "caution" ? 1 : 0);
+    const order = (alarm) => 10 * group(alarm) + 2 * PRIORITIES.indexOf(alarm.priority) - (alarm.key === "contact" ? 1 : 0);
+    return [...this.list.values()].reverse().sort((a, b) => order(a) - order(b));
   }
 }
