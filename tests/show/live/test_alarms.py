@@ -47,7 +47,7 @@ def test_a_caution_makes_no_sound_and_goes_by_itself() -> None:
     assert away["states"] == {}
 
 
-def test_the_most_urgent_comes_first_and_what_is_acknowledged_last() -> None:
+def test_the_most_urgent_to_acknowledge_comes_first_then_the_others_by_priority() -> None:
     *_, last = play(("cpa", True, "alarm"), "acknowledge", ("slow", True, "caution"), ("lost", True, "warning"))
-    assert last["order"] == ["lost", "slow", "cpa"]
+    assert last["order"] == ["lost", "cpa", "slow"]
     assert last["sounding"] == "warning"
