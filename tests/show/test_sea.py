@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from selenium.webdriver import Chrome
+from selenium.webdriver.common.by import By
 
 from shipcollision_fmu.ship.frames import Array, rotation_from_quaternion
 from shipcollision_fmu.show.page import write_page
@@ -217,3 +218,43 @@ def test_a_gentle_contact_raises_dust_and_spray_and_sets_nothing_on_fire(browser
     assert {effect["kind"] for effect in gentle.run("return replay.data.effects")} == {"dust", "splash"}
     assert gentle.slide(start - 0.01)["effects"] == 0
     assert gentle.slide(start + 0.02)["effects"] == 2
+
+
+INK = """
+    const canvas = document.querySelector(".plot canvas");
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    let sum = 0, count = 0;
+    for (let i = 0; i < data.length; i += 4) {
+      if (data[i + 3] > 128 && Math.abs(data[i] - data[i + 2]) < 60) (sum += data[i + 1]), count++;
+    }
+    return sum / count;
+"""
+"""Mean green of a plot's axes and grid."""
+
+
+def test_the_page_is_dark_beside_a_night_until_somebody_chooses(page: Page) -> None:
+    """White cards would blind; curves, chips and the track plot follow."""
+    page.run("localStorage.removeItem('shipcollision-theme')")
+    page.driver.get("about:blank")
+    page.open()
+    theme = "return document.documentElement.dataset.theme"
+    lines = """return [...document.querySelectorAll('.track .way')].map((line) => line.getAttribute('stroke')).concat(
+        [...document.querySelectorAll('.plot .chip i')].map((dot) => dot.style.getPropertyValue('--dot')))"""
+
+    def look(sky: str) -> tuple[str, list[str], float]:
+        page.run("replay.sky(arguments[0])", sky)
+        page.wait_for_frame()
+        return page.run(theme), page.run(lines), page.run(INK)
+
+    day, night, again = look("day"), look("night"), look("day")
+    assert (day[0], night[0]) == ("light", "dark")
+    assert all(by_day != by_night for by_day, by_night in zip(day[1], night[1], strict=True))
+    assert night[2] > day[2] + 40
+    assert again[:2] == day[:2]
+    assert abs(again[2] - day[2]) < 5
+    look("night")
+    page.driver.find_element(By.ID, "theme").click()
+    assert page.run(theme) == "light"
+    assert [look(sky)[0] for sky in ("day", "night")] == ["light", "light"]
+    page.run("localStorage.removeItem('shipcollision-theme')")
+    page.driver.get("about:blank")  # what was chosen goes with the page

@@ -1,4 +1,5 @@
-// Light and dark: as the system has it until somebody chooses; a choice is kept where the browser allows it.
+// Light and dark: as the system has it, and dark while the picture is a night, until somebody chooses; a choice is kept
+// where the browser allows it.
 
 const KEY = "shipcollision-theme";
 const listeners = [];
@@ -13,23 +14,35 @@ function stored() {
 
 export const isDark = () => document.documentElement.dataset.theme === "dark";
 
-export function setTheme(theme) {
-  document.documentElement.dataset.theme = theme;
+let chosen = null; // by the address or the user
+let isNight = false;
+
+function show() {
+  const system = isNight || matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
+  document.documentElement.dataset.theme = chosen ?? system;
   for (const listener of listeners) listener();
 }
 
 export function toggleTheme() {
-  setTheme(isDark() ? "light" : "dark");
+  chosen = isDark() ? "light" : "dark";
+  show();
   try {
-    localStorage.setItem(KEY, document.documentElement.dataset.theme);
+    localStorage.setItem(KEY, chosen);
   } catch {
     // not kept, then
   }
 }
 
 export function startTheme(asked) {
-  const system = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
-  setTheme(asked ?? stored() ?? system);
+  chosen = asked ?? stored();
+  show();
+}
+
+/** The picture is one of the night, or no longer: white cards beside it would blind. */
+export function followSky(isOfNight) {
+  if (isNight === isOfNight) return;
+  isNight = isOfNight;
+  show();
 }
 
 export const onTheme = (listener) => listeners.push(listener);

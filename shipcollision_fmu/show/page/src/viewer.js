@@ -14,6 +14,7 @@ import { growScratches } from "./scratches.js";
 import { makeSea } from "./sea.js";
 import { makeSky, SUN } from "./sky.js";
 import { addSparks } from "./sparks.js";
+import { followSky } from "./theme.js";
 import { playClip, toWorld } from "./tracks.js";
 
 const SHADOW_REACH = 420; // around what the camera looks at [m]
@@ -149,6 +150,7 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
 
   function setSky(name) {
     hour = name;
+    followSky(name === "night");
     want();
   }
 
