@@ -10,43 +10,22 @@ from __future__ import annotations
 
 import json
 import logging
-import sys
 import threading
 import time
-from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack
 from pathlib import Path
-from subprocess import PIPE, Popen
-from urllib.parse import parse_qs, urlsplit
 
 import psutil
 import pytest
 from websockets.sync.client import ClientConnection, connect
 
+from .live_command import live_command
 from .live_server import receive
 
 pytestmark = pytest.mark.soak
 
 GROWTH = 6e6
 """Bytes: what lists of some thousand orders may take, and the allocator's own play."""
-
-
-@contextmanager
-def live_run(folder: Path, duration: float) -> Iterator[tuple[Popen[str], str]]:
-    """The command, and the address of its bridge's socket; its last words are in `folder`."""
-    command = [
-        *(sys.executable, "-m", "shipcollision_fmu", "live", "kvlcc2_crossing", "--no-browser", "--port", "0"),
-        *("--rate", "20", "--duration", str(duration), "--out", str(folder / "run")),
-        *("--nmea", "udp://127.0.0.1:9", "--dis", "udp://127.0.0.1:9"),
-    ]
-    with (folder / "errors.txt").open("w") as errors, Popen(command, stdout=PIPE, stderr=errors, text=True) as process:
-        try:
-            assert process.stdout is not None
-            said = iter(process.stdout.readline, "")
-            bridge = next(urlsplit(line.split(": ")[1].strip()) for line in said if line.startswith("bridge of own: "))
-            yield process, f"ws://{bridge.netloc}/ws?token={parse_qs(bridge.query)['token'][0]}&role=bridge"
-        finally:
-            process.kill()
 
 
 def steer(client: ClientConnection, ended: threading.Event) -> None:
@@ -66,12 +45,14 @@ def steer(client: ClientConnection, ended: threading.Event) -> None:
 def test_memory_stays_flat(tmp_path: Path, duration: float) -> None:
     """At 20 times real time, after a tenth and before the end."""
     ended = threading.Event()
-    with live_run(tmp_path, duration) as (process, address), ExitStack() as clients:
+    outgoing = "--nmea", "udp://127.0.0.1:9", "--dis", "udp://127.0.0.1:9"
+    options = "--rate", "20", "--duration", str(duration), *outgoing
+    with live_command(tmp_path, *options) as live, ExitStack() as clients:
         own, looker, _silent = (
-            clients.enter_context(connect(address, ping_interval=None, close_timeout=1)) for _ in range(3)
+            clients.enter_context(connect(live.socket, ping_interval=None, close_timeout=1)) for _ in range(3)
         )
         threading.Thread(target=steer, args=(own, ended), daemon=True).start()
-        server, early, last = psutil.Process(process.pid), 0, 0
+        server, early, last = psutil.Process(live.process.pid), 0, 0
         while (message := receive(looker, 120.0))["type"] != "end":
             if message["type"] != "state" or not 0.1 < message["time"] / duration < 0.98:
                 continue  # to store the run is no matter of its length: results are copied from file to file
@@ -82,6 +63,6 @@ def test_memory_stays_flat(tmp_path: Path, duration: float) -> None:
         figures = early / 1e6, last / 1e6, rate
         logging.info("%.1f MB after a tenth, %.1f MB before the end, at %.1f times real time", *figures)
         assert ended.wait(60.0)
-        assert process.wait(300.0) == 0, (tmp_path / "errors.txt").read_text()
+        assert live.process.wait(300.0) == 0, (tmp_path / "errors.txt").read_text()
     assert 0 < last < early + GROWTH
     assert json.loads((tmp_path / "run" / "timing.json").read_bytes())["mode"] == "live"
