@@ -1,6 +1,7 @@
 """The command `shipcollision`.
 
-Exit status: 0 done, 1 the run or the check failed, 2 bad usage or input, 130 interrupted, 143 ended by SIGTERM.
+Exit status: 0 done, 1 the run or the check failed, 2 bad usage or input, 130 interrupted, 143 ended by SIGTERM. A live
+run that either of both ends is stored, so that its exit status is 0.
 
     runs.py, live.py, nmea.py, fmus.py, encounters.py, trials.py, studies.py, lists.py  the commands, grouped by subject
     run_table.py      what `run` prints                    trial_table.py   what `trial` prints

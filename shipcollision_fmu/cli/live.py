@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from contextlib import ExitStack, suppress
+from contextlib import ExitStack
 from datetime import datetime
 from functools import partial
 from pathlib import Path
+from secrets import token_urlsafe
+from shlex import quote
 from threading import Thread
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -18,12 +20,15 @@ from .options import NUMBER, PATH, SCENARIO, WHOLE_NUMBER
 if TYPE_CHECKING:
     from ..live.protocols.outlets import Outlets
     from ..live.server.app import LiveApp
+    from ..live.server.host_names import Hosts
     from ..live.session.session import Session
     from ..scenario.scenario import Scenario
 
 __all__ = ["live"]
 
 PORT = 8750
+SHORTEST_TOKEN, LONGEST_TOKEN = 8, 256
+"""Characters of --order-token."""
 
 
 @click.command()
@@ -49,17 +54,20 @@ PORT = 8750
 @click.option("--nmea-tcp", metavar="PORT", help="NMEA and AIS for clients by TCP.")
 @click.option("--dis", metavar="ADDRESS", multiple=True, help="DIS to udp://HOST:PORT, or a port here.")
 @click.option("--orders", metavar="PORT", help="Orders to ships by TCP, as JSON lines.")
+@click.option(
+    "--order-token", metavar="TOKEN", help="What --orders asks for.  [default: none; beyond this machine a new one]"
+)
 @click.option("--browser/--no-browser", default=True, help="Open the page in the browser.  [default: --browser]")
 def live(
     scenario: str, ship: str | None, rate: float, port: int, host: str, out: Path | None, overwrite: bool,
     duration: float | None, paused: bool, instructor_only: bool, browser: bool,
-    nmea: tuple[str, ...], nmea_tcp: str | None, dis: tuple[str, ...], orders: str | None,
+    nmea: tuple[str, ...], nmea_tcp: str | None, dis: tuple[str, ...], orders: str | None, order_token: str | None,
 ) -> None:  # fmt: skip
     """Steer ships on the wall clock, in a browser.
 
     SCENARIO is a name that `shipcollision scenarios` lists, or the path of a TOML file. Its duration does not count:
     the run goes on until the instructor ends it, until Ctrl-C, or for --duration. Then it is stored as any other run,
-    with scenario.toml, which gives the same run again, and replay.html.
+    with scenario.toml, which gives the same run again, and replay.html. Exit status 0, by Ctrl-C or SIGTERM as well.
 
     Two addresses are printed, for the bridge and for the instructor. Whoever has one may come in.
 
@@ -70,6 +78,7 @@ def live(
       shipcollision live --nmea 10110 --orders 4711
       shipcollision live mine.toml --host 0.0.0.0 --no-browser
     """
+    from ..cosim.folder_lock import hold_folder
     from ..live.extra import require_live
     from ..live.session.session import check_rate
     from ..live.session.ship_limits import choose_own
@@ -85,11 +94,12 @@ def live(
         raise ScenarioError(f"--duration {duration:g} s must be greater than 0: give one such as 600")
     folder = out if out is not None else Path("runs") / f"{loaded.name}-live-{datetime.now():%Y%m%d-%H%M%S}"
     _refuse_folder(folder, overwrite)
-    offered = _Offered(own, nmea, nmea_tcp, dis, orders)
-    session = _run(
-        loaded, offered, folder, host, port, {"rate": rate, "duration": duration, "paused": paused},
-        sets_pace=not instructor_only, in_browser=browser,
-    )  # fmt: skip
+    offered = _Offered(own, nmea, nmea_tcp, dis, orders, _choose_order_token(orders, order_token))
+    with hold_folder(folder):
+        session = _run(
+            loaded, offered, folder, host, port, {"rate": rate, "duration": duration, "paused": paused},
+            sets_pace=not instructor_only, in_browser=browser,
+        )  # fmt: skip
     if session.error is not None:
         raise session.error
 
@@ -102,6 +112,24 @@ class _Offered(NamedTuple):
     nmea_tcp: str | None
     dis: tuple[str, ...]
     orders: str | None
+    order_token: str | None
+
+
+def _choose_order_token(orders: str | None, token: str | None) -> str | None:
+    """The token of the order port: the given one; a new one where other machines can reach the port; else none."""
+    from ..live.protocols.addresses import is_loopback, parse_address
+
+    if orders is None:
+        if token is not None:
+            raise click.UsageError("--order-token is that of --orders, which is missing: give both, or neither")
+        return None
+    if token is not None and not (SHORTEST_TOKEN <= len(token) <= LONGEST_TOKEN and token.isprintable()):
+        raise click.UsageError(
+            f"--order-token has {len(token)} characters: give {SHORTEST_TOKEN} to {LONGEST_TOKEN} printable ones"
+        )
+    if token is None and not is_loopback(parse_address(orders, "tcp", "--orders")[0]):
+        return token_urlsafe(24)
+    return token
 
 
 def _refuse_folder(folder: Path, overwrite: bool) -> None:
@@ -124,23 +152,27 @@ def _run(
 ) -> Session:  # fmt: skip
     """The session, after its end: pages at `host` and `port`, outlets as offered."""
     from ..live.server.app import LiveApp
+    from ..live.server.host_names import find_hosts
     from ..live.server.serve import bind, serve
     from ..live.session.session import Session
 
     with bind(host, port) as listening, ExitStack() as stack:
-        session = Session(scenario, out=folder, spool=_make_spool(folder), **pace)
+        session = Session(scenario, out=folder, spool=folder, **pace)
         app = LiveApp(session, offered.own, host=host, sets_pace=sets_pace)
-        outlets = _open_outlets(session, offered, folder)
+        outlets = _open_outlets(session, offered)
         if outlets is not None:
             stack.callback(outlets.close)
             outlets.start()
-        at = listening.getsockname()[:2]
-        serve(app, listening, lambda: _tell_of_start(app, at, offered, in_browser), lambda: _tell_of_end(app, folder))
+        hosts, at = find_hosts(listening), int(listening.getsockname()[1])
+        serve(
+            app, listening, lambda: _tell_of_start(app, hosts, at, offered, in_browser),
+            lambda: _tell_of_end(app, folder),
+        )  # fmt: skip
     return session
 
 
-def _open_outlets(session: Session, offered: _Offered, folder: Path) -> Outlets | None:
-    """The outlets that are offered. Where an address cannot be used, the session and its new folder are given back."""
+def _open_outlets(session: Session, offered: _Offered) -> Outlets | None:
+    """The outlets that are offered. Where an address cannot be used, the session is given back."""
     from ..live.protocols.outlets import OutletAddresses, Outlets
 
     addresses = OutletAddresses(*offered[1:])
@@ -148,20 +180,23 @@ def _open_outlets(session: Session, offered: _Offered, folder: Path) -> Outlets 
         return Outlets(session, offered.own, addresses, partial(say, err=True)) if addresses else None
     except ShipCollisionError:
         session.run.close()
-        with suppress(OSError):
-            folder.rmdir()  # empty, unless it was there
         raise
 
 
-def _tell_of_start(app: LiveApp, at: tuple[str, int], offered: _Offered, in_browser: bool) -> None:
-    """Print the addresses, and open the bridge's."""
-    shown = f"[{at[0]}]" if ":" in at[0] else at[0]
-    bridge = f"http://{shown}:{at[1]}/?token={app.tokens.bridge}"
-    say(f"bridge of {offered.own}: {bridge}")
-    say(f"instructor: http://{shown}:{at[1]}/instructor?token={app.tokens.instructor}")
+def _tell_of_start(app: LiveApp, hosts: Hosts, port: int, offered: _Offered, in_browser: bool) -> None:
+    """Print the addresses, for this machine and for others, and open the bridge's."""
+
+    def write(host: str, from_where: str = "") -> str:
+        bridge = f"http://{host}:{port}/?token={app.tokens.bridge}"
+        say(f"bridge of {offered.own}{from_where}: {bridge}")
+        say(f"instructor{from_where}: http://{host}:{port}/instructor?token={app.tokens.instructor}")
+        return bridge
+
+    bridge = write(hosts.here)
+    for host in hosts.elsewhere:
+        write(host, ", from other machines")
     for line in _describe_outlets(offered):
         say(line)
-    _warn_of_orders(offered.orders)
     say("Ctrl-C ends the run and stores it")
     if in_browser:  # in a thread: a browser of the terminal is there until it is left
         Thread(target=_open, args=(bridge,), name="browser", daemon=True).start()
@@ -172,15 +207,10 @@ def _describe_outlets(offered: _Offered) -> list[str]:
     lines = [f"NMEA of {own} and AIS to {address}" for address in offered.nmea]
     lines += [f"NMEA of {own} and AIS for clients of TCP port {offered.nmea_tcp}"] if offered.nmea_tcp else []
     lines += [f"DIS to {address}" for address in offered.dis]
-    return lines + ([f"orders at TCP port {offered.orders}"] if offered.orders else [])
-
-
-def _warn_of_orders(orders: str | None) -> None:
-    """Warn, where programs on other machines can reach the order port, which asks for no token."""
-    from ..live.protocols.addresses import is_loopback, parse_address
-
-    if orders is not None and not is_loopback(parse_address(orders, "tcp", "--orders")[0]):
-        say(f"warning: --orders {orders} has no token: whoever reaches this address may steer any ship", err=True)
+    if offered.orders:
+        token = f", with the token {offered.order_token}" if offered.order_token else ""
+        lines.append(f"orders at TCP port {offered.orders}{token}")
+    return lines
 
 
 def _tell_of_end(app: LiveApp, folder: Path) -> None:
@@ -194,17 +224,11 @@ def _tell_of_end(app: LiveApp, folder: Path) -> None:
         return
     say(f"stored in {folder}: {folder / SCENARIO_FILE} gives the same run again")
     if session.page is None:
-        say(f"no page yet: `shipcollision show {folder}` writes it")
+        say(f"no page yet: `shipcollision show {quote(str(folder))}` writes it")
         return
-    say(f"open {session.page} in a browser to see it")
+    say(f"debriefing: `shipcollision show {quote(str(folder))} --open`, or open {session.page} in a browser")
     if app.hub.clients:
         say("open pages lead to it for a minute; Ctrl-C leaves now")
-
-
-def _make_spool(folder: Path) -> Path:
-    """The folder, made now: the record of the run grows in temporary files there."""
-    folder.mkdir(parents=True, exist_ok=True)
-    return folder
 
 
 def _open(address: str) -> None:

@@ -14,6 +14,7 @@
       autopilot.py, route.py, evasion.py      the laws of steering
     recorder.py         writes down states and contacts at communication points: the Record of results/
       row_log.py        rows of a growing table, in memory or in a temporary file
+    folder_lock.py      one process at a time writes into a folder; earlier_run.py: whether a run is there
     interrupt.py        Ctrl-C waits for the end of the step
     run.py              Run: tables, events and files of a finished run
       run_repr.py, run_frames.py, run_page.py     as text and HTML, as data frames, as a page in a notebook

@@ -28,6 +28,7 @@ from ..ship.ship import Ship
 from .earlier_run import refuse_foreign_files
 from .factories import Factories, fmu_factories, model_factories
 from .fmu_files import ready_fmus
+from .folder_lock import hold_folder
 from .interrupt import delay_interrupts
 from .native_fmu_files import write_native_fmus
 from .parameters import tabulate_surroundings
@@ -80,6 +81,8 @@ def simulate(
             refuse_foreign_files(Path(out), RUN_FILES)
     ships, names = scenario.load_ships(), tuple(scenario.ships)
     with ExitStack() as stack:
+        if out is not None:
+            stack.enter_context(hold_folder(Path(out)))
         if in_process:
             factories = model_factories(names, stack)
         elif prepared is not None:
@@ -88,9 +91,9 @@ def simulate(
         else:
             factories = fmu_factories(ready_fmus(names, fmi), stack, names, fmi)
         record, wall_time = run_steps(scenario, ships, factories, progress, prepared)
-    run = build_run(scenario, ships, record, _name_mode(engine, fmi, in_process), wall_time, engine)
-    if out is not None:
-        run.write(out)
+        run = build_run(scenario, ships, record, _name_mode(engine, fmi, in_process), wall_time, engine)
+        if out is not None:
+            run.write(out)
     return run
 
 

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+import re
 import socket
 import threading
 import time
 import webbrowser
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -14,8 +16,13 @@ from click.testing import CliRunner, Result
 
 from shipcollision_fmu.cli import main
 from shipcollision_fmu.errors import StepError
+from shipcollision_fmu.live.protocols.outlets import Outlets
+from shipcollision_fmu.live.server.host_names import find_hosts
+from shipcollision_fmu.live.server.serve import bind
 from shipcollision_fmu.live.session import session as session_module
+from shipcollision_fmu.live.session.commands import End
 from shipcollision_fmu.live.session.live_run import LiveRun
+from shipcollision_fmu.live.session.session import Session
 from shipcollision_fmu.scenario.scenario import Scenario
 
 
@@ -70,19 +77,112 @@ def test_a_live_run_is_steered_by_a_program(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("address", "warns"),
+    ("address", "asks"),
     [("0.0.0.0", True), ("[::]", True), ("127.0.0.1", False), ("localhost", False), (None, False)],
 )
-def test_an_order_port_for_other_machines_is_warned_of(tmp_path: Path, address: str | None, warns: bool) -> None:
+def test_an_order_port_for_other_machines_has_a_token(tmp_path: Path, address: str | None, asks: bool) -> None:
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
     orders = str(port) if address is None else f"{address}:{port}"
     result = live(tmp_path, "--orders", orders, "--duration", "0.1")
     assert result.exit_code == 0, result.output
-    warning = f"warning: --orders {orders} has no token: whoever reaches this address may steer any ship\n"
-    assert result.stderr.count("warning") == warns
-    assert (warning in result.stderr) == warns
+    found = re.search(rf"^orders at TCP port {re.escape(orders)}(?:, with the token (\S+))?$", result.stdout, re.M)
+    assert found is not None
+    assert (found[1] is not None) == asks
+    assert found[1] is None or len(found[1]) >= 32
+
+
+def test_the_order_port_asks_for_the_token_that_is_given(tmp_path: Path) -> None:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    answers: list[object] = []
+
+    def steer(session: Session) -> Callable[[], None]:
+        for line in ({"ship": "own", "rudder_deg": 5}, {"token": "open sesame", "ship": "own", "rudder_deg": 6}):
+            with socket.create_connection(("127.0.0.1", port), timeout=10.0) as bridge:
+                bridge.sendall(json.dumps(line).encode() + b"\n")
+                answers.append(json.loads(bridge.makefile().readline())["ok"])
+        session.submit(End())
+        return lambda: None
+
+    started = Outlets.start
+
+    def start(outlets: Outlets) -> None:
+        started(outlets)
+        threading.Thread(target=steer, args=(outlets._session,), daemon=True).start()
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Outlets, "start", start)
+        result = live(tmp_path, "--orders", str(port), "--order-token", "open sesame", "--duration", "600")
+    assert result.exit_code == 0, result.output
+    assert f"orders at TCP port {port}, with the token open sesame" in result.output
+    assert answers == [False, True]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "line"),
+    [
+        (
+            ("--order-token", "open sesame"),
+            "--order-token is that of --orders, which is missing: give both, or neither",
+        ),
+        (
+            ("--orders", "4711", "--order-token", "short"),
+            "--order-token has 5 characters: give 8 to 256 printable ones",
+        ),
+        (
+            ("--orders", "4711", "--order-token", "two\nlines"),
+            "--order-token has 9 characters: give 8 to 256 printable",
+        ),
+    ],
+)
+def test_a_token_that_cannot_be_is_refused(tmp_path: Path, arguments: tuple[str, ...], line: str) -> None:
+    result = live(tmp_path, *arguments)
+    assert result.exit_code == 2, result.output
+    assert line in result.stderr
+    assert result.stderr.count("\n") == 1
+    assert not (tmp_path / "run").exists()
+
+
+def test_addresses_for_this_machine_and_for_others_are_printed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:  # fmt: skip
+    """0.0.0.0 is an address to listen at, and none to open."""
+    monkeypatch.setattr("shipcollision_fmu.live.server.host_names.list_own_addresses", lambda family: ["192.0.2.7"])
+    result = live(tmp_path, "--host", "0.0.0.0", "--duration", "0.1")
+    assert result.exit_code == 0, result.output
+    said = re.sub(r"(:)\d+(/\S*token=)\S+", r"\1PORT\2T", result.stdout).splitlines()[:4]
+    assert said == [
+        "bridge of own: http://127.0.0.1:PORT/?token=T",
+        "instructor: http://127.0.0.1:PORT/instructor?token=T",
+        "bridge of own, from other machines: http://192.0.2.7:PORT/?token=T",
+        "instructor, from other machines: http://192.0.2.7:PORT/instructor?token=T",
+    ]
+
+
+@pytest.mark.parametrize("host", ["0.0.0.0", "::", "127.0.0.1"])
+def test_the_hosts_that_are_found_lead_to_the_server(host: str) -> None:
+    with bind(host, 0) as listening:
+        here, elsewhere = find_hosts(listening)
+        for one in (here, *elsewhere):
+            with socket.create_connection((one.strip("[]"), listening.getsockname()[1]), timeout=5.0):
+                pass
+    assert here in ("127.0.0.1", "[::1]")
+    assert not elsewhere or host != "127.0.0.1"
+    assert not {"127.0.0.1", "0.0.0.0", "[::1]", "[::]"} & set(elsewhere)
+
+
+def test_a_finished_run_is_replaced_with_its_pictures(tmp_path: Path) -> None:
+    """As by `shipcollision run`."""
+    assert live(tmp_path, "--duration", "0.1").exit_code == 0
+    (tmp_path / "run" / "scene.glb").write_bytes(b"of the older run")
+    (tmp_path / "run" / "notes.txt").write_text("of the user", encoding="utf-8")
+    assert live(tmp_path, "--duration", "0.2").exit_code == 0
+    assert not (tmp_path / "run" / "scene.glb").exists()
+    assert (tmp_path / "run" / "notes.txt").is_file()
+    assert json.loads((tmp_path / "run" / "summary.json").read_bytes())["steps"] == 4
 
 
 def test_where_no_page_was_written_a_command_writes_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

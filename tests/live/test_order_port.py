@@ -160,6 +160,8 @@ def until(holds: Callable[[], bool], seconds: float = 10.0) -> None:
         (b'{"ship": "own"}', "the order is empty: give rudder_deg, heading_deg, rev_per_s or telegraph"),
         (b'{"ship": "own", "rudder_deg": "5"}', "rudder_deg = '5' must be a number"),
         (b'{"ship": "own", "rudder_deg": true}', "rudder_deg = True must be a number"),
+        (b'{"ship": "own", "rudder_deg": 5, "rudder_deg": 6}', "'rudder_deg' is there twice: give it once"),
+        (b'{"ship": "own", "token": 7}', "token must be a text of up to 256 characters"),
         (b'{"ship": "own", "rudder_deg": NaN}', "NaN is not JSON: give a finite number"),
         (b'{"ship": "own", "rudder_deg": 1e400}', "rudder_deg = inf must be between -1e+06 and 1e+06"),
         (b'{"ship": "own", "telegraph": 5}', "telegraph = 5 must be a whole number, -4 (full astern) to 4 (ahead)"),
@@ -286,6 +288,72 @@ def test_a_client_that_reads_nothing_is_dropped(port: OrderPort, connect: Connec
         deaf.socket.sendall(flood)
     until(lambda: port.dropped > 0)
     assert other.ask({"state": True})["ok"]
+
+
+@pytest.fixture
+def guarded(session: Recorded) -> Iterator[OrderPort]:
+    """A port with a token."""
+    served = OrderPort("127.0.0.1", 0, session.connect(), token="open sesame")
+    served.start()
+    yield served
+    served.close()
+
+
+def test_a_token_admits_alone_or_with_an_order(session: Recorded, guarded: OrderPort) -> None:
+    alone, together = Bridge(guarded.port), Bridge(guarded.port)
+    assert alone.ask({"token": "open sesame", "id": 1}) == {"ok": True, "id": 1}
+    assert alone.ask({"ship": "own", "rudder_deg": 5}) == {"ok": True}
+    alone.close()
+    until = time.monotonic() + 10.0
+    while session.command and time.monotonic() < until:
+        time.sleep(0.01)
+    assert together.ask({"token": "open sesame", "ship": "own", "rudder_deg": 6}) == {"ok": True}
+    assert together.ask({"ship": "own", "rudder_deg": 7}) == {"ok": True}
+    assert together.ask({"ship": "own", "rudder": 7})["ok"] is False  # a mistake later costs nothing more
+    assert together.ask({"state": True})["ok"]
+    together.close()
+    assert [values["rudder_deg"] for _, values in session.orders] == [5.0, 6.0, 7.0]
+
+
+@pytest.mark.parametrize(
+    ("line", "what"),
+    [
+        ({"ship": "own", "rudder_deg": 5}, "the token is missing in the first line"),
+        ({"state": True}, "the token is missing in the first line"),
+        ({"token": "open", "ship": "own", "rudder_deg": 5}, "the token is wrong"),
+        ({"token": ""}, "the token is wrong"),
+        ({"token": 7}, "token must be a text"),
+        ({"rudder": 7}, "'rudder' is no key"),
+    ],
+)
+def test_without_the_token_a_client_is_dropped(
+    session: Recorded, guarded: OrderPort, line: dict[str, Any], what: str
+) -> None:
+    bridge = Bridge(guarded.port)
+    bridge.socket.sendall(json.dumps(line).encode() + b'\n{"token": "open sesame", "ship": "own", "rudder_deg": 5}\n')
+    answer = bridge.read()
+    assert answer["ok"] is False
+    assert answer["error"].startswith(what)
+    assert answer["error"].endswith("; the connection ends")
+    with suppress(ConnectionResetError):
+        assert bridge.answers.readline() == b""
+    bridge.close()
+    assert (session.orders, session.refused) == ([], 1)
+
+
+def test_who_gives_no_token_does_not_lock_others_out(guarded: OrderPort, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(order_port, "ADMISSION", 0.3)
+    admitted = Bridge(guarded.port)
+    assert admitted.ask({"token": "open sesame"})["ok"]
+    silent = [Bridge(guarded.port) for _ in range(MOST_CLIENTS - 1)]
+    for bridge in silent:
+        assert bridge.answers.readline() == b""
+        bridge.close()
+    later = Bridge(guarded.port)
+    assert later.ask({"token": "open sesame"})["ok"]
+    assert admitted.ask({"state": True})["ok"]
+    for bridge in (later, admitted):
+        bridge.close()
 
 
 def test_a_port_in_use_is_refused(port: OrderPort, session: Recorded) -> None:

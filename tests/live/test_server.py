@@ -252,7 +252,8 @@ def test_there_is_no_replay_before_the_end(server: LiveServer) -> None:
         ('{"type": 7}', "type = '7' is unknown: give one of order, command, "),
         ('{"type": "order"}', "order: [ship] is missing: give its value"),
         ('{"type": "order", "ship": "own", "rudder_deg": "5"}', "order: "),
-        ('{"type": "order", "ship": "own", "rudder_deg": NaN}', "the message is not JSON ("),
+        ('{"type": "order", "ship": "own", "rudder_deg": NaN}', "NaN is not JSON: give a finite number"),
+        ('{"type": "step", "type": "end"}', "'type' is there twice: give it once"),
         (
             '{"type": "order", "ship": "own", "rudder": 5}',
             "order: [rudder] is not a known key: did you mean rudder_deg?",

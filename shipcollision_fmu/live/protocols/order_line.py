@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 from ...errors import InputError
+from ..json_object import read_object
 
 __all__ = ["Line", "NotJsonError", "parse_line"]
 
 NUMBERS = ("rudder_deg", "heading_deg", "rev_per_s")
-KEYS = ("ship", *NUMBERS, "telegraph", "command", "state", "id")
+KEYS = ("ship", *NUMBERS, "telegraph", "command", "state", "token", "id")
 LONGEST_NAME = 64
 """Characters in the name of a ship, and in an id."""
+LONGEST_TOKEN = 256
+"""Characters of a token."""
 LARGEST = 1e6
 """Limit of a number; the ship has limits of its own."""
 
@@ -25,12 +27,13 @@ class NotJsonError(InputError):
 
 @dataclass(frozen=True)
 class Line:
-    """A line as read: an order to a ship, a change of command, or a question for the state."""
+    """A line as read: an order to a ship, a change of command, or a question for the state; a token may go alone."""
 
     ship: str | None = None
     order: Mapping[str, float | int] = field(default_factory=dict)
     command: bool | None = None
     state: bool = False
+    token: str | None = None
     id: str | int | None = None
 
 
@@ -40,10 +43,15 @@ def parse_line(raw: bytes) -> Line:
     identifier = data.get("id")
     if not (identifier is None or (isinstance(identifier, str | int) and len(str(identifier)) <= LONGEST_NAME)):
         raise InputError(f"id must be a text or a whole number of up to {LONGEST_NAME} characters")
+    token = data.get("token")
+    if not (token is None or (isinstance(token, str) and len(token) <= LONGEST_TOKEN)):
+        raise InputError(f"token must be a text of up to {LONGEST_TOKEN} characters")
     if "state" in data:
-        if data["state"] is not True or set(data) - {"state", "id"}:
+        if data["state"] is not True or set(data) - {"state", "token", "id"}:
             raise InputError('state goes alone, as {"state": true}')
-        return Line(state=True, id=identifier)
+        return Line(state=True, token=token, id=identifier)
+    if token is not None and not set(data) - {"token", "id"}:
+        return Line(token=token, id=identifier)
     ship, command = data.get("ship"), data.get("command")
     if not isinstance(ship, str) or not 0 < len(ship) <= LONGEST_NAME:
         raise InputError("ship is missing: give the name of a ship of the scenario")
@@ -52,13 +60,13 @@ def parse_line(raw: bytes) -> Line:
     order = _read_order(data)
     if not order and command is None:
         raise InputError(f"the order is empty: give {', '.join(NUMBERS)} or telegraph, or command")
-    return Line(ship, order, command, False, identifier)
+    return Line(ship, order, command, False, token, identifier)
 
 
 def _read_object(raw: bytes) -> dict[str, Any]:
     """The JSON object of a line, with known keys."""
     try:
-        data = json.loads(raw.decode("utf-8"), parse_constant=_refuse_constant)
+        data = read_object(raw.decode("utf-8"))
     except InputError:
         raise
     except (ValueError, RecursionError):
@@ -87,10 +95,6 @@ def _read_order(data: Mapping[str, Any]) -> dict[str, float | int]:
             raise InputError(f"telegraph = {_shorten(telegraph)} must be a whole number, -4 (full astern) to 4 (ahead)")
         order["telegraph"] = telegraph
     return order
-
-
-def _refuse_constant(text: str) -> Any:
-    raise InputError(f"{text} is not JSON: give a finite number")
 
 
 def _shorten(value: object) -> str:

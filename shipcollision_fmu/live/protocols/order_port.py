@@ -10,6 +10,9 @@ The first order to a ship that nobody commands takes its command; a client that 
 with a line feed and have at most LONGEST_LINE bytes. One thread serves all clients and waits for none: a client that
 does not read its answers, or sends too much at a time, is dropped. Lines that are refused are counted.
 
+A port with a token asks for it in the first line of a client, alone or with an order: {"token": "...", "ship": ...}.
+Without it a client is dropped, and after ADMISSION seconds at the latest, so that silent ones do not lock others out.
+
 A client whose first line is not JSON is dropped, with all that follows. Any page in a browser of this machine may post
 to the port: that begins with a line of HTTP, and its body could hold orders.
 """
@@ -17,6 +20,7 @@ to the port: that begins with a line of HTTP, and its body could hold orders.
 from __future__ import annotations
 
 import json
+import secrets
 import selectors
 import socket
 import threading
@@ -43,6 +47,8 @@ MOST_PENDING = 65_536
 """Bytes of answers that wait for a client; with more it is dropped."""
 LONGEST_ANSWER = 2.0
 """[s] for the session to answer an order."""
+ADMISSION = 8.0
+"""[s] for a client to give the token, where there is one."""
 POLL = 0.2
 """[s] after which the thread looks whether it is to end."""
 
@@ -63,21 +69,24 @@ class Orders:
 
 
 class _Client:
-    def __init__(self, connection: socket.socket, name: str) -> None:
+    def __init__(self, connection: socket.socket, name: str, is_admitted: bool) -> None:
         self.connection, self.name = connection, name
+        self.is_admitted, self.came = is_admitted, monotonic()
         self.received, self.answers = bytearray(), bytearray()
         self.skipping = False  # the rest of a line that is too long
         self.is_known = False  # a line of it was JSON: it speaks this protocol
-        self.is_strange = False  # it speaks another one
+        self.is_unwanted = False  # it speaks another one, or does not know the token
         self.second, self.lines = 0, 0
 
 
 class OrderPort:
-    """The server of the protocol; start() it, and close() it."""
+    """The server of the protocol; start() it, and close() it. `token`: what its clients have to know, if anything."""
 
-    def __init__(self, host: str, port: int, orders: Orders, option: str = "--orders") -> None:
+    def __init__(
+        self, host: str, port: int, orders: Orders, option: str = "--orders", token: str | None = None
+    ) -> None:  # fmt: skip
         self._listening = listen(host, port, option)
-        self._orders = orders
+        self._orders, self._token = orders, token
         self._clients: dict[socket.socket, _Client] = {}
         self._selector = selectors.DefaultSelector()
         self._selector.register(self._listening, selectors.EVENT_READ)
@@ -115,6 +124,14 @@ class OrderPort:
                 client = self._clients.get(key.fileobj)  # type: ignore[call-overload]
                 if client is not None:
                     self._guard(client, events)
+            self._drop_silent()
+
+    def _drop_silent(self) -> None:
+        """Drop those who have had their time to give the token."""
+        deadline = monotonic() - ADMISSION
+        for client in list(self._clients.values()):
+            if not client.is_admitted and client.came < deadline:
+                self._drop(client)
 
     def _guard(self, client: _Client, events: int) -> None:
         """A fault of ours costs one client its connection, and the others nothing."""
@@ -140,14 +157,14 @@ class OrderPort:
             connection.close()
             return
         self._number += 1
-        self._clients[connection] = _Client(connection, f"order port {self._number}")
+        self._clients[connection] = _Client(connection, f"order port {self._number}", self._token is None)
         self._selector.register(connection, selectors.EVENT_READ)
 
     def _attend(self, client: _Client, events: int) -> None:
         if events & selectors.EVENT_READ and not self._receive(client):
             self._drop(client)
             return
-        if not self._send(client) or client.is_strange or len(client.answers) > MOST_PENDING:
+        if not self._send(client) or client.is_unwanted or len(client.answers) > MOST_PENDING:
             self._drop(client)
             return
         mask = selectors.EVENT_READ | (selectors.EVENT_WRITE if client.answers else 0)
@@ -171,7 +188,7 @@ class OrderPort:
                 client.skipping = False
             else:
                 self._take(client, raw)
-            if client.is_strange:
+            if client.is_unwanted:
                 return True
         if len(client.received) > LONGEST_LINE:
             if not client.skipping:
@@ -195,20 +212,35 @@ class OrderPort:
         try:
             line = parse_line(raw)
             client.is_known, identifier = True, line.id
+            self._admit(client, line.token)
             result = self._obey(client, line)
         except NotJsonError as error:
             self._refuse_line(client, str(error))
         except InputError as error:
             client.is_known = True
-            self._refuse(client, str(error), identifier)
+            client.is_unwanted = not client.is_admitted
+            end = "; the connection ends" if client.is_unwanted else ""
+            self._refuse(client, f"{error}{end}", identifier)
         else:
             self.accepted += 1
             self._answer(client, {"ok": True, **result}, identifier)
 
+    def _admit(self, client: _Client, token: str | None) -> None:
+        """Let a client in, once and for all, that knows the token. Raises InputError; its connection then ends."""
+        if client.is_admitted:
+            return
+        asked, given = (self._token or "").encode(), (token or "").encode("utf-8", "replace")
+        if not secrets.compare_digest(given, asked):
+            what = "is wrong" if token is not None else "is missing in the first line"
+            raise InputError(f'the token {what}: send {{"token": "..."}} as `shipcollision live` has it')
+        client.is_admitted = True
+
     def _obey(self, client: _Client, line: Line) -> dict[str, Any]:
         if line.state:
             return {"state": self._orders.state()}
-        ship = line.ship or ""
+        if line.ship is None:
+            return {}
+        ship = line.ship
         before = self._orders.in_command(ship)
         has_taken = before != client.name and (line.command or (line.command is None and before is None))
         if line.command is not None or has_taken:
@@ -224,8 +256,8 @@ class OrderPort:
 
     def _refuse_line(self, client: _Client, message: str) -> None:
         """Refuse what is not JSON; as the first line of a client it is the last."""
-        client.is_strange = not client.is_known
-        end = "; the connection ends, as its first line must be JSON" if client.is_strange else ""
+        client.is_unwanted = not client.is_known
+        end = "; the connection ends, as its first line must be JSON" if client.is_unwanted else ""
         self._refuse(client, message + end)
 
     def _refuse(self, client: _Client, message: str, identifier: str | int | None = None) -> None:

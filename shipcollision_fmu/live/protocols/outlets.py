@@ -39,6 +39,7 @@ class OutletAddresses(NamedTuple):
     nmea_tcp: str | None = None
     dis: Sequence[str] = ()
     orders: str | None = None
+    order_token: str | None = None
 
     def __bool__(self) -> bool:
         return bool(self.nmea or self.nmea_tcp or self.dis or self.orders)
@@ -92,7 +93,8 @@ class Outlets:
             dis: list[Sender] = [UdpSender(*parse_address(at, "udp", "--dis"), "--dis") for at in addresses.dis]
             self.senders += dis
             if addresses.orders is not None:
-                self.orders = OrderPort(*parse_address(addresses.orders, "tcp", "--orders"), _connect(session))
+                at = parse_address(addresses.orders, "tcp", "--orders")
+                self.orders = OrderPort(*at, _connect(session), token=addresses.order_token)
         except ShipCollisionError:
             self.close()
             raise

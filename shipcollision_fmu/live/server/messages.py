@@ -6,12 +6,12 @@ from collections.abc import Callable
 from typing import Any, Literal
 
 from pydantic import Field, ValidationError
-from pydantic_core import from_json
 
 from ...errors import InputError
 from ...scenario.tables.environment import WindTable
 from ...ship.loading.messages import describe_error
 from ...ship.tables.table import Pair, Table
+from ..json_object import read_object
 from ..session import commands
 from ..session.commands import Command
 
@@ -158,8 +158,10 @@ def parse_message(text: str, client: str, role: str, *, sets_pace: bool) -> tupl
 
 def _read_object(text: str) -> dict[str, Any]:
     try:
-        data = from_json(text, allow_inf_nan=False)
-    except ValueError as error:
+        data = read_object(text)
+    except InputError as error:
+        raise BadMessageError(str(error)) from None
+    except (ValueError, RecursionError) as error:
         raise BadMessageError(f"the message is not JSON ({error}): send one object") from None
     if not isinstance(data, dict):
         raise BadMessageError(f"the message is a {type(data).__name__}: send one object with a type")

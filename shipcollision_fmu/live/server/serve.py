@@ -15,7 +15,7 @@ from contextlib import AbstractContextManager, nullcontext
 import uvicorn
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
-from ...errors import HostError
+from ...errors import HostError, InputError
 from ..session.commands import End
 from .app import LiveApp
 
@@ -37,9 +37,10 @@ GOODBYE = 1.0
 
 
 def bind(host: str, port: int) -> socket.socket:
-    """A socket that listens at that address. Raises HostError when it is in use or not this machine's."""
+    """A socket that listens at that address. Raises InputError for a port that is none, HostError when the address is
+    in use or not this machine's."""
     if not 0 <= port <= 65535:
-        raise HostError(f"--port {port} must be from 0 to 65535: 0 is any that is free")
+        raise InputError(f"--port {port} must be from 0 to 65535: give one such as 8750, or 0 for any that is free")
     try:
         family = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0][0]
         listening = socket.socket(family, socket.SOCK_STREAM)

@@ -7,7 +7,8 @@ from pathlib import Path
 
 from ...errors import ShipCollisionError
 from ...files import write_files
-from ...show.page import PAGE, write_page
+from ...show import outputs
+from ...show.page import write_page
 from .live_run import LiveRun
 
 __all__ = ["SCENARIO", "write_run"]
@@ -20,10 +21,10 @@ LARGEST_PAGE = 200_000
 def write_run(run: LiveRun, out: Path) -> list[str]:
     """Write the files of a run into the folder `out`; lines on what could not be written, such as the page.
 
-    The page of an older run there goes first: it must not stand for this one. Raises HostError or OSError when the
-    folder cannot be written.
+    Pages and pictures of an older run there go first: they must not stand for this one. Raises HostError or OSError
+    when the folder cannot be written.
     """
-    (out / PAGE).unlink(missing_ok=True)
+    outputs.remove(out)
     run.inputs.write(out)
     finished = run.finish(out)
     finished.write(out)

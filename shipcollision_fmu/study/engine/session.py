@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
 
+from ...cosim.folder_lock import hold_folder
 from ...cosim.interrupt import delay_interrupts
 from ...errors import HostError
 from .assembly import Assembly
@@ -15,7 +16,6 @@ from .batches import BatchPlan
 from .csv_tables import write_csv
 from .executor import Executor
 from .folder import StudyFolder
-from .folder_lock import hold_folder
 from .in_process import InProcess
 from .interface import ComputeRows, Study
 from .loop import Loop, Progress, Tally

@@ -15,6 +15,7 @@ import pytest
 from distributed import KilledWorker
 
 from shipcollision_fmu import __version__
+from shipcollision_fmu.cosim.folder_lock import hold_folder
 from shipcollision_fmu.errors import HostError, StudyError
 from shipcollision_fmu.files import write_files
 from shipcollision_fmu.study.engine.assembly import Assembly
@@ -22,7 +23,6 @@ from shipcollision_fmu.study.engine.batches import Batch, BatchPlan
 from shipcollision_fmu.study.engine.dask_executor import DaskExecutor, _SchedulerLostError
 from shipcollision_fmu.study.engine.executor import Failure, Outcome
 from shipcollision_fmu.study.engine.folder import StudyFolder
-from shipcollision_fmu.study.engine.folder_lock import hold_folder
 from shipcollision_fmu.study.engine.loop import Loop, Tally
 from shipcollision_fmu.study.engine.part_file import PartBytes
 from shipcollision_fmu.study.engine.parts import get_part, list_parts
@@ -188,7 +188,7 @@ def test_a_folder_that_another_run_writes_is_left_alone(tmp_path: Path, resume: 
     """Two studies that begin at the same moment would be mixed."""
     out = tmp_path / "studies" / "one"
     with hold_folder(out):
-        with pytest.raises(HostError, match=rf"^{out} is being written by another run of a study: wait until it has"):
+        with pytest.raises(HostError, match=rf"^{out} is being written by another run: wait until it has"):
             run(out, resume=resume)
         assert list(out.iterdir()) == []
     assert list(tmp_path.iterdir()) == []

@@ -1,4 +1,4 @@
-"""hold_folder(): one call of run_study() at a time writes into a folder."""
+"""hold_folder(): one process at a time writes into the folder of a run or of a study."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from ...errors import HostError
-from ...files import check_writable
+from ..errors import HostError
+from ..files import check_writable
 
 __all__ = ["hold_folder"]
 
@@ -19,7 +19,7 @@ def hold_folder(path: Path) -> Iterator[None]:
     """Meanwhile the folder is there, and no other process holds it. It is removed again if nothing was written.
 
     The lock is the system's, on the folder itself: it ends with the process, and leaves no file. Where the file system
-    or Windows has none, nothing is held. Raises HostError when another process holds the folder.
+    or Windows has none, nothing is held. Raises HostError when another process, or another call, holds the folder.
     """
     check_writable(path)
     made = [place for place in (path, *path.parents) if not place.exists()]
@@ -44,8 +44,7 @@ def _lock(handle: int, path: Path) -> None:
         fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
         raise HostError(
-            f"{path} is being written by another run of a study: wait until it has ended, or give another folder with "
-            "--out"
+            f"{path} is being written by another run: wait until it has ended, or give another folder with --out"
         ) from None
     except OSError:  # a file system without locks
         return
