@@ -2,9 +2,8 @@
 // track, the churned water behind her stern, and bow wave, foam and shade along her waterline. All are functions of the
 // track up to the time that is shown.
 import * as THREE from "three";
-import { LIGHT } from "./daylight.js";
-import { FINISH_GLSL } from "./finish.js";
-import { HAZE } from "./haze.js";
+import { makeBowWave } from "./bow_wave_mesh.js";
+import { ON_SEA, ON_SEA_HEAD, ON_SEA_PIXEL, ON_SEA_UNIFORMS } from "./on_sea.js";
 import { WATER } from "./ripples.js";
 import { toWorld } from "./tracks.js";
 import { findWaterline } from "./waterline.js";
@@ -17,36 +16,6 @@ const ADDING = {
   depthTest: false, depthWrite: false, side: THREE.DoubleSide, transparent: true,
 };
 const TO_FIELD = "gl_Position = vec4((place - uCover.xy) / uCover.z, 0.0, 1.0);";
-
-// The plain picture has no texture of foam: strips and bands lie on its sea, white over green over the water.
-const ON_SEA = {
-  blending: THREE.CustomBlending, blendSrc: THREE.OneFactor, blendDst: THREE.OneMinusSrcAlphaFactor,
-  transparent: true, depthWrite: false, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -1, toneMapped: false,
-};
-const ON_SEA_UNIFORMS = { ...WATER, ...HAZE, uFoam: LIGHT.uFoam, uDeep: LIGHT.uDeep, uScatter: LIGHT.uScatter, uHorizon: LIGHT.uHorizon, uSun: LIGHT.uSun };
-const ON_SEA_HEAD = /* glsl */ `
-  uniform float uTime, uHaze;
-  uniform vec3 uFoam, uDeep, uScatter, uHorizon, uSun;
-  varying vec2 vWaves;
-  varying vec3 vWhite, vGreen;
-  ${FINISH_GLSL}
-  vec4 onSea(vec2 place) {
-    vWaves = (place - 1.9 * vec2(0.94, 0.34) * uTime) / 23.0;
-    float clear = exp(-distance(vec3(place.x, 0.0, place.y), cameraPosition) / (0.5 * uHaze));
-    vWhite = finish(mix(uHorizon, uFoam * (0.82 + 0.3 * uSun.y), clear));
-    vGreen = finish(mix(uHorizon, uDeep + 2.2 * uScatter, clear));
-    return projectionMatrix * viewMatrix * vec4(place.x, 0.0, place.y, 1.0);
-  }
-`;
-const ON_SEA_PIXEL = /* glsl */ `
-  varying vec2 vWaves;
-  varying vec3 vWhite, vGreen;
-  vec4 paintFoam(float foam, float churned, float shade) {
-    float white = clamp(1.7 * foam * (0.3 + 0.9 * texture2D(uRipples, vWaves).b) - 0.1, 0.0, 0.94);
-    float green = 0.5 * churned * (1.0 - white), dark = 0.3 * shade * (1.0 - white);
-    return vec4(white * vWhite + green * vGreen, white + green + dark);
-  }
-`;
 
 /** A strip along the track: Kelvin's waves and the wake of the stern. */
 export function makeWake({ track, info }, cover) {
@@ -113,7 +82,7 @@ export function makeWake({ track, info }, cover) {
   }));
   const plain = new THREE.Mesh(geometry, new THREE.ShaderMaterial({
     ...ON_SEA, uniforms: { ...ON_SEA_UNIFORMS, uSize: size },
-    vertexShader: vertexShader(ON_SEA_HEAD, "gl_Position = onSea(place);"), fragmentShader: fragmentShader(false, `uniform sampler2D uRipples;${ON_SEA_PIXEL}`, "paintFoam(foam, churned, 0.0)"),
+    vertexShader: vertexShader(ON_SEA_HEAD, "gl_Position = onSea(place, 0.0);"), fragmentShader: fragmentShader(false, `uniform sampler2D uRipples;${ON_SEA_PIXEL}`, "paintFoam(foam, churned, 0.0)"),
   }));
   plain.renderOrder = -5;
   mesh.frustumCulled = plain.frustumCulled = false;
@@ -238,12 +207,11 @@ export function makeHullFoam(ship, cover) {
   }));
   const plain = new THREE.Mesh(geometry, new THREE.ShaderMaterial({
     ...ON_SEA, uniforms: { ...uniforms, ...ON_SEA_UNIFORMS },
-    vertexShader: vertexShader(ON_SEA_HEAD, "gl_Position = onSea(place);"), fragmentShader: fragmentShader(ON_SEA_PIXEL, "step(0.0, vHull.x) * paintFoam(foam, 0.35 * foam, near)"),
+    vertexShader: vertexShader(ON_SEA_HEAD, "gl_Position = onSea(place, 0.0);"), fragmentShader: fragmentShader(ON_SEA_PIXEL, "step(0.0, vHull.x) * paintFoam(foam, 0.35 * foam, near)"),
   }));
   plain.renderOrder = -4;
-  const raised = new THREE.Mesh(geometry, makeRaised(pose, flow, uniforms.uEnds, reach));
-  mesh.frustumCulled = plain.frustumCulled = raised.frustumCulled = false;
-  raised.renderOrder = -4;
+  const bowWave = makeBowWave({ x, port, starboard }, info.T);
+  mesh.frustumCulled = plain.frustumCulled = false;
   const now = new THREE.Vector3(), before = new THREE.Vector3(), q = new THREE.Quaternion(), ahead = new THREE.Vector3();
   const bearing = (quaternion) => {
     ahead.set(1, 0, 0).applyQuaternion(quaternion);
@@ -252,7 +220,7 @@ export function makeHullFoam(ship, cover) {
   return {
     mesh,
     plain,
-    raised,
+    raised: bowWave.mesh,
     update(time) {
       track.at(time - 0.25, before, q);
       const was = bearing(q);
@@ -263,52 +231,7 @@ export function makeHullFoam(ship, cover) {
       flow.set(north * c + east * s, east * c - north * s, turned / 0.25);
       toWorld(now);
       pose.set(now.x, now.z, c, s);
+      bowWave.update(pose.toArray(), flow.toArray());
     },
   };
-}
-
-/** The bow wave itself: the band where the plating pushes the water up, raised and white, for the picture. */
-function makeRaised(pose, flow, ends, reach) {
-  return new THREE.ShaderMaterial({
-    transparent: true, depthWrite: false, side: THREE.DoubleSide,
-    uniforms: { uPose: { value: pose }, uFlow: { value: flow }, uEnds: ends, uReach: { value: reach }, uFoam: LIGHT.uFoam, uTime: WATER.uTime, uRipples: WATER.uRipples },
-    vertexShader: /* glsl */ `
-      attribute float aOut;
-      uniform vec4 uPose;
-      uniform vec3 uFlow;
-      uniform vec2 uEnds;
-      uniform float uReach;
-      varying vec4 vWave; // out, strength, and where on the ship
-      varying float vAbove; // the water [m]
-      void main() {
-        vec2 p = position.xy;
-        vec2 velocity = vec2(uFlow.x - uFlow.z * p.y, uFlow.y + uFlow.z * p.x);
-        float push = max(dot(velocity, normal.xy), 0.0), from = (uEnds.y - p.x) / (uEnds.y - uEnds.x);
-        float head = min(0.55 * push * push / 19.62, 0.28 * uReach);
-        float run = 0.16 * length(velocity) * exp(-5.0 * from) * smoothstep(-0.2, 0.3, uFlow.x); // it runs on along the side
-        float height = max(head, min(run, 0.2 * uReach));
-        float out_ = max(aOut, 0.0);
-        vec2 place = uPose.xy + uPose.zw * p.x + vec2(-uPose.w, uPose.z) * p.y;
-        vWave = vec4(out_, height, p.x, out_ * uReach);
-        float y = height * (1.0 - out_) * (1.0 - out_) + 0.12 - 0.35 * out_;
-        vAbove = y;
-        gl_Position = projectionMatrix * viewMatrix * vec4(place.x, y, place.y, 1.0);
-      }`,
-    fragmentShader: /* glsl */ `
-      uniform vec3 uFoam;
-      uniform float uTime;
-      uniform sampler2D uRipples;
-      varying vec4 vWave;
-      varying float vAbove;
-      void main() {
-        vec2 q = vec2(vWave.z + 2.5 * uTime, vWave.w * 1.6 - 1.2 * uTime);
-        float net = 0.45 * texture2D(uRipples, q / 9.0).a + 0.3 * texture2D(uRipples, q.yx / 4.0).a + 0.25 * texture2D(uRipples, q / 23.0).b;
-        float left = vAbove / (vWave.y + 0.12); // 1 at the plating, 0 where it dips into the sea: it thins out on the way
-        float opacity = smoothstep(0.05, 0.7, vWave.y) * smoothstep(0.0, 0.45, net - 1.0 + 1.25 * left * left);
-        if (opacity < 0.01) discard;
-        gl_FragColor = vec4(uFoam * (0.62 + 0.55 * net), min(opacity, 0.95));
-        #include <tonemapping_fragment>
-        #include <colorspace_fragment>
-      }`,
-  });
 }
