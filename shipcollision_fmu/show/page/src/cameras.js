@@ -1,11 +1,19 @@
 // Where the camera looks: at everything, along with a ship, at the impact, or wherever it is turned to.
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { measureFreeRectangle } from "./free_rectangle.js";
 import { toWorld } from "./tracks.js";
 
 const UP = new THREE.Vector3(0, 1, 0);
 const LOW = (4.6 * Math.PI) / 180; // elevation of the first view: from a launch, with sky over the ships
-const CLOSE = 0.12; // and of the view of an impact [rad]
+const FILLED = 0.86; // of the free part of the picture, by all ships
+const AROUND = { across: 0.65, upright: 0.25 }; // of the ships' length: what the free part shows of an impact, at least
+const RISES = [0.13, 0.2, 0.32]; // elevations from which an impact may be seen [rad]
+const BESIDE = 0.8; // best angle between the eye and the normal of the side that is struck [rad]
+const BLOCKED = 4; // worse than a place that is hidden once: the eye is within a ship
+const LOOKS = 12; // directions that are tried for a free view
+const MOMENTS = [0.05, 0.6, 3]; // after the impact [s], at which its place must be seen
+const CHECK = 0.5, PATIENCE = 4; // [s] of the run: between two looks whether the view is still free, and between two new views
 const CREST = 1.2; // the highest wave that sea.js draws [m]
 const LOWEST = 2; // height of the eye [m]
 
@@ -21,6 +29,8 @@ export class Cameras {
     this.controls.zoomSpeed = 1.4;
     this.controls.addEventListener("change", changed);
     this.controls.addEventListener("start", () => (this.moved = true));
+    this.canvas = canvas;
+    this.free = null; // the part of the picture that nothing covers, once measured
     this.mode = "all";
     this.moved = false; // whether the user has turned or zoomed since the choice
   }
@@ -37,10 +47,7 @@ export class Cameras {
     if (mode.startsWith("ship-")) return this.ships[Number(mode.slice(5))].node.getWorldPosition(new THREE.Vector3());
     if (mode === "all") return this.fleet().middle;
     if (mode === "impact") {
-      const effect = this.effectAt(time);
-      const { node, info } = this.ships.find((ship) => ship.info.name === effect.ship);
-      const point = node.localToWorld(new THREE.Vector3(...effect.point));
-      return point.setY(Math.min(Math.max(point.y, 0.3 * info.height), 0.45 * info.height + 1)); // what opens is between deck and water
+      return this.placesOf(this.effectAt(time))[0];
     }
     return null;
   }
@@ -71,6 +78,8 @@ export class Cameras {
     this.mode = mode;
     this.moved = false;
     if (mode === "free") return;
+    this.makeRoom();
+    this.checked = this.chosen = time;
     const at = mode === "all" ? this.overview(time) : this.closeUp(mode, time);
     this.controls.target.copy(at.target);
     this.camera.position.copy(at.position);
@@ -79,8 +88,41 @@ export class Cameras {
     this.controls.update();
   }
 
+  /** Puts what is looked at in the middle of the part of the picture that nothing covers. */
+  makeRoom() {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    if (!width || !height) return;
+    this.free = measureFreeRectangle(this.canvas);
+    const { left, top, right, bottom } = this.free;
+    this.camera.setViewOffset(width, height, 0.5 * (width - left - right), 0.5 * (height - top - bottom), width, height);
+  }
+
+  /** Tangents of the half angles that the free part of the picture takes up, across and upright. */
+  freeAngles() {
+    const half = Math.tan((this.camera.fov * Math.PI) / 360);
+    if (!this.free) return { tanX: half * this.camera.aspect, tanY: half * 0.84 };
+    const { left, top, right, bottom } = this.free;
+    return { tanX: (half * (right - left)) / this.canvas.clientHeight, tanY: (half * (bottom - top)) / this.canvas.clientHeight };
+  }
+
+  /** How many places of the latest impact a hull hides from the eye now; all where the eye is within a ship. Zero without one. */
+  hidden(time) {
+    if (!this.data.effects?.length) return 0;
+    const places = this.placesOf(this.effectAt(time));
+    return this.isWithin(this.camera.position) ? places.length : this.countHidden(this.camera.position, places);
+  }
+
+  /** A new view of the impact where a ship has come between it and the eye. */
+  clearTheView(time) {
+    if (this.mode !== "impact" || this.moved || Math.abs(time - this.checked) < CHECK) return;
+    this.checked = time;
+    if (Math.abs(time - this.chosen) < PATIENCE && time >= this.chosen) return;
+    if (this.hidden(time)) this.choose("impact", time);
+  }
+
   /** Moves with what is followed; the user's turning and zooming stay. */
   follow(time) {
+    this.clearTheView(time);
     const anchor = this.anchor(this.mode, time);
     if (anchor && this.last) {
       const moved = anchor.clone().sub(this.last);
@@ -108,7 +150,9 @@ export class Cameras {
   resize(width, height) {
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
+    this.makeRoom();
     if (this.mode === "all" && this.last && !this.moved) this.fitAgain();
+    if (this.mode === "impact" && !this.moved) this.choose("impact", this.chosen);
   }
 
   /** The overview in a picture of another shape: all ships fill it again, seen from the same direction. */
@@ -171,13 +215,12 @@ export class Cameras {
     const forward = direction.clone().negate();
     const right = new THREE.Vector3().crossVectors(forward, UP).normalize();
     const above = new THREE.Vector3().crossVectors(right, forward);
-    const tanY = Math.tan((this.camera.fov * Math.PI) / 360) * 0.72;
-    const tanX = Math.tan((this.camera.fov * Math.PI) / 360) * this.camera.aspect * 0.86;
+    const { tanX, tanY } = this.freeAngles();
     let distance = 60;
     for (const point of points) {
       const v = point.clone().sub(target);
       const depth = v.dot(forward);
-      distance = Math.max(distance, Math.abs(v.dot(right)) / tanX - depth, Math.abs(v.dot(above)) / tanY - depth);
+      distance = Math.max(distance, Math.abs(v.dot(right)) / (FILLED * tanX) - depth, Math.abs(v.dot(above)) / (FILLED * tanY) - depth);
     }
     return target.clone().addScaledVector(direction, distance);
   }
@@ -202,46 +245,97 @@ export class Cameras {
     return node.getWorldPosition(new THREE.Vector3()).distanceTo(point) > 2 * info.L_oa + 200;
   }
 
-  /** How many of some points in the world a hull or what stands on it hides from an eye. */
-  countHidden(eye, points) {
-    const solids = [];
+  /** How many of some places of an impact a hull or what stands on it hides from an eye; what is close to a place touches there. */
+  countHidden(eye, places) {
+    const solids = [], close = Math.max(1, 0.03 * this.lengthAt(places[0]));
     for (const { node, info } of this.ships) {
-      if (this.isFarFrom(node, info, points[0])) continue;
+      if (this.isFarFrom(node, info, places[0])) continue;
       node.traverse((mesh) => {
         if (mesh.isMesh && mesh.material.isMeshStandardMaterial && mesh.userData.scratch === undefined) solids.push(mesh);
       });
     }
-    return points.filter((point) => {
-      const way = point.clone().sub(eye);
-      const ray = new THREE.Raycaster(eye, way.clone().normalize(), 0, way.length() - 0.2);
+    return places.filter((place) => {
+      const way = place.clone().sub(eye);
+      const ray = new THREE.Raycaster(eye, way.clone().normalize(), 0, Math.max(0, way.length() - close));
       return ray.intersectObjects(solids, false).length > 0;
     }).length;
   }
 
-  /** The direction from a place of impact in which the opened side is seen best: low, if no ship stands in the way. */
-  openSide(effect, struck, distance) {
+  /** A ship's length [m] as it matters at a place: the mean of the logarithms of all that are near. */
+  lengthAt(place) {
+    const near = this.ships.filter(({ node, info }) => node.getWorldPosition(new THREE.Vector3()).distanceTo(place) < 0.75 * info.L_oa);
+    const lengths = (near.length ? near : this.ships).map(({ info }) => info.L_oa);
+    return Math.exp(lengths.reduce((sum, length) => sum + Math.log(length), 0) / lengths.length);
+  }
+
+  /** Where an impact is seen, between deck and water, and a little below; the ships as they lie now. */
+  placesOf(effect) {
+    const { node, info } = this.ships.find((ship) => ship.info.name === effect.ship);
+    const outwards = new THREE.Vector3(...effect.outwards).transformDirection(node.matrixWorld).setY(0).normalize();
+    const point = node.localToWorld(new THREE.Vector3(...effect.point)).addScaledVector(outwards, 0.4);
+    point.setY(Math.min(Math.max(point.y, 0.3 * info.height), 0.45 * info.height + 1));
+    return [point, point.clone().setY(0.75 * point.y)];
+  }
+
+  /** Share of a ship's length, and of the house above it, that the free part of the picture shows to an eye that looks at a target. */
+  shareSeen({ node, info }, target, eye) {
+    const forward = target.clone().sub(eye).normalize();
+    const right = new THREE.Vector3().crossVectors(forward, UP).normalize(), above = new THREE.Vector3().crossVectors(right, forward);
+    const { tanX, tanY } = this.freeAngles();
+    const places = [-0.5, -0.35, -0.2, 0, 0.2, 0.35, 0.5].map((along) => node.localToWorld(new THREE.Vector3(along * info.L_oa, 0, -info.height)).sub(eye));
+    return places.filter((v) => {
+      const depth = v.dot(forward);
+      return depth > 1 && Math.abs(v.dot(right)) < tanX * depth && Math.abs(v.dot(above)) < 1.1 * tanY * depth;
+    }).length / places.length;
+  }
+
+  /**
+   * Where an impact is best seen from: low, in three-quarter view, with much of both ships, never within a ship, and
+   * with no hull before its place. Directions are sorted by all but the last, which takes long, and tried one after the other.
+   */
+  viewOfImpact(effect, time) {
+    const begins = Math.max(this.data.start, time, effect.time);
+    const offset = this.posedAt(begins, () => {
+      const tried = this.rankViews(effect);
+      const cost = (one) => MOMENTS.reduce((sum, later) => (sum >= BLOCKED ? sum : sum + this.posedAt(begins + later, () => {
+        const places = this.placesOf(effect), eye = places[0].clone().add(one.offset);
+        return this.isWithin(eye) ? BLOCKED : this.countHidden(eye, places);
+      })), 0);
+      let best = tried[0], least = Infinity, looks = 0;
+      for (const one of tried) {
+        const hidden = cost(one);
+        if (hidden - one.score < least) [best, least] = [one, hidden - one.score];
+        if (hidden === 0 || (hidden < BLOCKED && ++looks >= LOOKS)) break;
+      }
+      return best.offset;
+    });
+    return this.placesOf(effect)[0].add(offset);
+  }
+
+  /** Places of the eye from that of an impact, with a score by angle, elevation and what is seen of the ships; the best first. */
+  rankViews(effect) {
+    const { node } = this.ships.find(({ info }) => info.name === effect.ship);
+    const outwards = new THREE.Vector3(...effect.outwards).transformDirection(node.matrixWorld).setY(0).normalize();
+    const target = this.placesOf(effect)[0];
+    const { tanX, tanY } = this.freeAngles(), length = this.lengthAt(target);
+    const distance = Math.max(25, (AROUND.across * length) / (2 * tanX), (AROUND.upright * length) / (2 * tanY));
+    const near = this.ships.filter((ship) => !this.isFarFrom(ship.node, ship.info, target));
     const tried = [];
-    for (const rise of [CLOSE, 0.22]) {
-      for (let i = -9; i <= 9; i++) {
-        tried.push({ turn: 0.16 * i, rise, score: -Math.abs(Math.abs(0.16 * i) - 0.75) - 6 * (rise - CLOSE) - (Math.abs(i) > 7 ? 5 : 0) + 1e-3 * i });
+    for (const rise of RISES) {
+      for (let i = -17; i <= 17; i++) {
+        const turn = (i * Math.PI) / 18;
+        const offset = outwards.clone().applyAxisAngle(UP, turn).addScaledVector(UP, rise).setLength(distance);
+        const seen = near.map((ship) => this.shareSeen(ship, target, target.clone().add(offset)));
+        const score = 1.2 * Math.min(...seen) + 0.4 * Math.max(...seen) - 0.8 * Math.abs(Math.abs(turn) - BESIDE) - 3 * (rise - RISES[0]) + 1e-4 * i;
+        tried.push({ offset, score });
       }
     }
-    const outwards = new THREE.Vector3();
-    for (const later of [0.05, 0.6, 3]) {
-      this.posedAt(Math.max(this.data.start, effect.time + later), () => {
-        outwards.set(...effect.outwards).transformDirection(struck.node.matrixWorld).setY(0).normalize();
-        const point = struck.node.localToWorld(new THREE.Vector3(...effect.point)).addScaledVector(outwards, 0.4);
-        point.setY(Math.max(point.y, 0.3 * struck.info.height));
-        const low = point.clone().setY(0.5 * point.y);
-        for (const one of tried) {
-          const eye = low.clone().addScaledVector(outwards.clone().applyAxisAngle(UP, one.turn), distance).setY(low.y + one.rise * distance);
-          one.score -= this.countHidden(eye, [point, low]) + (this.isWithinAnother(struck.node, eye) ? 3 : 0); // from within, walls do not hide
-        }
-      });
-    }
-    const { turn, rise } = tried.reduce((a, b) => (b.score > a.score ? b : a));
-    outwards.set(...effect.outwards).transformDirection(struck.node.matrixWorld).setY(0).normalize();
-    return { from: outwards.applyAxisAngle(UP, turn), rise };
+    return tried.sort((a, b) => b.score - a.score);
+  }
+
+  /** Whether a place in the world is within a ship in plan, or beside it. */
+  isWithin(place) {
+    return this.isWithinAnother(null, place);
   }
 
   /** Whether a place in the world is within a ship other than `node` in plan, or beside it. */
@@ -261,22 +355,12 @@ export class Cameras {
   closeUp(mode, time) {
     const target = this.anchor(mode, time);
     const out = new THREE.Vector3();
-    let distance, height = 0.32;
-    if (mode === "impact") {
-      const effect = this.effectAt(time);
-      const struck = this.ships.find(({ info }) => info.name === effect.ship);
-      distance = Math.min(170, Math.max(25, 0.52 * struck.info.L_oa));
-      const { from, rise } = this.openSide(effect, struck, distance);
-      out.copy(from);
-      height = rise;
-    } else {
-      const { node, info } = this.ships[Number(mode.slice(5))];
-      distance = 1.5 * info.L_oa;
-      height = 0.16;
-      const sides = [[-1, 0.75], [-1, -0.75], [1, 0.75], [1, -0.75]].map(([along, across]) => new THREE.Vector3(along, across, 0).transformDirection(node.matrixWorld).setY(0).normalize());
-      const isFree = (side) => !this.isAnotherInTheWay(node, target, target.clone().addScaledVector(side, distance));
-      out.copy(sides.find(isFree) ?? sides[0]);
-    }
+    if (mode === "impact") return { target, position: this.viewOfImpact(this.effectAt(time), time) };
+    const { node, info } = this.ships[Number(mode.slice(5))];
+    const distance = 1.5 * info.L_oa, height = 0.16;
+    const sides = [[-1, 0.75], [-1, -0.75], [1, 0.75], [1, -0.75]].map(([along, across]) => new THREE.Vector3(along, across, 0).transformDirection(node.matrixWorld).setY(0).normalize());
+    const isFree = (side) => !this.isAnotherInTheWay(node, target, target.clone().addScaledVector(side, distance));
+    out.copy(sides.find(isFree) ?? sides[0]);
     out.y = 0;
     out.normalize().addScaledVector(UP, height).normalize();
     return { target, position: target.clone().addScaledVector(out, distance) };

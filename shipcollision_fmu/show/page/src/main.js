@@ -118,6 +118,7 @@ async function start() {
     if (wishes.has("play")) clock.play();
   }
   controls.setPlain(plain);
+  controls.chooseCamera("all"); // once more, beside card and bar, which stand now
   obey();
   window.addEventListener("hashchange", obey);
 
@@ -149,7 +150,7 @@ async function start() {
       return {
         time: clock.time, poses: viewer.poses(), eye: viewer.eye(), scratchPoints: points.length,
         scratchTriangles: viewer.shown.triangles, effects: viewer.shown.effects,
-        others: ghosts?.positions(),
+        others: ghosts?.positions(), hidden: viewer.cameras.hidden(clock.time),
         sparks: viewer.shown.sparks, lights: viewer.shown.lights, made: viewer.made(),
       };
     },
