@@ -1,7 +1,9 @@
 // Foam and ships' waves, drawn from above into a texture around what the camera looks at, which the sea reads. Red is
 // foam, green the height of the water [m], blue the shade beside hulls, alpha water that has been churned up.
 import * as THREE from "three";
-import { makeHullFoam, makeWake } from "./wake.js";
+import { makeHullFoam } from "./hull_foam.js";
+import { makeWake } from "./wake.js";
+import { findWaterline } from "./waterline.js";
 
 export const FIELD_GLSL = /* glsl */ `
   uniform sampler2D uField;
@@ -16,16 +18,20 @@ export const FIELD_GLSL = /* glsl */ `
   }
 `;
 
-const LEAST = 260, MOST = 4500; // half the width of the texture [m]
+const SIZE = 1536; // texels in each direction
+const LEAST = 420, MOST = 4500; // half the width of the texture [m]
 
 /**
  * `ships`: [{node, info, track}]; returns the uniforms for the sea, what draws the texture, and the nodes that stand in the
  * picture itself: bow waves, and the foam of the plain picture.
  */
 export function makeFoam(ships, renderer) {
-  const target = new THREE.WebGLRenderTarget(1024, 1024, { type: THREE.HalfFloatType, depthBuffer: false });
+  const target = new THREE.WebGLRenderTarget(SIZE, SIZE, { type: THREE.HalfFloatType, depthBuffer: false });
   const cover = { value: new THREE.Vector4(0, 0, 1000, 2) };
-  const parts = ships.flatMap((ship) => [makeWake(ship, cover), makeHullFoam(ship, cover)]);
+  const parts = ships.flatMap((ship) => {
+    const outline = findWaterline(ship);
+    return [makeWake(ship, { aft: outline.x[0], fore: outline.x.at(-1) }, cover), makeHullFoam(ship, outline, cover)];
+  });
   let isPlain = false;
   const scene = new THREE.Scene().add(...parts.map(({ mesh }) => mesh));
   const camera = new THREE.Camera();
@@ -41,8 +47,8 @@ export function makeFoam(ships, renderer) {
     },
     /** At a time since the start, around a point in the page's world seen from a distance [m]. */
     draw(time, middle, distance) {
-      const half = Math.min(MOST, Math.max(LEAST, 1.5 * distance));
-      const texel = (2 * half) / target.width;
+      const half = Math.min(MOST, Math.max(LEAST, 2.4 * distance));
+      const texel = (2 * half) / SIZE;
       cover.value.set(Math.round(middle.x / texel) * texel, Math.round(middle.z / texel) * texel, half, texel);
       for (const part of parts) part.update(time, isPlain);
       if (isPlain) return;

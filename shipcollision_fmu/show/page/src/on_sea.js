@@ -12,13 +12,13 @@ export const ON_SEA = {
 export const ON_SEA_UNIFORMS = { ...WATER, ...HAZE, uFoam: LIGHT.uFoam, uDeep: LIGHT.uDeep, uScatter: LIGHT.uScatter, uHorizon: LIGHT.uHorizon, uSun: LIGHT.uSun };
 /** `onSea(place, y)`: where a corner is in the picture; sets the colours of foam, churned and smooth water there. */
 export const ON_SEA_HEAD = /* glsl */ `
-  uniform float uTime, uHaze;
+  uniform float uHaze;
   uniform vec3 uFoam, uDeep, uScatter, uHorizon, uSun;
   varying vec2 vWaves;
   varying vec3 vWhite, vGreen, vBody;
   ${FINISH_GLSL}
   vec4 onSea(vec2 place, float y) {
-    vWaves = (place - 1.9 * vec2(0.94, 0.34) * uTime) / 23.0;
+    vWaves = place / 19.0;
     vec3 away = vec3(place.x, y, place.y) - cameraPosition;
     float far = length(away), clear = exp(-far / (0.5 * uHaze));
     vWhite = finish(mix(uHorizon, uFoam * (0.82 + 0.3 * uSun.y), clear));

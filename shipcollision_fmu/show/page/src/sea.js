@@ -113,8 +113,8 @@ const fragmentShader = (count) => /* glsl */ `
       }
       if (t < end && end > 0.0 && t < nearest) {
         nearest = t;
-        vec3 at = abs(origin + t * ray); // fainter towards the top, where there is more than a hull
-        found = vec4(uColours[i], 0.8 * smoothstep(1.02, 0.85, at.x) * smoothstep(1.05, 0.55, at.z));
+        vec3 at = abs(origin + t * ray); // fainter towards the top, where there is more than a hull, and from afar, where waves scatter it
+        found = vec4(uColours[i], 0.8 * smoothstep(1.02, 0.85, at.x) * smoothstep(1.05, 0.55, at.z) * exp(-t / (5.0 * size.z)));
       }
     }
     return found;
@@ -160,10 +160,9 @@ const fragmentShader = (count) => /* glsl */ `
     float grazing = 0.02 + 0.98 * pow(1.0 - max(dot(-view, middle_), 0.0), 5.0);
     colour += uDisc * uShine * min(0.03 * glitter * grazing / max(middle_.y * 4.0 * facing, 0.25), 2.4) * smoothstep(-0.02, 0.06, uSun.y);
     colour *= 1.0 - 0.55 * field.b;
-    // Foam breaks up into a lace as it fades; a few crests break by themselves.
-    float net = 0.46 * lace(p / 12.0 + 0.02 * slope) + 0.28 * lace(p.yx / 4.3 + 0.37) + 0.26 * lace(p / 37.0);
+    // Foam breaks up into a lace as it fades.
+    float net = 0.40 * lace(p / 12.0 + 0.02 * slope) + 0.25 * lace(p.yx / 4.3 + 0.37) + 0.20 * lace(p / 37.0) + 0.15 * lace(p.yx / 131.0);
     float foam = field.r;
-    foam += 0.42 * smoothstep(0.62, 1.0, height * 0.55 + 0.45 * fine.z + 0.35 * broad.z) * exp(-distance_ / 1500.0);
     foam = smoothstep(0.0, 0.55, foam - 0.55 + 0.6 * net) * min(1.0, 1.8 * foam);
     colour = mix(colour, uFoam * (0.78 + 0.3 * clamp(dot(normal, uSun), 0.0, 1.0) + 0.15 * net), clamp(foam, 0.0, 0.94));
     vec3 horizon = skyAt(normalize(vec3(view.x, 0.01, view.z)), 2.0);
