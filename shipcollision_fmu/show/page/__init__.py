@@ -111,6 +111,19 @@ def _collect_data(scene: Scene) -> dict[str, Any]:
         "scratches": [
             {"id": s.id, "ship": s.ship, "other": s.other, "times": s.times.tolist()} for s in scene.scratches
         ],
+        "dents": [
+            {
+                "kind": dent.kind,
+                "ship": dent.ship,
+                "point": dent.point.tolist(),
+                "outwards": dent.outwards.tolist(),
+                "time": dent.time,
+                "duration": dent.duration,
+                "depth": dent.depth,
+                "half_width": dent.half_width,
+            }
+            for dent in scene.dents
+        ],
         "least_clearance": min((float(curve.values.min()) for curve in clearance), default=None),
         "signals": _encode_signals(scene.signals),
     }

@@ -5,6 +5,7 @@
     ├── obstacles   surface in their b, position and heading of b in n
     ├── scratches   lines on a hull in the b of its ship, a time per point; one on each ship
     ├── effects     explosion, debris, fire, smoke, at a point of a ship, in its b
+    ├── dents       opened sides and crushed bows, at a point of a ship, in its b
     ├── events      the collisions, to which a viewer can jump
     └── signals     curves over time
 
@@ -25,6 +26,7 @@ import numpy as np
 
 from ...fmi.names import ATTITUDE, POSITION, STATE
 from ...ship.frames import Array
+from .dents import Dent, make_dents
 from .effects import Effect, make_effects
 from .fittings import Fitting
 from .lights import Light
@@ -37,7 +39,8 @@ from .solids import Shape
 from .surface import Surface, drop_flat_triangles
 
 __all__ = [
-    "POSE_ERROR", "Effect", "Event", "Obstacle", "Scene", "Scratch", "Ship", "Track", "build_scene", "load_scene",
+    "POSE_ERROR", "Dent", "Effect", "Event", "Obstacle", "Scene", "Scratch", "Ship", "Track", "build_scene",
+    "load_scene",
 ]  # fmt: skip
 
 POSE_ERROR = 0.005
@@ -133,6 +136,7 @@ class Scene:
     obstacles: tuple[Obstacle, ...]
     scratches: tuple[Scratch, ...]
     effects: tuple[Effect, ...]
+    dents: tuple[Dent, ...]
     events: tuple[Event, ...]
     signals: Signals
 
@@ -173,6 +177,7 @@ def build_scene(run: RunFolder) -> Scene:
         obstacles=obstacles,
         scratches=scratches,
         effects=make_effects(run, scratches),
+        dents=make_dents(run, scratches),
         events=tuple(map(_build_event, run.events.collisions)),
         signals=signals_of(run),
     )

@@ -11,8 +11,10 @@ const AROUND = { across: 0.65, upright: 0.25 }; // of the ships' length: what th
 const RISES = [0.13, 0.2, 0.32]; // elevations from which an impact may be seen [rad]
 const BESIDE = 0.8; // best angle between the eye and the normal of the side that is struck [rad]
 const BLOCKED = 4; // worse than a place that is hidden once: the eye is within a ship
+const OBLIQUE = 1.1; // and the greatest from which an opening is still seen well
 const LOOKS = 12; // directions that are tried for a free view
 const MOMENTS = [0.05, 0.6, 3]; // after the impact [s], at which its place must be seen
+const STRONG = 0.5; // of the strongest impact so far: a weaker one is not what is looked at
 const CHECK = 0.5, PATIENCE = 4; // [s] of the run: between two looks whether the view is still free, and between two new views
 const CREST = 1.2; // the highest wave that sea.js draws [m]
 const LOWEST = 2; // height of the eye [m]
@@ -67,11 +69,13 @@ export class Cameras {
     );
   }
 
-  /** The latest impact that throws up dust, or the first one if there has been none. */
+  /** The latest impact so far that is among the strongest, or the first one if there has been none. */
   effectAt(time) {
     const impacts = this.data.effects.filter(({ kind }) => kind === "dust");
     const known = impacts.length ? impacts : this.data.effects;
-    return known.filter((effect) => effect.time <= time).at(-1) ?? known[0];
+    const past = known.filter((effect) => effect.time <= time);
+    const strongest = Math.max(...past.map(({ intensity }) => intensity));
+    return past.findLast(({ intensity }) => intensity >= STRONG * strongest) ?? known[0];
   }
 
   choose(mode, time) {
@@ -326,7 +330,7 @@ export class Cameras {
         const turn = (i * Math.PI) / 18;
         const offset = outwards.clone().applyAxisAngle(UP, turn).addScaledVector(UP, rise).setLength(distance);
         const seen = near.map((ship) => this.shareSeen(ship, target, target.clone().add(offset)));
-        const score = 1.2 * Math.min(...seen) + 0.4 * Math.max(...seen) - 0.8 * Math.abs(Math.abs(turn) - BESIDE) - 3 * (rise - RISES[0]) + 1e-4 * i;
+        const score = 1.2 * Math.min(...seen) + 0.4 * Math.max(...seen) - 0.8 * Math.abs(Math.abs(turn) - BESIDE) - 3 * Math.max(0, Math.abs(turn) - OBLIQUE) - 3 * (rise - RISES[0]) + 1e-4 * i;
         tried.push({ offset, score });
       }
     }

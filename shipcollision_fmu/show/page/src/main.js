@@ -149,7 +149,7 @@ async function start() {
       const points = data.scratches.flatMap((scratch) => scratch.times).filter((time) => time <= clock.time + SLACK);
       return {
         time: clock.time, poses: viewer.poses(), eye: viewer.eye(), scratchPoints: points.length,
-        scratchTriangles: viewer.shown.triangles, effects: viewer.shown.effects,
+        scratchTriangles: viewer.shown.triangles, effects: viewer.shown.effects, dents: viewer.shown.dents,
         others: ghosts?.positions(), hidden: viewer.cameras.hidden(clock.time),
         sparks: viewer.shown.sparks, lights: viewer.shown.lights, made: viewer.made(),
       };

@@ -3,6 +3,7 @@ import * as THREE from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { Cameras } from "./cameras.js";
 import { LIGHT } from "./daylight.js";
+import { addDents } from "./dents.js";
 import { addEffects } from "./effects.js";
 import { makeFoam } from "./foam.js";
 import { HAZE, setHaze } from "./haze.js";
@@ -93,6 +94,8 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
   const showSparks = addSparks(gltf.scene);
   const effects = [addEffects(data.effects, nodeOf)];
   const plainShips = makePlainShips(gltf.scene, ships);
+  const dents = [addDents(data.dents ?? [], ships)];
+  const fires = data.effects.filter(({ kind }) => kind === "fire"); // that glow in dents
 
   const moved = []; // what else follows the time
 
@@ -102,7 +105,7 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
   let hour = "day", shownHour = "";
   let plain = !isSmooth;
   const pace = makePace();
-  const shown = { triangles: 0, effects: 0, sparks: 0, lights: lights.count, frames: 0 };
+  const shown = { triangles: 0, effects: 0, dents: [], sparks: 0, lights: lights.count, frames: 0 };
   const cameras = new CamerasOf(canvas, ships, data, () => want());
 
   function pose() {
@@ -111,6 +114,7 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
     gltf.scene.updateMatrixWorld(true);
     shown.triangles = scratches.show(time - data.start);
     shown.sparks = showSparks(time - data.start);
+    shown.dents = dents.flatMap(({ show }) => show(time, fires));
     shown.effects = effects.reduce((count, showAt) => count + showAt(time, plain), 0);
   }
 
@@ -209,13 +213,26 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
     /** Adds effects of a collision that has happened since; returns what takes them away again. */
     addEffects(more) {
       const showAt = addEffects(more, nodeOf);
+      const burning = more.filter(({ kind }) => kind === "fire");
       effects.push(showAt);
-      return () => (showAt(-Infinity), effects.splice(effects.indexOf(showAt), 1));
+      fires.push(...burning);
+      return () => {
+        showAt(-Infinity);
+        effects.splice(effects.indexOf(showAt), 1);
+        for (const fire of burning) fires.splice(fires.indexOf(fire), 1);
+      };
+    },
+    /** Adds dents of a collision that has happened since; returns what takes them away again. */
+    addDents(more) {
+      const added = addDents(more, ships);
+      dents.push(added);
+      return () => (added.remove(), dents.splice(dents.indexOf(added), 1));
     },
     setSky,
     /** Plain: a flat sea, light worked out at corners, no shadows, and no more pixels than the screen's own. For processors that draw. */
     setPlain(isPlain) {
       plain = isPlain;
+      for (const { show } of dents) show(-Infinity, fires); // the ships that are made now are whole
       sea.setPlain(isPlain);
       foam.setPlain(isPlain);
       plainShips.setPlain(isPlain);

@@ -5,7 +5,7 @@ import { inWords, onLanguage, say } from "../texts.js";
 import { drawsInSoftware, makeViewer } from "../viewer.js";
 import { Chart } from "./chart.js";
 import { Conning } from "./conning.js";
-import { effectsOf, ignitionOf } from "./effects_live.js";
+import { dentsOf, effectsOf, ignitionOf } from "./effects_live.js";
 import { makeInstruments } from "./instruments.js";
 import { LiveCameras, MODES } from "./live_cameras.js";
 import { makeLivePage } from "./live_page.js";
@@ -50,6 +50,7 @@ export async function startBridge() {
   let scratches = null;
   let shown = null;
   const effects = new Map(); // collision -> {made, remove}: its effects, and what takes them away
+  const dents = new Map(); // collision -> {energy, made, remove}
   const unlit = new Set(); // collisions that this page has seen before they set something on fire
   const numbers = { next: 0, chart: 0 };
 
@@ -146,10 +147,22 @@ export async function startBridge() {
       const infos = viewer.ships.map(({ info }) => info).filter(({ name }) => name === ship_a || name === ship_b);
       const ignition = ignitionOf(infos);
       if (state.time >= start + SETTLED) addOnce(`${key} hit`, () => effectsOf(collision, infos, start, energy, false));
+      if (state.time >= start + SETTLED) addDents(key, collision, infos);
       // What burnt already when this page first saw it began to burn at most a few seconds after the collision did.
       if (energy < ignition) unlit.add(key);
       else addOnce(`${key} fire`, () => effectsOf(collision, infos, unlit.has(key) ? state.time : start, ignition, true));
     }
+  }
+
+  /** Dents, and larger ones in their place once there is half as much energy again. A bow is crushed once. */
+  function addDents(key, collision, infos) {
+    const known = dents.get(key);
+    if (collision.energy <= 1.5 * (known?.energy ?? 0)) return;
+    known?.remove();
+    dents.delete(key);
+    const crushed = [...dents.values()].flatMap(({ made }) => made).filter(({ kind }) => kind === "bow").map(({ ship }) => ship);
+    const made = dentsOf(collision, infos, collision.energy).filter(({ kind, ship }) => kind === "side" || !crushed.includes(ship));
+    dents.set(key, { energy: collision.energy, made, remove: viewer.addDents(made) });
   }
 
   function addOnce(key, make) {
@@ -162,7 +175,9 @@ export async function startBridge() {
   function forgetEffects(state) {
     scratches?.forget(state.time);
     for (const { remove } of effects.values()) remove();
+    for (const { remove } of dents.values()) remove();
     effects.clear();
+    dents.clear();
     unlit.clear();
   }
 
@@ -218,6 +233,10 @@ export async function startBridge() {
     /** Effects of collisions so far, those that are over as well: [{kind, ship, point, time}] and more. */
     get effects() {
       return [...effects.values()].flatMap(({ made }) => made);
+    },
+    /** Dents of collisions so far: [{kind, ship, point, time, depth, half_width}]. */
+    get dents() {
+      return [...dents.values()].flatMap(({ made }) => made);
     },
     order: (fields) => session.connection.ask("order", { ship: session.own, ...fields }),
     camera: chooseCamera,

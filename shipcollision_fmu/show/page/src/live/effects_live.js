@@ -9,6 +9,25 @@ const IGNITION_OF_OIL_AND_GAS = 3.27e7;
 const HITS = { dust: [0, 1.2], splash: [0, 1] }; // delay, duration [s]
 const FIRES = { explosion: [0, 1], debris: [0, 1], fire: [0.4, 25], smoke: [0.8, 60] };
 
+// Sizes of dents, as in show/scene/dents.py, which says what they mean.
+const STEEL = 47.2e6, PLATES = 0.06, SLOPE = Math.tan(Math.PI / 6), CRUSH = 0.25;
+const BOW = 0.3, STEM = 0.47, SMALLEST = 0.25, WIDEST = 0.1;
+const GROWS = 1; // a dent [s]: the closing speed is not told
+
+/** Dents of a collision of an energy [J]: an opening in the side that is struck, a crushed bow on the ship that strikes. */
+export function dentsOf(collision, infos, energy) {
+  const depth = Math.sqrt(Math.max(0, energy) / STEEL / (PLATES * SLOPE));
+  const pointOf = ({ name }) => (name === collision.ship_a ? collision.a : collision.b);
+  const ahead = (info) => pointOf(info)[0] / info.L_oa, foremost = Math.max(...infos.map(ahead));
+  return infos.map((info) => {
+    const point = pointOf(info), isBow = ahead(info) > (ahead(info) === foremost ? BOW : STEM);
+    return {
+      kind: isBow ? "bow" : "side", ship: info.name, point, outwards: [0, Math.sign(point[1]) || 1, 0],
+      time: collision.time, duration: GROWS, depth: isBow ? CRUSH * depth : depth, half_width: Math.min(depth * SLOPE, WIDEST * info.L_oa),
+    };
+  }).filter(({ half_width }) => half_width >= SMALLEST);
+}
+
 /** The energy [J] that sets something on fire. `infos`: what is known of the ships that take part. */
 export const ignitionOf = (infos) => (infos.some(({ kind }) => /tanker|gas/i.test(kind)) ? IGNITION_OF_OIL_AND_GAS : IGNITION);
 
