@@ -9,6 +9,7 @@ import time
 from base64 import b64encode
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
+from math import radians
 from pathlib import Path
 from typing import Any
 
@@ -136,13 +137,47 @@ def test_the_instructor_changes_wind_fails_a_rudder_and_goes_back(server: LiveSe
         assert ask(client, type="command", ship="own")["type"] == "ok"
         stuck = ask(client, type="order", ship="own", rudder_deg=3.0)["message"]
         assert stuck.startswith("own: the rudder is stuck at ")
-        assert stuck.endswith("order revolutions alone, or end the failure on the instructor's page")
+        assert stuck.endswith("order revolutions alone until the instructor ends the failure")
         assert ask(client, type="back", name="before")["type"] == "ok"
         state = receive_until(client, "state")
         state = receive_until(client, "state")
         assert state["environment"]["wind"]["speed"] == 0.0
         assert state["ships"]["own"]["failures"] == []
         assert ask(client, type="command", ship="own", take=False)["type"] == "ok"
+
+
+@pytest.mark.parametrize("role", ["bridge", "instructor"])
+def test_who_comes_later_hears_what_has_happened(monkeypatch: pytest.MonkeyPatch, role: str) -> None:
+    """The latest events, once each: what is told from then on is none of them."""
+    monkeypatch.setattr(hub, "MOST_EVENTS", 3)
+    with serving() as server, server.connect("instructor") as client:
+        for name in "abcd":
+            assert ask(client, type="mark", name=name)["type"] == "ok"
+        with connect(server.address(role)) as later:
+            hello = receive(later)
+            assert [(event["kind"], event["name"]) for event in hello["events"]] == [
+                ("mark", "b"), ("mark", "c"), ("mark", "d"),
+            ]  # fmt: skip
+            assert ask(client, type="mark", name="e")["type"] == "ok"
+            assert receive_until(later, "event")["name"] == "e"
+
+
+def test_who_comes_after_the_end_is_told_of_it() -> None:
+    with serving() as server, server.connect() as first:
+        server.session.submit(End("all is done"))
+        end = receive_until(first, "end")
+        with server.connect() as later:
+            assert receive(later) == end
+
+
+def test_what_is_done_says_after_which_step_the_ship_has_it(server: LiveServer) -> None:
+    with server.connect() as client:
+        assert ask(client, type="command", ship="own")["type"] == "ok"
+        for angle in (4.0, -4.0, 8.0):
+            answer = ask(client, type="order", ship="own", rudder_deg=angle)
+            while (state := receive_until(client, "state"))["step_count"] <= answer["step_count"]:
+                pass
+            assert state["ships"]["own"]["rudder_order"] == pytest.approx(radians(angle))
 
 
 # -- who may come in --------------------------------------------------------------------------------------------------

@@ -11,7 +11,7 @@ import asyncio
 import json
 from collections import deque
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from starlette.websockets import WebSocket, WebSocketDisconnect
@@ -33,7 +33,7 @@ INTERVAL = 0.05
 PATIENCE = 5.0
 """[s] for which a message may take to be sent. A slower client is dropped."""
 MOST_EVENTS = 200
-"""Events that wait for a client."""
+"""Events that wait for a client, and that a new client is told of."""
 
 
 @dataclass(eq=False)
@@ -59,6 +59,8 @@ class Hub:
         self._count = 0
         self._text: tuple[Snapshot | None, str] = (None, "")
         self._loop: asyncio.AbstractEventLoop | None = None
+        self._history: deque[dict[str, Any]] = deque(maxlen=MOST_EVENTS)
+        self._end: dict[str, Any] | None = None
         self.has_ended = asyncio.Event()
 
     def connect(self) -> None:
@@ -76,7 +78,8 @@ class Hub:
         self._count += 1
         client = _Client(f"{role}-{self._count}", role, socket)
         await socket.accept()
-        self._clients.add(client)
+        self._greet(client)
+        self._clients.add(client)  # at once: what happens from now on is no history
         tasks = [asyncio.create_task(self._send_all(client)), asyncio.create_task(self._receive_all(client))]
         try:
             await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
@@ -90,13 +93,23 @@ class Hub:
 
     # -- out ----------------------------------------------------------------------------------------------------------
 
-    async def _send_all(self, client: _Client) -> None:
-        """Hello, then states and events, until the client is gone or too slow."""
-        loop = asyncio.get_running_loop()
+    def _greet(self, client: _Client) -> None:
+        """Tell a new client what it has missed."""
         marks = [{"name": name, "time": time} for name, time in self._session.marks.items()]
-        hello = {**self._hello, "role": client.role, "client": client.name, "marks": marks}
+        touches = [{"time": logged.time, **asdict(logged.touch)} for logged in self._session.touches]
+        client.put(
+            {
+                "type": "hello", **self._hello, "role": client.role, "client": client.name, "marks": marks,
+                "events": list(self._history), "touches": touches,
+            }
+        )  # fmt: skip
+        if self._end is not None:
+            client.put(self._end)
+
+    async def _send_all(self, client: _Client) -> None:
+        """What waits, which begins with hello, then states and events, until the client is gone or too slow."""
+        loop = asyncio.get_running_loop()
         try:
-            await self._send(client, json.dumps({"type": "hello", **hello}))
             due = loop.time()
             while not client.is_over:
                 while client.waiting and not client.is_over:
@@ -134,9 +147,11 @@ class Hub:
             message = {"type": "end", **what, "replay": "/replay.html" if self._session.page else None}
         else:
             message = {"type": "event", **event}
+            self._history.append(event)
         for client in self._clients:
             client.put(message)
         if event["kind"] == "end":
+            self._end = message
             self.has_ended.set()
 
     # -- in -----------------------------------------------------------------------------------------------------------
@@ -177,7 +192,7 @@ class Hub:
             await asyncio.wrap_future(self._session.submit(command))
         except (InputError, ShipCollisionError) as error:
             return _make_answer("error", request, message=str(error))
-        return _make_answer("ok", request)
+        return _make_answer("ok", request, step_count=self._session.snapshot.step_count)
 
 
 def _make_answer(kind: str, request: Any, **what: Any) -> dict[str, Any]:

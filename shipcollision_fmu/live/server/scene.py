@@ -44,7 +44,8 @@ def write_glb(scene: Scene) -> bytes:
 
 
 def describe_ships(scenario: Scenario, ships: dict[str, Ship], scene: Scene) -> list[dict[str, Any]]:
-    """A ship each: what the replay page knows of it, and what it can be ordered to do (`limits`, None: nothing)."""
+    """A ship each: what the replay page knows of it, what it can be ordered to do (`limits`, None: nothing), and
+    whether it follows a recording."""
     return [
         {
             **describe_ship(i, ship),
@@ -52,6 +53,7 @@ def describe_ships(scenario: Scenario, ships: dict[str, Ship], scene: Scene) -> 
             "B": ship.B,
             "T": ship.T,
             "limits": _limits(scenario, ships, ship.name),
+            "recorded": scenario.ships[ship.name].track is not None,
         }
         for i, ship in enumerate(scene.ships)
     ]

@@ -3,6 +3,7 @@
 session.py         Session: the thread; takes commands, publishes snapshots and events, ends with a run folder
 live_run.py        LiveRun: the same without clock and thread
 bridge.py          orders and failures of one ship; ship_limits.py checks them, order_log.py keeps them
+touch_log.py       where bodies have touched
 input_files.py     ship files and recordings, kept for the run's folder
 scenario_text.py   the scenario file that gives the run again
 pacer.py           when the next step is due

@@ -221,11 +221,11 @@ class Bridge:
     def _refuse_failed(self, given: Logged) -> None:
         failures = self._memory.failures
         if "blackout" in failures:
-            raise InputError(f"{self.name} has a blackout and takes no orders: end it on the instructor's page")
+            raise InputError(f"{self.name} has a blackout and takes no orders until the instructor ends it")
         if "rudder" in failures and (given.rudder_deg is not None or given.heading_deg is not None):
             raise InputError(
                 f"{self.name}: the rudder is stuck at {degrees(self.read_machines()[0]):.1f} deg: order revolutions "
-                "alone, or end the failure on the instructor's page"
+                "alone until the instructor ends the failure"
             )
 
 

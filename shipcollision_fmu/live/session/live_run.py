@@ -37,6 +37,7 @@ from .input_files import read_input_files
 from .scenario_text import write_scenario
 from .ship_limits import find_limits
 from .snapshot import CollisionSnapshot, ContactSnapshot, EnvironmentSnapshot, ShipSnapshot, TouchSnapshot, WindSnapshot
+from .touch_log import TouchLog
 
 __all__ = ["MOST_MARKS", "LiveRun"]
 
@@ -93,6 +94,7 @@ class LiveRun:
         self._around = self._coming.get(0, surroundings(scenario))
         self._waiting: EnvironmentChange | None = None
         self._marks: dict[str, _Kept] = {}
+        self.touch_log = TouchLog()
         self._begin = perf_counter()
         self._end = self._stepper.recorder.read_end()
         self.advance()
@@ -131,8 +133,11 @@ class LiveRun:
             bridge.prepare(k)
         self._change(k)
         self._stepper.advance()
+        recorder = self._stepper.recorder
+        if recorder.contact_count:
+            self.touch_log.add(self.time, map(_observe_touch, recorder.read_contact_points()))
         if self.k <= self._stepper.most_recorded:
-            self._end = self._stepper.recorder.read_end()
+            self._end = recorder.read_end()
 
     # -- current and wind ---------------------------------------------------------------------------------------------
 
@@ -196,6 +201,7 @@ class LiveRun:
             wire.outputs.read()
         self._stepper.recorder.go_back(kept.recorded)
         self._stepper.k = kept.k
+        self.touch_log.forget(self.time)
         self._changes, self._around, self._end = dict(kept.changes), list(kept.around), kept.end
         self._coming = {k: values for k, values in changed_surroundings(self.scenario).items() if k >= kept.k}
         if self._changes:

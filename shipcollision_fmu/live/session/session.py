@@ -52,6 +52,7 @@ from .live_run import LiveRun
 from .pacer import FASTEST, SLOWEST, Pacer
 from .run_folder import write_run
 from .snapshot import Snapshot
+from .touch_log import LoggedTouch
 
 __all__ = ["MOST_WAITING", "Clock", "Session", "WallClock"]
 
@@ -152,6 +153,11 @@ class Session:
     def marks(self) -> dict[str, float]:
         """Times [s] of the marks by name."""
         return self._run.marks
+
+    @property
+    def touches(self) -> tuple[LoggedTouch, ...]:
+        """Where bodies have touched so far: the latest places, thinned."""
+        return self._run.touch_log.touches
 
     @property
     def folder(self) -> Path | None:

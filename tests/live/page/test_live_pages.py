@@ -16,7 +16,8 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.support.ui import Select
 
 from shipcollision_fmu import load_scenario, simulate
-from shipcollision_fmu.live.session.commands import Back, End, Pause
+from shipcollision_fmu.live.server import serve as serve_module
+from shipcollision_fmu.live.session.commands import Back, End, Fail, Mark, Pause
 from tests.conftest import Write
 
 from .live_server import BridgePage, LiveServer, serve_live
@@ -123,6 +124,7 @@ def test_keys_steer_the_ship_and_instruments_follow(bridge: BridgePage) -> None:
     bridge.wait("return live.state.ships.own.rev_order === 0")
     press(bridge, "a")
     bridge.wait("return live.state.ships.own.heading_order !== null")
+    bridge.wait("return document.getElementById('course').value !== ''")
     before = bridge.run("return Number(document.getElementById('course').value)")
     press(bridge, "..")
     bridge.wait("return live.state.ships.own.heading_order !== null")
@@ -152,6 +154,123 @@ def test_screen_readers_are_told_of_news_and_not_of_every_number(bridge: BridgeP
     bridge.wait("return !document.querySelector('[data-alarm=\"cpa target\"]')")
 
 
+STUCK = "until the instructor ends the failure"
+PRESSED = """
+    window.pressed = [];
+    const pilot = document.getElementById("autopilot");
+    new MutationObserver(() => pressed.push(pilot.ariaPressed)).observe(pilot, { attributeFilter: ["aria-pressed"] });
+"""
+
+
+def test_a_refused_order_never_looks_taken(bridge: BridgePage, server: LiveServer) -> None:
+    press(bridge, "m")
+    bridge.wait("return live.state.ships.own.heading_order === null")
+    bridge.wait("return document.getElementById('autopilot').ariaPressed === 'false'")
+    server.session.submit(Fail("own", "rudder", True)).result(30.0)
+    try:
+        bridge.wait("return live.state.ships.own.failures.length > 0")
+        bridge.run(PRESSED)
+        press(bridge, "a")
+        bridge.wait(f"return document.querySelector('.messages').textContent.includes('{STUCK}')")
+        assert bridge.run("return pressed.includes('true')") is False
+        press(bridge, Keys.END)
+        bridge.wait(f"return document.querySelector('.messages').textContent.includes('{STUCK}')")
+        ordered = "live.state.ships.own.rudder_order * 180 / Math.PI"
+        bridge.wait(f"return Math.abs(document.getElementById('wheel').ariaValueNow - {ordered}) < 1")
+    finally:
+        server.session.submit(Fail("own", "rudder", False)).result(30.0)
+    press(bridge, "a")
+    bridge.wait("return pressed.includes('true')")
+    press(bridge, "am")
+    bridge.wait("return live.state.ships.own.rudder_order === 0")
+
+
+def test_an_order_in_a_pause_is_shown_until_the_ship_has_it(bridge: BridgePage) -> None:
+    """Two seconds of the wall clock, in which no step is made."""
+    press(bridge, "m")
+    bridge.wait("return live.state.ships.own.rudder_order === 0")
+    press(bridge, "p")
+    bridge.wait("return live.state.paused")
+    press(bridge, Keys.ARROW_RIGHT)
+    bridge.run("window.later = Date.now() + 2000")
+    bridge.wait("return Date.now() > later")
+    assert bridge.state(".ships.own.rudder_order") == 0
+    assert bridge.run("return document.getElementById('wheel').getAttribute('aria-valuenow')") == "5"
+    press(bridge, "p")
+    bridge.wait("return live.state.ships.own.rudder_order > 0.08")
+    press(bridge, "m")
+
+
+def test_the_rate_of_the_command_line_is_shown(bridge: BridgePage) -> None:
+    """It is none of the list."""
+    bridge.wait("return document.getElementById('rate').value === '4'")
+    assert bridge.run("return document.getElementById('rate').selectedOptions[0].textContent") == "4\u00d7"
+    texts = bridge.run("return [...document.getElementById('rate').options].map(({ textContent }) => textContent)")
+    assert texts == ["1/4\u00d7", "1/2\u00d7", "1\u00d7", "2\u00d7", "4\u00d7", "5\u00d7", "10\u00d7", "20\u00d7"]
+
+
+def test_the_card_of_keys_opens_at_its_beginning(bridge: BridgePage) -> None:
+    press(bridge, "?")
+    bridge.wait("return document.querySelector('dialog').open")
+    high, seen, top = bridge.run(
+        "const card = document.querySelector('dialog'); return [card.scrollHeight, card.clientHeight, card.scrollTop]"
+    )
+    press_in_card = "document.querySelector('dialog').close()"
+    bridge.run(press_in_card)
+    assert high > seen  # else there is nothing to scroll
+    assert top == 0
+
+
+def test_a_ship_that_is_not_there_is_said(browser: Chrome, server: LiveServer) -> None:
+    page = BridgePage(browser, f"{server.address()}&ship=titanic")
+    page.wait("return document.querySelector('.messages').textContent")
+    said = page.run("return document.querySelector('.messages').textContent")
+    assert said == "There is no ship titanic. The ships are own, target."
+    assert page.run("return document.querySelector('h1').textContent") in ("", "own")
+
+
+def test_the_log_of_the_instructor_survives_a_reload(browser: Chrome, server: LiveServer) -> None:
+    page = BridgePage(browser, server.address("instructor"))
+    page.wait("return live.state")
+    server.session.submit(Mark("to be kept")).result(30.0)
+    page.wait("return document.getElementById('book').textContent.includes('Mark to be kept')")
+    before = page.run("return [...document.querySelectorAll('#book li')].map(({ textContent }) => textContent)")
+    page.run("location.reload()")
+    page.wait("return window.live?.state && document.querySelector('#book li')")
+    after = page.run("return [...document.querySelectorAll('#book li')].map(({ textContent }) => textContent)")
+    assert after[-len(before) :] == before
+
+
+def test_no_number_of_a_closest_approach_gets_old(bridge: BridgePage) -> None:
+    """It runs on, or gives way to words: where the danger is over, the connection is lost, or the run goes back."""
+    found = bridge.run("""
+        const { session } = live;
+        const danger = (cpa) => {
+            session.limits.cpa = cpa;
+            session.watch(session.state);
+            return session.alarms.list.get("cpa target")?.words() ?? null;
+        };
+        session.limits.tcpa = 1e9;
+        const own = session.state.ships.own, target = session.state.ships.target;
+        target.eta = [own.eta[0] + 3000, own.eta[1] + 100, 0, 0, 0, own.eta[5]];
+        own.nu = [5, 0, 0, 0, 0, 0];
+        target.nu = [0, 0, 0, 0, 0, 0];
+        own.eta[5] = 0;
+        const said = [danger(1000), danger(1)];
+        session.alarms.clearAll();
+        said.push(danger(1000));
+        session.lose();
+        said.push(session.alarms.list.get("cpa target")?.words() ?? null);
+        session.alarms.clearAll();
+        session.limits.cpa = 0;
+        return said;
+    """)
+    assert found[0].startswith("target: CPA 0.05")
+    assert found[1] == "target: CPA no longer below the limits"
+    assert found[2] == found[0]
+    assert found[3] is None
+
+
 @pytest.mark.slow
 def test_wheel_telegraph_and_course_answer_to_the_mouse(bridge: BridgePage) -> None:
     driver = bridge.driver
@@ -161,6 +280,10 @@ def test_wheel_telegraph_and_course_answer_to_the_mouse(bridge: BridgePage) -> N
     course.click()
     course.send_keys(Keys.CONTROL + "a" + Keys.NULL + "123" + Keys.ENTER)
     bridge.wait("return Math.abs(live.state.ships.own.heading_order * 180 / Math.PI - 123) < 1e-6")
+    # The wheel is turned from where it stands, and the autopilot turns it, too: midships first.
+    press(bridge, "m")
+    bridge.wait("return live.state.ships.own.rudder_order === 0")
+    bridge.wait("return document.getElementById('wheel').getAttribute('aria-valuenow') === '0'")
     wheel = driver.find_element(By.ID, "wheel")
     driver.execute_script("arguments[0].scrollIntoView({ block: 'center' })", wheel)
     # A quarter turn to port from the top of the rim: 90 degrees of the wheel are 15 of the rudder.
@@ -168,7 +291,13 @@ def test_wheel_telegraph_and_course_answer_to_the_mouse(bridge: BridgePage) -> N
     for x, y in ((-22, -38), (-38, -22), (-44, 0)):
         held = held.move_to_element_with_offset(wheel, x, y)
     held.release().perform()
-    bridge.wait("return live.state.ships.own.heading_order === null && live.state.ships.own.rudder_order < -0.05")
+    bridge.wait("return Math.abs(live.state.ships.own.rudder_order * 180 / Math.PI + 15) < 1.01")
+    press(bridge, "a")
+    bridge.wait("return live.state.ships.own.heading_order !== null")
+    ActionChains(driver).move_to_element_with_offset(wheel, 0, -44).click_and_hold().move_by_offset(
+        -30, 9
+    ).release().perform()
+    bridge.wait("return live.state.ships.own.heading_order === null")
 
 
 @pytest.mark.slow
@@ -420,8 +549,13 @@ def test_a_page_opened_after_a_collision_neither_burns_anew_nor_raises_an_alarm(
         begun = "Math.max(...live.effects.map(({ time }) => time)) - live.state.contact.collisions[0].time"
         page.wait("return live.effects.some(({ kind }) => kind === 'fire')")
         assert page.run(f"return {begun}") < 2.0
+        scratched = page.run("return live.drawn().scratches")
+        assert all(scratched.values())
         page.run("location.reload()")
         page.wait("return window.live?.effects?.some(({ kind }) => kind === 'fire')")
+        again = page.run("return live.drawn().scratches")  # of before the reload, at places where there was contact
+        for ship, places in again.items():
+            assert len(places) >= 0.5 * len(scratched[ship])
         assert page.run(f"return {begun}") < 2.0
         ends = page.run("return live.state.contact.collisions[0]")
         points = {ends["ship_a"]: ends["a"], ends["ship_b"]: ends["b"]}
@@ -504,6 +638,27 @@ def test_on_a_phone_the_most_urgent_alarm_is_seen_first(browser: Chrome, server:
         """)
         browser.get("about:blank")
     assert seen == ["three", "contact", "contact", "contact"]
+
+
+def test_the_debriefing_is_offered_as_long_as_the_server_answers(
+    browser: Chrome, scenario_file: Write, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """After that the page says where the run is, and the command that shows it. Alarms have an end, too."""
+    monkeypatch.setattr(serve_module, "LINGER", 3.0)
+    out = tmp_path / "the run"
+    with serve_live(browser, scenario_file(), out) as served:
+        page = BridgePage(browser, served.address(), SMALL)
+        page.run("live.session.alarms.set('cpa target', true, 'alarm', () => 'CPA')")
+        served.session.submit(End())
+        page.wait("return document.getElementById('debriefing')")
+        assert page.run("return document.querySelectorAll('#alarms li').length") == 0
+        said = "return document.querySelector('.over').textContent"
+        assert f"shipcollision show '{out}'" in page.run(said)
+        assert "server" not in page.run(said)
+        page.wait("return !document.getElementById('debriefing')")
+        assert f"Stored in {out}. To see it later: shipcollision show '{out}'" in page.run(said)
+        assert page.run(said).endswith("The server has ended as well.")
+        assert not page.run("return document.body.classList.contains('lost')")
 
 
 def assert_places_of_contacts(scratches: dict[str, list[list[float]]], contacts: Path) -> None:

@@ -10,8 +10,9 @@ BODY = """
 const alarms = new Alarms();
 return data.map((step) => {
   if (step === "acknowledge") alarms.acknowledge();
-  else alarms.set(step[0], step[1], step[2], () => step[0]);
-  return { states: Object.fromEntries([...alarms.list].map(([key, { state }]) => [key, state])),
+  else alarms.set(step[0], step[1], step[2], () => step[3] ?? step[0], step[4] && (() => step[4]));
+  return { words: [...alarms.list.values()].map(({ words }) => words()),
+           states: Object.fromEntries([...alarms.list].map(([key, { state }]) => [key, state])),
            sounding: alarms.sounding, order: alarms.sorted.map(({ key }) => key) };
 });
 """
@@ -39,6 +40,12 @@ def test_one_that_nobody_saw_is_kept_and_comes_back_raised() -> None:
     assert over["sounding"] is None
     assert back["states"] == {"cpa": "raised"}
     assert play(here, gone, "acknowledge")[-1]["states"] == {}
+
+
+def test_an_alarm_that_is_over_shows_no_number_of_before() -> None:
+    """It would be old; the number that runs on is that of the cause."""
+    steps = [("cpa", is_there, "alarm", f"CPA {cpa}", "over") for is_there, cpa in ((True, 3), (True, 2), (False, 1))]
+    assert [step["words"] for step in play(*steps)] == [["CPA 3"], ["CPA 2"], ["over"]]
 
 
 def test_a_caution_makes_no_sound_and_goes_by_itself() -> None:

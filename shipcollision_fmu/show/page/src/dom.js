@@ -12,6 +12,13 @@ export function element(tag, attributes = {}, ...children) {
   return made;
 }
 
+/** Opens a dialog, or closes it. Its button at the end has the focus, and it begins at its beginning all the same. */
+export function toggleDialog(dialog) {
+  if (dialog.open) return dialog.close();
+  dialog.showModal();
+  dialog.scrollTop = 0;
+}
+
 const SVG = "http://www.w3.org/2000/svg";
 
 /** An icon of 20 x 20 drawn by one path. */

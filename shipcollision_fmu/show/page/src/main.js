@@ -3,7 +3,7 @@ import "./style.css";
 import { Clock } from "./clock.js";
 import { makeControls } from "./controls.js";
 import { readData, readGlb } from "./data.js";
-import { element } from "./dom.js";
+import { element, toggleDialog } from "./dom.js";
 import { makeComparison } from "./compare_table.js";
 import { makeGhosts } from "./ghosts.js";
 import { makeEvents } from "./events.js";
@@ -68,7 +68,7 @@ async function start() {
     next: () => go((data.events.find((event) => event.time > clock.time + SLACK) ?? { time: clock.end }).time),
     previous: () => go((data.events.findLast((event) => event.time < clock.time - SLACK) ?? { time: clock.start }).time),
     panel: () => document.body.classList.toggle("wide"),
-    help: () => (help.open ? help.close() : help.showModal()),
+    help: () => toggleDialog(help),
     theme: toggleTheme,
     fullScreen: stageTools.fullScreen,
     record: stageTools.record,

@@ -11,20 +11,28 @@ export class Alarms {
     this.list = new Map(); // key -> {key, priority, words, state}
   }
 
-  /** Says whether the cause of an alarm is there, and what it is: words() gives the text in the present language. */
-  set(key, isThere, priority, words) {
+  /**
+   * Says whether the cause of an alarm is there, and what it is: words() gives the text in the present language, past()
+   * that once the cause is gone, where words() has numbers, which then would be old.
+   */
+  set(key, isThere, priority, words, past = words) {
     const known = this.list.get(key);
     if (isThere) {
       if (known?.state === "over") this.list.delete(key); // raised anew, it is the newest
       if (!known || known.state === "over") this.list.set(key, { key, priority, words, state: "raised" });
       else known.words = words;
-    } else if (known?.state === "raised" && priority !== "caution") known.state = "over";
+    } else if (known?.state === "raised" && priority !== "caution") Object.assign(known, { state: "over", words: past });
     else if (known && known.state !== "over") this.list.delete(key);
   }
 
   /** Takes an alarm away whose end needs no acknowledgement. */
   clear(key) {
     this.list.delete(key);
+  }
+
+  /** All causes are gone or have not been: of a run that has ended, or gone back. */
+  clearAll() {
+    this.list.clear();
   }
 
   acknowledge() {

@@ -4,7 +4,7 @@ import { SKIES } from "../daylight.js";
 import { inWords, onLanguage, say } from "../texts.js";
 import { drawsInSoftware, makeViewer } from "../viewer.js";
 import { Chart } from "./chart.js";
-import { Conning } from "./conning.js";
+import { commandWords, Conning } from "./conning.js";
 import { dentsOf, effectsOf, ignitionOf } from "./effects_live.js";
 import { makeInstruments } from "./instruments.js";
 import { LiveCameras, MODES } from "./live_cameras.js";
@@ -60,7 +60,8 @@ export async function startBridge() {
   function greet() {
     const info = session.infoOf(session.own);
     document.title = say("bridge_title", { ship: session.own });
-    conning.setLimits(info.limits ?? null);
+    conning.setLimits(info);
+    scratches?.restore(session.hello.touches); // what was scratched while the connection was lost
     time.setAllowed(session.hello.sets_pace !== false);
     if (chart === null) {
       chart = new Chart(session.hello, session.histories, session.own);
@@ -91,6 +92,7 @@ export async function startBridge() {
       }, LiveCameras);
       made.cameras.own = made.ships.findIndex(({ info }) => info.name === session.own);
       scratches = makeScratchMarks(made.ships);
+      scratches.restore(session.hello.touches);
       viewer = made;
       if (isPlain) togglePlain();
       chooseCamera(session.infoOf(session.own).bridge ? "bridge" : "chase");
@@ -184,7 +186,8 @@ export async function startBridge() {
   function showCommand() {
     const client = session.state.command[session.own];
     title.textContent = session.own;
-    said.textContent = client == null ? say("nobody_in_command") : isInCommand() ? say("in_command") : say("other_in_command", { client });
+    said.textContent = commandWords(session.infoOf(session.own), client, session.hello.client);
+    command.hidden = !session.infoOf(session.own).limits;
     command.textContent = say(isInCommand() ? "release_command" : "take_command");
     command.setAttribute("aria-pressed", String(isInCommand()));
   }
@@ -203,7 +206,7 @@ export async function startBridge() {
       numbers.next = now + NUMBERS;
       const own = state.ships[session.own];
       instruments.show(own, state.environment.current);
-      conning.show(session.state.ships[session.own], isInCommand());
+      conning.show(session.state.ships[session.own], isInCommand(), session.state.step_count);
       targets.show(state, session.own, session.dangers);
       time.show(session.state);
       showCommand();

@@ -7,7 +7,7 @@ const ANSWER = 5000; // longest wait for an answer [ms]
 const READ = 500; // and for messages that have come meanwhile to be read
 
 export class Connection {
-  /** `hear(type, message)` is called for every message, and with "open" and "lost". */
+  /** `hear(type, message)` is called for every message, and with "open", "lost", and after finish() "gone". */
   constructor(role, token, hear) {
     Object.assign(this, { hear, number: 0, asked: new Map(), tries: 0, isOpen: false, isOver: false });
     const scheme = location.protocol === "https:" ? "wss:" : "ws:";
@@ -40,7 +40,7 @@ export class Connection {
     Object.assign(this, { socket: null, isOpen: false });
     for (const { reject } of this.asked.values()) reject(new Error("the connection was lost"));
     this.asked.clear();
-    if (this.isOver) return;
+    if (this.isOver) return this.hear("gone", {});
     this.hear("lost", {});
     setTimeout(() => this.connect(), WAITS[Math.min(this.tries++, WAITS.length - 1)]);
   }

@@ -1,7 +1,7 @@
 // Steering and engine of the ship that one is in command of: wheel, telegraph, autopilot, horn.
 import { element } from "../dom.js";
 import { number } from "../format.js";
-import { inWords, say } from "../texts.js";
+import { inWords, onLanguage, say } from "../texts.js";
 import { makeSvg } from "./svg.js";
 import { toDegrees, wholeTurn } from "./navigation.js";
 
@@ -20,10 +20,23 @@ export function rudderShort(degrees) {
 /** A heading [deg] with three digits. */
 export const threeDigits = (degrees) => String(((Math.round(degrees) % 360) + 360) % 360).padStart(3, "0");
 
-/** `give(fields)` sends an order for the ship; `horn(on)` its horn. */
+/** Who is in command of a ship, for the client of this page; a ship that nobody can steer has other words. */
+export function commandWords({ limits, recorded }, inCommand, client) {
+  if (recorded) return say("follows_recording");
+  if (!limits) return say("takes_no_orders");
+  if (inCommand == null) return say("nobody_in_command");
+  return inCommand === client ? say("in_command") : say("other_in_command", { client: inCommand });
+}
+
+/**
+ * `give(fields)` sends an order for the ship, and promises the server's answer, null for a refusal; `horn(on)` its horn.
+ * What is ordered is shown at once, as the hand on the wheel sees it, until the ship has it or it is refused; but the
+ * autopilot is on only once the server has taken the order.
+ */
 export class Conning {
   constructor(give, horn) {
-    Object.assign(this, { give, horn, ordered: 0, telegraph: 0, heading: 0, isOnAutopilot: false, limit: USUAL_LIMIT, pending: 0 });
+    Object.assign(this, { give, horn, ordered: 0, telegraph: 0, heading: 0, isOnAutopilot: false, isPilotTaken: false, limit: USUAL_LIMIT });
+    Object.assign(this, { given: 0, waits: null, steps: 0 });
     this.wheel = this.makeWheel();
     this.gauge = makeRudderGauge();
     this.levers = [4, 3, 2, 1, 0, -1, -2, -3, -4].map((position) => {
@@ -51,7 +64,8 @@ export class Conning {
     for (const kind of ["pointerup", "pointercancel"]) this.whistle.addEventListener(kind, () => this.blow(false));
     this.whistle.addEventListener("keydown", (event) => (event.key === " " || event.key === "Enter") && !event.repeat && this.blow(true));
     this.whistle.addEventListener("keyup", () => this.blow(false));
-    this.none = inWords(element("p", { class: "none", hidden: true }), { text: "no_controls" });
+    this.none = element("p", { class: "none", hidden: true });
+    onLanguage(() => this.tellNone());
     this.tools = element("div", { class: "conn-tools" },
       inWords(element("div", { class: "telegraph", role: "radiogroup" }, ...this.levers), { "aria-label": "telegraph" }),
       element("div", { class: "steering" }, this.wheel, this.gauge.node,
@@ -96,8 +110,11 @@ export class Conning {
     return svg;
   }
 
-  /** The ship has changed: what it can be ordered. `limits` null: nothing. */
-  setLimits(limits) {
+  /** The ship has changed: what is known of it, with its `limits`; null: it can be ordered nothing. */
+  setLimits(info) {
+    const limits = info.limits ?? null;
+    this.info = info;
+    this.tellNone();
     this.tools.hidden = limits === null;
     this.none.hidden = limits !== null;
     this.limit = limits?.rudder_deg ?? USUAL_LIMIT;
@@ -107,28 +124,43 @@ export class Conning {
     this.gauge.setLimit(this.limit);
   }
 
+  tellNone() {
+    this.none.textContent = say(this.info?.recorded ? "follows_recording" : "no_controls");
+  }
+
   /** Another ship is to be conned, in this state: the one before gets what waits for it, the other begins with its own. */
-  reset(ship) {
+  reset(ship, steps) {
     this.blow(false);
     if (this.timer) this.flush();
-    this.pending = 0;
-    this.show(ship, false);
+    this.waits = null;
+    this.given++; // answers to come are those of the ship before
+    this.show(ship, false, steps);
   }
 
   /** An order, no more often than the server likes: the last one counts. */
   send(fields) {
     this.fields = { ...this.fields, ...fields };
-    this.pending = performance.now() + 1000; // the wheel is not turned back meanwhile
+    this.waits = Infinity; // the wheel is not turned back meanwhile
+    this.given++;
     if (this.timer) return;
     const wait = Math.max(0, OFTEN - (performance.now() - (this.sent ?? -Infinity)));
     this.timer = setTimeout(() => this.flush(), wait);
   }
 
-  flush() {
-    const order = this.fields;
+  async flush() {
+    const { fields: order, given } = this;
     clearTimeout(this.timer);
     Object.assign(this, { timer: null, fields: {}, sent: performance.now() });
-    this.give(order);
+    const answer = await this.give(order);
+    if (given !== this.given) return; // another order has been given since
+    if (answer === null) {
+      this.waits = null;
+      this.show(this.ship, !this.node.classList.contains("idle"), this.steps);
+    } else {
+      this.waits = answer.step_count; // the step after it has the order
+      this.isPilotTaken = this.isOnAutopilot;
+      this.paint();
+    }
   }
 
   setRudder(degrees) {
@@ -183,13 +215,15 @@ export class Conning {
     this.horn(on);
   }
 
-  /** Shows a ship's state; what was ordered just now stays until the ship has it. */
-  show(ship, isInCommand) {
+  /** Shows a ship's state after that many steps; what was ordered just now stays until the ship has it. */
+  show(ship, isInCommand, steps) {
+    if (this.waits !== null && this.waits !== Infinity && (steps > this.waits || steps < this.steps)) this.waits = null;
+    Object.assign(this, { ship, steps });
     this.node.classList.toggle("idle", !isInCommand);
     this.present = toDegrees(wholeTurn(ship.eta[5]));
     this.actual = Math.round(toDegrees(ship.rudder));
-    if (performance.now() > this.pending) {
-      this.isOnAutopilot = ship.heading_order !== null;
+    if (this.waits === null) {
+      this.isOnAutopilot = this.isPilotTaken = ship.heading_order !== null;
       this.ordered = Math.round(10 * toDegrees(ship.rudder_order)) / 10;
       if (this.isOnAutopilot) this.heading = Math.round(10 * toDegrees(wholeTurn(ship.heading_order))) / 10;
       this.telegraph = this.positionOf(ship.rev_order);
@@ -214,9 +248,9 @@ export class Conning {
       lever.setAttribute("aria-checked", String(isOn));
       lever.tabIndex = isOn || (this.telegraph === null && lever.classList.contains("stop")) ? 0 : -1;
     }
-    this.pilot.setAttribute("aria-pressed", String(this.isOnAutopilot));
+    this.pilot.setAttribute("aria-pressed", String(this.isPilotTaken && this.isOnAutopilot));
     if (document.activeElement !== this.wanted) {
-      this.wanted.value = this.isOnAutopilot ? threeDigits(this.heading) : "";
+      this.wanted.value = this.isPilotTaken && this.isOnAutopilot ? threeDigits(this.heading) : "";
       this.wanted.placeholder = threeDigits(this.present ?? 0);
     }
   }

@@ -3,7 +3,7 @@ import { element } from "../dom.js";
 import { clockTime, number } from "../format.js";
 import { inWords, onLanguage, say, TEXTS } from "../texts.js";
 import { Chart } from "./chart.js";
-import { Conning, threeDigits } from "./conning.js";
+import { commandWords, Conning, threeDigits } from "./conning.js";
 import { makeLivePage } from "./live_page.js";
 import { instruments, KNOT, toDegrees, toRadians, wholeTurn } from "./navigation.js";
 import { labelled, makeSwitches, textButton } from "./page_tools.js";
@@ -42,6 +42,8 @@ export async function startInstructor() {
 
   function greet(hello) {
     marks.show(hello.marks ?? []);
+    book.replaceChildren();
+    for (const event of hello.events ?? []) write(event);
     ships.greet(hello);
     if (chart === null) {
       chart = new Chart(hello, session.histories, null);
@@ -59,8 +61,8 @@ export async function startInstructor() {
   }
 
   async function conn(name) {
-    conning.setLimits(session.infoOf(name).limits ?? null);
-    if (name !== conned) conning.reset(session.state.ships[name]);
+    conning.setLimits(session.infoOf(name));
+    if (name !== conned) conning.reset(session.state.ships[name], session.state.step_count);
     conned = name;
     conningPlace.hidden = false;
     conningHead.textContent = name;
@@ -71,6 +73,10 @@ export async function startInstructor() {
   function note(event) {
     if (event.kind === "mark") marks.add(event);
     if (event.kind === "back") marks.keep(event.time);
+    write(event);
+  }
+
+  function write(event) {
     const text = describeEvent(event);
     if (text === null) return;
     book.prepend(element("li", {}, element("time", { text: clockTime(event.time, 0) }), ` ${text}`));
@@ -86,7 +92,7 @@ export async function startInstructor() {
     ships.show(session.state, session.hello.client);
     environment.show(session.state.environment);
     time.show(session.state);
-    if (conned !== null) conning.show(session.state.ships[conned], session.state.command[conned] === session.hello.client);
+    if (conned !== null) conning.show(session.state.ships[conned], session.state.command[conned] === session.hello.client, session.state.step_count);
   }
 
   page.listen(conning, () => conned !== null, () => chart);
@@ -115,17 +121,17 @@ function makeShips(ask, conn) {
         const size = `${info.model}, ${info.kind}, ${Math.round(info.L_oa)} m`;
         const tools = element("div", { class: "row three", hidden: !info.limits }, take, ...fails);
         const node = element("article", { "data-ship": info.name }, element("h3", {}, dot, info.name), element("p", { class: "said", text: size }), figures, said, tools);
-        cards.set(info.name, { node, figures, said, fails, take });
+        cards.set(info.name, { info, node, figures, said, fails, take });
         list.append(node);
       }
     },
     show(state, client) {
-      for (const [name, { figures, said, fails, take }] of cards) {
+      for (const [name, { info, figures, said, fails, take }] of cards) {
         const ship = state.ships[name];
         const { heading, sog } = instruments(ship);
         figures.textContent = `${threeDigits(toDegrees(heading))}°  ${number(sog / KNOT, 1)} ${say("knots")}`;
         const holder = state.command[name];
-        said.textContent = holder == null ? say("nobody_in_command") : holder === client ? say("in_command") : say("other_in_command", { client: holder });
+        said.textContent = commandWords(info, holder, client);
         take.setAttribute("aria-pressed", String(holder === client));
         for (const button of fails) button.setAttribute("aria-pressed", String(ship.failures.includes(button.dataset.fail)));
       }

@@ -1,5 +1,5 @@
 // The keyboard of a bridge, and the card that lists it.
-import { element } from "../dom.js";
+import { element, toggleDialog } from "../dom.js";
 import { inWords } from "../texts.js";
 
 /** Keys, and the text that says what they do. */
@@ -14,7 +14,7 @@ export function makeLiveHelp() {
     element("dt", {}, ...keys.split(" ").map((key) => element("kbd", { text: key }))), inWords(element("dd", {}), { text: what })]);
   const card = element("dialog", { class: "card" }, inWords(element("h2", {}), { text: "help" }), element("dl", {}, ...rows),
     inWords(element("p", {}), { text: "looking" }), inWords(element("button", { type: "button", onclick: () => card.close() }), { text: "close" }));
-  return { card, toggle: () => (card.open ? card.close() : card.showModal()) };
+  return { card, toggle: () => toggleDialog(card) };
 }
 
 /** The whole screen, and back. */

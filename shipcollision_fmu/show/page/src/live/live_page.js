@@ -7,13 +7,14 @@ import { listenToBridgeKeys, makeLiveHelp } from "./live_keys.js";
 import { describeEnd, makeMessages, makeTimeTools } from "./page_tools.js";
 import { Session } from "./session.js";
 
-const ALARMING = ["state", "lost", "hello", "event"];
+const ALARMING = ["state", "lost", "hello", "event", "end"];
 
 /** `heard`: what a page does with messages, by their type. */
 export function makeLivePage(role, heard) {
   const session = new Session(role, (type, message) => {
     heard[type]?.(message);
-    if (type === "end") showEnd();
+    if (type === "end" || type === "gone") showEnd();
+    if (type === "hello" && session.unknownShip) messages.tell(say("no_such_ship", { ship: session.unknownShip, ships: message.ships.map(({ name }) => name).join(", ") }));
     if (ALARMING.includes(type)) alarmBar.show();
     document.body.classList.toggle("lost", !session.connection.isOpen && !session.ended);
   });

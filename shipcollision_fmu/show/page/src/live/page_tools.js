@@ -48,6 +48,14 @@ export function makeTimeTools(ask, isPaused) {
   const real = element("small", {});
   const rate = inWords(element("select", { id: "rate", onchange: () => ask("rate", { rate: Number(rate.value) }) },
     ...RATES.map((value) => element("option", { value, text: `${value < 1 ? `1/${1 / value}` : value}\u00d7` }))), { "aria-label": "rate" });
+  /** Also a rate that is not in the list, such as 4 of the command line. */
+  const chooseRate = (value) => {
+    if (![...rate.options].some((option) => Number(option.value) === value)) {
+      const later = [...rate.options].find((option) => Number(option.value) > value);
+      rate.add(element("option", { value, text: `${number(value, value < 10 ? 2 : 1).replace(/\.?0+$/, "")}\u00d7` }), later ?? null);
+    }
+    rate.value = String(value);
+  };
   const pause = element("button", { type: "button", id: "pause", onclick: () => ask("pause", { paused: !isPaused() }) });
   const step = textButton("step", () => ask("step"), { id: "step", hidden: true });
   return {
@@ -60,7 +68,7 @@ export function makeTimeTools(ask, isPaused) {
     show(state) {
       clock.textContent = clockTime(state.time, 1);
       real.textContent = state.paused ? say("paused") : Math.abs(state.real_rate / state.rate - 1) > 0.05 ? say("really", { rate: number(state.real_rate, 1) }) : "";
-      if (document.activeElement !== rate) rate.value = String(state.rate);
+      if (document.activeElement !== rate) chooseRate(state.rate);
       pause.textContent = say(state.paused ? "go_on" : "pause");
       pause.setAttribute("aria-pressed", String(state.paused));
       step.hidden = !state.paused;
@@ -68,14 +76,20 @@ export function makeTimeTools(ask, isPaused) {
   };
 }
 
-/** What is said at the end: why, and where the debriefing is. */
-export function describeEnd({ ended, token }) {
-  const said = inWords(element("p", {}), { text: "ended" });
-  const error = ended.error ? [element("p", { text: ended.error })] : [];
-  if (!ended.replay) return [said, ...error];
+/** What is said at the end: why, where the run is, and where the debriefing is as long as the server answers. */
+export function describeEnd({ ended, token, isServed }) {
+  const said = element("div", {}, inWords(element("p", {}), { text: "ended" }));
+  if (ended.error) said.append(element("p", { text: ended.error }));
+  const command = element("code", { text: `shipcollision show ${quote(ended.folder ?? "")}` });
+  if (ended.folder) said.append(element("p", { class: "where" }, inWords(element("span", {}), { text: "stored_in" }, { folder: ended.folder }), " ", command));
+  if (!isServed) said.append(inWords(element("p", { class: "where" }), { text: "server_gone" }));
+  if (!ended.replay || !isServed) return [said];
   const href = `${ended.replay}?token=${encodeURIComponent(token)}`;
-  return [said, ...error, inWords(element("a", { href, id: "debriefing" }), { text: "debriefing" })];
+  return [said, inWords(element("a", { href, id: "debriefing" }), { text: "debriefing" })];
 }
+
+/** A name as a shell takes it. */
+const quote = (name) => (/^[\w@%+=:,./-]+$/.test(name) ? name : `'${name.replaceAll("'", `'"'"'`)}'`);
 
 /** Limits of the CPA alarm, kept in `session.limits` in m and s. */
 export function makeLimits(session) {

@@ -1,5 +1,6 @@
 // Scratches while a run goes on: a stroke to each contact point, on the hulls of both ships. They are those that a page
-// has seen, straight between its states; the debriefing has the whole line.
+// has seen, straight between its states, and before it was opened those that the server has kept; the debriefing has the
+// whole line.
 import * as THREE from "three";
 import { toWorld } from "../tracks.js";
 
@@ -65,6 +66,11 @@ export function makeScratchMarks(ships) {
         marked.get(ship_a)?.add(time, ship_b, new THREE.Vector3(...a), normal);
         marked.get(ship_b)?.add(time, ship_a, new THREE.Vector3(...b), normal.map((x) => -x));
       }
+    },
+    /** Draws those so far, [{time, ship_a, ship_b, a, b, normal}] by time, and no others. */
+    restore(touches) {
+      this.forget(-Infinity);
+      for (const { time, ...touch } of touches) this.add({ time, contact: { touching: [touch] } });
     },
     /** Time has gone back: what is scratched later is not scratched. */
     forget(time) {

@@ -21,7 +21,7 @@ export class Session {
     Object.assign(this, {
       role, hear, token: query.get("token") ?? "", wantedShip: query.get("ship"), hello: null, state: null, ended: null,
       snapshots: new Snapshots(), histories: {}, alarms: new Alarms(), sound: new Sound(), dangers: new Set(),
-      limits: { cpa: 0.3 * MILE, tcpa: 360 }, contacts: [], known: new Set(), old: new Set(),
+      limits: { cpa: 0.3 * MILE, tcpa: 360 }, contacts: [], known: new Set(), old: new Set(), unknownShip: null, isServed: true,
     });
     this.connection = new Connection(role, this.token, (type, message) => this.listen(type, message));
     setInterval(() => this.sounds(), 250);
@@ -40,29 +40,47 @@ export class Session {
     if (type === "hello") this.greet(message);
     else if (type === "state") this.take(message);
     else if (type === "event" && message.kind === "collision begins") this.meet({ ...message, time: message.start });
-    else if (type === "lost") this.alarms.set("lost", true, "warning", () => say("alarm_lost"));
-    else if (type === "end") Object.assign(this, { ended: message }), this.connection.finish();
+    else if (type === "lost") this.lose();
+    else if (type === "gone") Object.assign(this, { isServed: false });
+    else if (type === "end") this.end(message);
     this.hear(type, message);
+  }
+
+  /** The connection is lost: what is known of the other ships gets older from now on. */
+  lose() {
+    for (const name of this.dangers) this.alarms.clear(`cpa ${name}`);
+    this.dangers.clear();
+    this.alarms.set("lost", true, "warning", () => say("alarm_lost"));
+  }
+
+  end(message) {
+    Object.assign(this, { ended: message });
+    this.alarms.clearAll();
+    this.dangers.clear();
+    this.connection.finish();
   }
 
   greet(hello) {
     this.alarms.clear("lost");
     this.hello = hello;
-    this.own ??= hello.ships.some(({ name }) => name === this.wantedShip) ? this.wantedShip : hello.own;
+    const isKnown = hello.ships.some(({ name }) => name === this.wantedShip);
+    this.own ??= isKnown ? this.wantedShip : hello.own;
+    this.unknownShip = isKnown ? null : this.wantedShip;
     this.snapshots = new Snapshots();
     for (const { name } of hello.ships) this.histories[name] ??= new History();
   }
 
   take(state) {
-    const isBack = this.snapshots.push(state, performance.now());
     const isFirst = this.state === null;
+    this.snapshots.push(state, performance.now());
+    const isBack = !isFirst && state.time < this.state.time; // while the connection was lost, perhaps
     this.state = state;
     if (isFirst || isBack) {
       this.old = new Set(state.contact.collisions.map(keyOf)); // no news, unless ships still touch
       this.known = new Set(this.old);
     }
-    if (isBack) this.hear("back", state);
-    this.watch(state);
+    if (isBack) this.alarms.clearAll(), this.hear("back", state);
+    if (!this.ended) this.watch(state);
   }
 
   /** The state that is to be shown now; the tracks then end with it. */
@@ -103,7 +121,7 @@ export class Session {
       const isDanger = isTooClose(own, other, this.limits);
       isDanger ? this.dangers.add(name) : this.dangers.delete(name);
       const { cpa, tcpa } = closestApproach(own, other);
-      alarms.set(`cpa ${name}`, isDanger, "alarm", () => say("alarm_cpa", { ship: name, cpa: `${miles(cpa)} ${say("miles")}`, tcpa: clockTime(tcpa, 0) }));
+      alarms.set(`cpa ${name}`, isDanger, "alarm", () => say("alarm_cpa", { ship: name, cpa: `${miles(cpa)} ${say("miles")}`, tcpa: clockTime(tcpa, 0) }), () => say("alarm_cpa_over", { ship: name }));
     }
   }
 
