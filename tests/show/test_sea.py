@@ -30,6 +30,22 @@ LUMINANCE = """
 """
 
 
+ROWS = """
+    const canvas = document.getElementById("picture"), gl = canvas.getContext("webgl2");
+    const { width, height } = canvas, pixels = new Uint8Array(4 * width * height);
+    gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+    return Array.from({ length: height }, (_, row) => {
+      const light = [];
+      for (let x = 0; x < width / 12; x++) {
+        const i = 4 * ((height - 1 - row) * width + x);
+        light.push(0.2126 * pixels[i] + 0.7152 * pixels[i + 1] + 0.0722 * pixels[i + 2]);
+      }
+      return light.sort((a, b) => a - b)[light.length >> 1];
+    });
+"""
+"""Of each row of the picture from the top, the median light of its pixels at the left edge, where there is no ship."""
+
+
 @pytest.fixture(scope="module")
 def scene(guan2014: Path) -> Scene:
     return load_scene(guan2014)
@@ -69,6 +85,20 @@ def test_day_dusk_and_night_are_darker_in_this_order(page: Page) -> None:
     assert light["night"] > 2.0
     assert page.run("return document.getElementById('sky').value") == "night"
     assert page.complaints() == []
+
+
+@pytest.mark.parametrize("is_plain", [True, False])
+def test_a_moonlit_night_is_dark_and_has_a_horizon(page: Page, is_plain: bool) -> None:
+    """Between the sky above it and the sea below it; neither is black, as on a clear night with a moon."""
+    page.run("replay.sky('night'); replay.plain(arguments[0]); replay.drawn()", is_plain)
+    rows = np.array(page.run(ROWS))
+    tall = len(rows)
+    drop = rows[: -int(0.04 * tall)] - rows[int(0.04 * tall) :]
+    horizon = int(np.argmax(drop[int(0.15 * tall) : int(0.7 * tall)])) + int(0.15 * tall)
+    sky, sea = rows[horizon - 4 : horizon + 1].mean(), rows[horizon + int(0.04 * tall) :][:8].mean()
+    assert 45.0 < sky < 110.0
+    assert 18.0 < sea < 0.75 * sky
+    page.run("replay.plain(true)")
 
 
 def test_the_first_view_is_low_with_sky_over_the_ships(page: Page, scene: Scene) -> None:
@@ -205,9 +235,38 @@ def test_lights_burn_at_night_at_their_places(page: Page, scene: Scene) -> None:
     page.run("replay.sky('night'); replay.drawn()")
     night = page.colour(point, half=1)
     around = page.colour(point + np.array([0.0, 0.0, -12.0]), half=1)
-    assert min(night) > max(around) + 30
+    assert sum(night) > sum(around) + 90  # the sky is not black
     page.run("replay.sky('day'); replay.drawn()")
     assert page.colour(point, half=1) == day
+
+
+def test_waves_mirror_a_lamp_below_it_and_break_its_light(browser: Chrome, kvlcc2_crossing: Path) -> None:
+    """There is light where the water would mirror the lamp, none beside it, and it changes with the waves."""
+    scene = load_scene(kvlcc2_crossing)
+    crossing = Page(browser, write_page(kvlcc2_crossing), "plain=yes&t=5&camera=all&sky=night", (640, 440))
+    at = eye(crossing)
+    poses = crossing.run("return replay.drawn().poses")
+    gains, changes = [], []
+    for ship in scene.ships:
+        pose = poses[ship.name]
+        toward = rotation_from_quaternion(np.array(pose["quaternion"])).T @ (at - np.array(pose["position"]))
+        for light in ship.lights:
+            if not light.is_seen_from(toward) or light.kind in ("masthead aft", "masthead fore"):
+                continue
+            crossing.run("replay.seek(5); replay.drawn()")
+            lamp = place(crossing, scene, ship.name, light.point)
+            share = at[2] / (at[2] + lamp[2])
+            mirror = (at + share * (lamp - at)) * [1, 1, 0]
+            across = np.cross((lamp - at) / np.linalg.norm(lamp - at), [0, 0, 1])
+            shift = 0.05 * np.linalg.norm(mirror - at) * across
+            beside = [sum(crossing.colour(mirror + k * shift, half=4)) for k in (-1, 1)]
+            below = sum(crossing.colour(mirror, half=4))
+            gains.append(below - max(beside))
+            first = crossing.colour(mirror, half=0)
+            crossing.run("replay.seek(6.3); replay.drawn()")
+            changes.append(np.abs(np.subtract(crossing.colour(mirror, half=0), first)).max())
+    assert max(gains) > 12
+    assert max(changes) > 4
 
 
 def test_a_gentle_contact_raises_dust_and_spray_and_sets_nothing_on_fire(browser: Chrome, meeting: MakeRun) -> None:

@@ -21,7 +21,7 @@ from ...errors import HostError
 from ...files import IN_PLACE, write_file
 from ...ship.frames import Array
 from ..gltf.gltf import build_glb, collect_extras
-from ..scene.palette import choose_topsides
+from ..scene.palette import choose_topsides, find_paint
 from ..scene.plan import find_convex_hull, find_plan
 from ..scene.scene import Scene, Ship, load_scene
 from ..scene.signals import Signals
@@ -130,13 +130,16 @@ def _collect_data(scene: Scene) -> dict[str, Any]:
 
 
 def describe_ship(index: int, ship: Ship) -> dict[str, Any]:
-    """Names, colour and sizes of a ship; `height` of the deck above the waterline, `bridge`: eye and wing in b [m]."""
+    """Names, colour and sizes of a ship; `hull`: colour of its topsides; `height` of the deck above the waterline,
+    `bridge`: eye and wing in b [m]."""
+    is_grey = any(paint == "naval" for paint, _ in ship.shell)
     return {
         "name": ship.name,
         "model": ship.model,
         "kind": ship.kind,
         "L_oa": ship.L_oa,
         "colour": choose_topsides(index).colour,
+        "hull": (find_paint("naval") if is_grey else choose_topsides(index)).colour,
         "height": -float(ship.hull.vertices[:, 2].min()),
         "bridge": find_wheelhouse(ship),
     }

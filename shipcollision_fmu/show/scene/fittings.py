@@ -21,6 +21,7 @@ import numpy as np
 
 from .cargo import fit_hatches, fit_tank_deck, stow_containers
 from .hull_shell import WeatherDeck
+from .lights import Mast, find_least_height
 from .outfit import TIER, Fitting, Outfit
 from .solids import make_box, make_loft, make_prism, make_rod
 
@@ -34,19 +35,18 @@ GEARED = 210.0
 
 @dataclass(frozen=True, eq=False)
 class Outfitted:
-    """Fittings, and where lights stand: the station of the main mast and z of its top [m]."""
+    """Fittings, and the mast that bears the light aft or amidships."""
 
     fittings: tuple[Fitting, ...]
-    mast: float
-    top: float
+    mast: Mast
 
 
 def make_fittings(deck: WeatherDeck, type_name: str, name: str) -> Outfitted:
     """The fittings of a ship of a type; cargo is stowed at random, by the ship's name."""
     outfit = Outfit(deck)
     random = np.random.default_rng(crc32(name.encode()))
-    mast, top = _ARRANGEMENTS.get(type_name, _arrange_cargo_vessel)(outfit, random)
-    return Outfitted(tuple(outfit.fittings), mast, top)
+    mast = Mast(*_ARRANGEMENTS.get(type_name, _arrange_cargo_vessel)(outfit, random))
+    return Outfitted(tuple(outfit.fittings), mast)
 
 
 Random = np.random.Generator
@@ -190,7 +190,7 @@ def _arrange_tug(outfit: Outfit, random: Random) -> tuple[float, float]:
     return mast, top - max(0.55 * B, 4.0 * u)
 
 
-def _arrange_naval_ship(outfit: Outfit, random: Random) -> tuple[float, float]:
+def _arrange_naval_ship(outfit: Outfit, random: Random) -> tuple[float, float, float, float]:
     """Blocks with sloping sides, a gun before them, a pyramid mast, a funnel, a hangar and a flight deck."""
     deck, L, B = outfit.deck, outfit.deck.length, outfit.deck.breadth
     u, t, z = deck.unit, TIER * deck.unit, deck.z
@@ -217,23 +217,20 @@ def _arrange_naval_ship(outfit: Outfit, random: Random) -> tuple[float, float]:
     )
     funnel = (middle - 0.07 * L, middle - 0.015 * L)
     high, run = first - 2.6 * t, funnel[1] - funnel[0]
-    outfit.add(
-        "grey",
-        make_loft(
-            _oblong(*funnel, 0.5 * half),
-            first,
-            _oblong(funnel[0] + 0.10 * run, funnel[1] - 0.28 * run, 0.32 * half),
-            high,
-        ),
-    )
+    foot, head = _oblong(*funnel, 0.5 * half), _oblong(funnel[0] + 0.10 * run, funnel[1] - 0.28 * run, 0.32 * half)
+    for part, low, up in (("grey", 0.0, 0.5), ("livery", 0.5, 0.8), ("grey", 0.8, 1.0)):
+        plans = [foot + share * (head - foot) for share in (low, up)]
+        outfit.add(part, make_loft(plans[0], first + low * (high - first), plans[1], first + up * (high - first)))
     outfit.box(
         "funnel-top",
         (funnel[0] + 0.18 * run, funnel[1] - 0.36 * run),
         (-0.26 * half, 0.26 * half),
         (high - 0.4 * t, high),
     )
-    for x0, low in ((middle + 0.065 * L, top), (middle - 0.16 * L, back)):
-        outfit.rod("mast", (x0, 0.0, low), (x0, 0.0, low - 2.4 * t), 0.22 * u)
+    higher = z - find_least_height(L, B) - 3.5  # than the fore light, which stands on the front of the pyramid
+    mast_top = min(back - 2.4 * t, higher) if L >= 50.0 else back - 2.4 * t
+    for x0, low, high in ((middle + 0.065 * L, top, top - 2.4 * t), (middle - 0.16 * L, back, mast_top)):
+        outfit.rod("mast", (x0, 0.0, low), (x0, 0.0, high), 0.22 * u)
         outfit.box("mast", (x0 - 0.1 * u, x0 + 0.1 * u), (-2.0 * u, 2.0 * u), (low - 1.3 * t, low - 1.2 * t))
     outfit.box("trim", (middle + 0.05 * L, middle + 0.055 * L), (-1.8 * u, 1.8 * u), (front - 2.2 * t, front - 1.9 * t))
     gun = middle + 0.27 * L
@@ -249,7 +246,7 @@ def _arrange_naval_ship(outfit: Outfit, random: Random) -> tuple[float, float]:
     )
     outfit.rod("grey", (gun + 0.005 * L, 0.0, z - 0.55 * t), (gun + 0.055 * L, 0.0, z - 0.78 * t), 0.10 * t)
     outfit.rails(deck.aft + 0.01 * L, deck.aft + 0.22 * L)
-    return middle - 0.16 * L, back - 2.4 * t
+    return middle - 0.16 * L, mast_top, middle + 0.088 * L, middle + 0.04 * L
 
 
 def _leave_bare(outfit: Outfit, random: Random) -> tuple[float, float]:
@@ -313,7 +310,7 @@ def _fit_forecastle(outfit: Outfit) -> None:
     outfit.add("trim", make_box((x + 0.018 * L, x + 0.018 * L + 0.8 * u), (-0.3 * u, 0.3 * u), (z - 0.7 * u, z)))
 
 
-_ARRANGEMENTS: dict[str, Callable[[Outfit, Random], tuple[float, float]]] = {
+_ARRANGEMENTS: dict[str, Callable[[Outfit, Random], tuple[float, ...]]] = {
     "container ship, loaded": _arrange_container_ship, "cargo vessel, container on deck": _arrange_container_ship,
     "tanker, loaded": _arrange_tanker, "tanker, in ballast": _arrange_tanker,
     "liquefied natural gas tanker": _arrange_gas_carrier, "ferry": _arrange_ferry, "passenger liner": _arrange_ferry,

@@ -20,7 +20,7 @@ __all__ = [
 SHIP_COLOURS = ("#2f6fb7", "#c8102e", "#2e8b57", "#b8860b", "#7a4fa3", "#3a8f9e")
 """Topsides (sRGB) of the first, second ... ship; from the seventh on they repeat."""
 LIVERIES = ("topsides", "livery")
-"""Parts in the colour of their ship: topsides, and the band of the funnel."""
+"""Parts in the colour of their ship: topsides, and the band of the funnel; of grey ships boot topping and stripe."""
 
 
 @dataclass(frozen=True)
@@ -56,6 +56,7 @@ _PAINTS = {
         Paint("crane", "#d9b23c", 0.6),
         Paint("lifeboat", "#d6431c", 0.5),
         Paint("grey", "#8b949a", 0.6),
+        Paint("naval", "#7f898f", 0.55),
         Paint("hatch", "#7c3f31", 0.8),
         Paint("pipe", "#b3aca2", 0.5, 0.3),
         Paint("gap", "#23211f", 0.9),

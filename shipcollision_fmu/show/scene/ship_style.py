@@ -11,7 +11,10 @@ from typing import NamedTuple
 from ...ship.loading.dimensions_estimate import FORMS
 from ...ship.ship_type import CARGO_VESSEL, find_ship_type, names_a_type
 
-__all__ = ["Ends", "Style", "choose_style", "choose_type"]
+__all__ = ["GREY", "Ends", "Style", "choose_style", "choose_type"]
+
+GREY = {"topsides": "naval", "stripe": "livery", "boot-top": "livery"}
+"""What the paints of a hull become on a grey ship: its colour in plots is on boot topping, stripe and funnel."""
 
 
 class Ends(NamedTuple):
@@ -27,7 +30,7 @@ class Ends(NamedTuple):
 
 class Style(NamedTuple):
     """forecastle, bulwark [m]; sheer over B; where bulwarks reach, over the length from aft; deck: its paint;
-    has_stripe: a white band below the deck."""
+    has_stripe: a white band below the deck; is_grey: naval grey, with stripe and boot topping in the ship's colour."""
 
     forecastle: float = 2.6
     forecastle_length: float = 0.075
@@ -40,6 +43,7 @@ class Style(NamedTuple):
     propellers: int = 1
     deck: str = "deck-red"
     has_stripe: bool = False
+    is_grey: bool = False
     depth_over_draught: float = 1.4
     ends: Ends = Ends()
 
@@ -61,7 +65,7 @@ _STYLES = {
     "passenger liner": Style(0.0, 0.0, 0.04, 0.0, bulwark_fore=0.80, propellers=2, deck="deck", has_stripe=True,
                              ends=_PASSENGERS),
     "destroyer": Style(0.0, 0.0, 0.10, 0.0, 0.2, 2.0, has_bulb=False, propellers=2, deck="deck-grey",
-                       ends=Ends(38.0, 0.32, 0.2, 12.0, 0.08)),
+                       has_stripe=True, is_grey=True, ends=Ends(38.0, 0.32, 0.2, 12.0, 0.08)),
     "tug": _WORKING._replace(propellers=2),
     "fishing vessel": _WORKING._replace(sheer_fore=0.14, ends=Ends(28.0, 0.26, 0.3, 10.0, 0.08)),
     "offshore supply vessel": Style(0.0, 0.0, 0.08, 0.0, 1.2, 0.6, propellers=2, ends=_OFFSHORE),

@@ -7,6 +7,7 @@ import pytest
 import trimesh
 
 from shipcollision_fmu.ship.ship_type import SHIP_TYPES
+from shipcollision_fmu.show.scene.palette import convert_to_display, find_paint
 from shipcollision_fmu.show.scene.ship_style import choose_type
 
 from .drawn_ships import Drawn, draw_ship, to_solid
@@ -124,3 +125,16 @@ def test_a_ship_has_a_bounded_number_of_triangles(kind: str) -> None:
     drawn = draw_ship(kind, 300.0)
     surfaces = [surface for _, surface in drawn.looks.shell] + [f.surface for f in drawn.looks.fittings]
     assert 4000 < sum(len(surface.triangles) for surface in surfaces) < 25000
+
+
+def test_a_naval_ship_is_grey_with_the_colour_of_its_curves_on_boot_topping_stripe_and_funnel() -> None:
+    """Beside it, a ship of any other kind has topsides in its colour."""
+    grey, other = draw_ship("naval ship"), draw_ship("cargo vessel")
+    sides = {paint: trimesh.Trimesh(s.vertices, s.triangles, process=False).area for paint, s in grey.looks.shell}
+    assert "topsides" not in sides
+    assert sides["naval"] > 3.0 * sides["livery"] > 0.0
+    red, green, blue = (255.0 * c for c in convert_to_display(find_paint("naval").colour))
+    assert max(red, green, blue) - min(red, green, blue) < 25.0
+    assert 90.0 < green < 170.0
+    assert {fitting.part for fitting in grey.looks.fittings} >= {"livery", "grey"}
+    assert {"topsides", "naval"} & {paint for paint, _ in other.looks.shell} == {"topsides"}

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import trimesh
+from trimesh.proximity import closest_point_naive
 
 from shipcollision_fmu.show.scene.lights import Light
+from shipcollision_fmu.show.scene.solids import join_surfaces
 
 from .drawn_ships import KINDS, draw_ship
 
@@ -66,11 +69,44 @@ def test_places_of_a_ship_of_50_m_and_more(kind: str, L: float) -> None:
     up = {name: drawn.z_deck - point[2] for name, point in lights.items()}
     assert up["masthead fore"] >= min(max(6.0, drawn.B), 12.0) - 1e-9
     assert up["masthead aft"] >= up["masthead fore"] + 4.5 - 1e-9
-    assert lights["masthead fore"][0] - lights["masthead aft"][0] >= min(0.5 * L, 100.0) - 1e-9
+    apart = lights["masthead fore"][0] - lights["masthead aft"][0]
     fore = drawn.hull.vertices[:, 0].max()
-    assert fore - lights["masthead fore"][0] <= 0.25 * L
+    if kind == "naval ship":  # their masts are where they are: rule 1(e)
+        assert apart > 0.2 * L
+    else:
+        assert apart >= min(0.5 * L, 100.0) - 1e-9
+        assert fore - lights["masthead fore"][0] <= 0.25 * L
     assert up["starboard"] == up["port"] <= 0.75 * up["masthead fore"]
     assert lights["starboard"][1] == pytest.approx(0.5 * drawn.B)
     assert lights["port"][1] == pytest.approx(-0.5 * drawn.B)
     assert lights["starboard"][0] <= lights["masthead fore"][0]
     assert lights["stern"][0] < drawn.hull.vertices[:, 0].min() + 0.05 * L
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("L", [16.0, 32.0, 45.0, 120.0, 260.0])
+def test_every_lamp_is_borne_by_something_that_is_drawn(kind: str, L: float) -> None:
+    """No lamp hangs in the air: a hand's breadth around its glass there is a mast, a wall, a post or a bracket."""
+    looks = draw_ship(kind, L).looks
+    surfaces = [surface for _, surface in looks.shell] + [fitting.surface for fitting in looks.fittings]
+    joined = join_surfaces(surfaces)
+    drawn = trimesh.Trimesh(joined.vertices, joined.triangles, process=False)
+    points = np.array([light.point for light in looks.lights])
+    _, distance, _ = closest_point_naive(drawn, points)
+    assert {light.kind for light, far in zip(looks.lights, distance, strict=True) if far > 0.35} == set()
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_what_bears_a_lamp_stands_on_the_ship(kind: str) -> None:
+    """Posts and brackets touch another part, and do not reach beyond the side."""
+    drawn = draw_ship(kind, 120.0)
+    joined = join_surfaces([surface for paint, surface in drawn.looks.shell if paint in ("mast", "house")])
+    pieces = trimesh.Trimesh(np.round(joined.vertices, 6), joined.triangles).split()
+    assert len(pieces) >= 1
+    others = [surface for paint, surface in drawn.looks.shell if paint not in ("mast", "house")]
+    rest = join_surfaces([*others, *(fitting.surface for fitting in drawn.looks.fittings)])
+    ship = trimesh.Trimesh(rest.vertices, rest.triangles, process=False)
+    for piece in pieces:
+        _, distance, _ = closest_point_naive(ship, piece.vertices)
+        assert distance.min() < 0.25
+        assert np.abs(piece.vertices[:, 1]).max() <= 0.5 * drawn.B + 0.01

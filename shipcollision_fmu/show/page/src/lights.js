@@ -1,69 +1,107 @@
 // Navigation lights: glowing points at the places that the .glb names, bright inside their sector and dark outside, and
-// below each its streak on the water.
+// below each what the waves mirror of it.
 import * as THREE from "three";
 import { LIGHT } from "./daylight.js";
+import { slopeGlsl } from "./plain_sea.js";
+import { WATER } from "./ripples.js";
 
 const quad = new Float32Array([-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0]);
 
 // Half the width of a glow in the picture [rad]: a light dazzles less the farther it is, down to a point that can still be seen.
-const SMALLEST = 0.0034, GLARE = 0.0085, FAR = 260; // [rad], [rad], [m]
+const SMALLEST = 0.0048, GLARE = 0.0085, FAR = 260; // [rad], [rad], [m]
+const TILT = 0.26; // slope of the water beyond which hardly any wave mirrors a light
+const SURFACE = 0.3; // [m] over the water: swell would hide it
+const DEEPER = 0.012; // of its distance by which what lies on the water is drawn nearer
 
-const VERTEX = /* glsl */ `
-  const float SMALLEST = ${SMALLEST.toFixed(4)}, GLARE = ${GLARE.toFixed(4)}, FAR = ${FAR.toFixed(1)};
-  uniform float uLamps, uMirror, uOpen;
+/** Whether the eye is in a light's sector, from 0 to 1. */
+const SEEN_GLSL = /* glsl */ `
+  uniform float uLamps;
   uniform vec2 uSector; // start and arc [rad] clockwise from ahead
-  varying vec2 vCorner;
-  varying float vLight;
-  void main() {
-    vCorner = position.xy;
+  float findSeen() {
     vec3 eye = (inverse(modelMatrix) * vec4(cameraPosition, 1.0)).xyz; // from the light, in the ship's b
     float bearing = mod(atan(eye.y, eye.x) - uSector.x, 6.2831853);
     float seen = smoothstep(-0.03, 0.03, bearing) * smoothstep(uSector.y + 0.03, uSector.y - 0.03, bearing);
-    if (uSector.y > 6.2) seen = 1.0;
+    return uSector.y > 6.2 ? 1.0 : seen;
+  }
+`;
+
+const GLOW_VERTEX = /* glsl */ `
+  const float SMALLEST = ${SMALLEST.toFixed(4)}, GLARE = ${GLARE.toFixed(4)}, FAR = ${FAR.toFixed(1)};
+  varying vec2 vCorner;
+  varying float vLight;
+  ${SEEN_GLSL}
+  void main() {
+    vCorner = position.xy;
+    float seen = findSeen();
     vec3 light = (modelMatrix * vec4(0.0, 0.0, 0.0, 1.0)).xyz;
-    vec3 away = light - cameraPosition;
-    float distance_ = length(away);
+    float distance_ = distance(light, cameraPosition);
     float radius = max(0.5, (SMALLEST + GLARE / (1.0 + distance_ / FAR)) * distance_);
     vLight = uLamps * mix(0.04, 1.0, seen);
-    vec3 place;
-    if (uMirror > 0.5) {
-      // On the water where the light would be mirrored, drawn out towards the eye by the waves.
-      float share = cameraPosition.y / max(cameraPosition.y + light.y, 0.1);
-      vec3 at = vec3(mix(cameraPosition.xz, light.xz, share), 0.0).xzy;
-      vec2 along = normalize(away.xz);
-      float reach = length(at.xz - light.xz) * 0.45 + radius;
-      at.xz += along * position.y * reach;
-      float width = radius * clamp(distance(at, cameraPosition) / distance_, 0.1, 1.0); // as broad in the picture as the light
-      at.xz += vec2(-along.y, along.x) * position.x * width * 1.1;
-      at.y = 0.35;
-      place = at;
-      vLight *= uOpen * 0.5 * smoothstep(0.1, 0.9, seen) * (0.3 + 0.7 * smoothstep(20.0, 150.0, distance_)); // waves scatter near ones
-      gl_Position = projectionMatrix * viewMatrix * vec4(place, 1.0);
-    } else {
-      vec4 view = viewMatrix * vec4(light, 1.0);
-      view.xy += position.xy * radius * (0.5 + 0.5 * seen);
-      view.z += 1.5; // before the mast that bears it
-      gl_Position = projectionMatrix * view;
-    }
-    if (vLight < 0.004) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+    vec4 view = viewMatrix * vec4(light, 1.0);
+    view.xy += position.xy * radius * (0.5 + 0.5 * seen);
+    view.z += 1.5; // before the mast that bears it
+    gl_Position = vLight < 0.004 ? vec4(2.0, 2.0, 2.0, 1.0) : projectionMatrix * view;
   }`;
 
-const FRAGMENT = /* glsl */ `
+const GLOW_FRAGMENT = /* glsl */ `
   uniform vec3 uColour;
-  uniform float uMirror, uTime;
   varying vec2 vCorner;
   varying float vLight;
   void main() {
-    float r = length(vCorner), glow;
-    if (uMirror > 0.5) {
-      float waves = 0.5 + 0.5 * sin(24.0 * vCorner.y + 3.0 * sin(5.0 * vCorner.y + 1.3 * uTime) + 2.1 * uTime);
-      glow = 0.55 * smoothstep(1.0, 0.0, abs(vCorner.x)) * smoothstep(1.0, 0.1, abs(vCorner.y)) * (0.25 + 0.75 * waves);
-    } else {
-      glow = 2.4 * exp(-16.0 * r * r) + 0.30 * exp(-4.0 * r * r) * (1.0 - r);
-    }
-    if (r > 1.0 && uMirror < 0.5) discard;
-    vec3 colour = mix(uColour, vec3(1.0), uMirror > 0.5 ? 0.0 : 0.8 * exp(-60.0 * r * r));
-    gl_FragColor = vec4(colour * glow * vLight, 1.0);
+    float r = length(vCorner);
+    if (r > 1.0) discard;
+    float glow = 3.0 * exp(-15.0 * r * r) + 0.32 * exp(-4.0 * r * r) * (1.0 - r);
+    gl_FragColor = vec4(mix(uColour, vec3(1.0), 0.8 * exp(-60.0 * r * r)) * glow * vLight, 1.0);
+    #include <colorspace_fragment>
+  }`;
+
+// The stretch of water that may mirror a light: along the way from the eye to the light as far as a wave can be steep
+// enough, and to both sides. What lies within mirrors it where the small waves, those of the sea, happen to have the slope.
+const MIRROR_VERTEX = /* glsl */ `
+  uniform float uOpen;
+  varying vec3 vPlace;
+  varying vec3 vLamp;
+  varying float vLight;
+  ${SEEN_GLSL}
+  void main() {
+    vLamp = (modelMatrix * vec4(0.0, 0.0, 0.0, 1.0)).xyz;
+    vec2 way = vLamp.xz - cameraPosition.xz;
+    float length_ = max(length(way), 1.0), eye = max(cameraPosition.y, 0.5), lamp = max(vLamp.y, 0.5);
+    vec2 along = way / length_;
+    float middle = length_ * eye / (eye + lamp);
+    float first = min(middle, eye / tan(min(lamp / length_ + ${(2 * TILT).toFixed(3)}, 1.5)));
+    float last = max(middle, length_ - lamp / tan(min(eye / length_ + ${(2 * TILT).toFixed(3)}, 1.5)));
+    float at = position.y < 0.0 ? max(first, 1.0) : last;
+    float near = length(vec2(at, eye)), far = length(vec2(length_ - at, lamp));
+    float width = max(${TILT.toFixed(3)} * (eye / near + lamp / far) * near * far / (near + far), 0.002 * near);
+    vec2 p = cameraPosition.xz + along * at + vec2(-along.y, along.x) * position.x * width;
+    vPlace = vec3(p.x, ${SURFACE.toFixed(1)}, p.y);
+    vLight = uLamps * uOpen * findSeen();
+    vec4 view = viewMatrix * vec4(vPlace, 1.0), nearer = projectionMatrix * vec4(view.xyz * ${(1 - DEEPER).toFixed(3)}, 1.0);
+    gl_Position = projectionMatrix * view;
+    gl_Position.z = nearer.z / nearer.w * gl_Position.w;
+    if (vLight < 0.004) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+  }`;
+
+const MIRROR_FRAGMENT = /* glsl */ `
+  uniform sampler2D uRipples;
+  uniform vec3 uColour;
+  uniform float uTime;
+  varying vec3 vPlace;
+  varying vec3 vLamp;
+  varying float vLight;
+  void main() {
+    vec3 toEye = cameraPosition - vPlace, toLamp = vLamp - vPlace;
+    float far = length(toEye), from = length(toLamp);
+    vec3 middle = normalize(toEye / far + toLamp / from);
+    vec2 slope = ${slopeGlsl("vPlace.xz", "uTime")};
+    float rough = mix(0.05, 0.145, 1.0 - exp(-far / 900.0)); // slopes that are too small to be seen from here
+    float spread = rough * rough * 0.5 + 0.0009;
+    vec2 off = -middle.xz / middle.y - slope;
+    float glint = exp(-dot(off, off) / (2.0 * spread)) * sqrt(0.004 / spread);
+    float mirror = 0.10 + 0.90 * pow(1.0 - max(dot(toEye / far, middle), 0.0), 3.0);
+    float light = 0.55 * glint * mirror * vLight / (1.0 + from / 120.0);
+    gl_FragColor = vec4(uColour * min(light, 0.6), 1.0);
     #include <colorspace_fragment>
   }`;
 
@@ -83,9 +121,8 @@ function isHidden(ships, light, camera) {
   });
 }
 
-/** Gives every light of the scene its glow and its streak; returns what keeps their waves moving, and their number. */
+/** Gives every light of the scene its glow and its mirror image; returns what shows them, and their number. */
 export function addLights(root) {
-  const time = { value: 0 };
   const found = [], ships = [], meshes = [];
   root.traverse((node) => {
     if (node.userData.ship !== undefined) ships.push(node);
@@ -96,26 +133,27 @@ export function addLights(root) {
   geometry.setIndex([0, 1, 2, 0, 2, 3]);
   for (const node of found) {
     const { colour, start, arc } = node.userData;
-    for (const mirror of [0, 1]) {
+    const common = {
+      uLamps: LIGHT.uLamps, uColour: { value: new THREE.Color(colour) }, uSector: { value: new THREE.Vector2(start, arc).multiplyScalar(Math.PI / 180) },
+    };
+    const add = (uniforms, vertexShader, fragmentShader) => {
       const mesh = new THREE.Mesh(geometry, new THREE.ShaderMaterial({
-        uniforms: {
-          uLamps: LIGHT.uLamps, uTime: time, uOpen: { value: 1 }, uMirror: { value: mirror }, uColour: { value: new THREE.Color(colour) },
-          uSector: { value: new THREE.Vector2(start, arc).multiplyScalar(Math.PI / 180) },
-        },
-        vertexShader: VERTEX, fragmentShader: FRAGMENT, side: THREE.DoubleSide,
-        transparent: true, depthWrite: false, blending: THREE.AdditiveBlending,
+        uniforms, vertexShader, fragmentShader, side: THREE.DoubleSide, transparent: true, depthWrite: false, blending: THREE.AdditiveBlending,
       }));
       mesh.frustumCulled = false;
-      mesh.renderOrder = 5;
-      if (mirror) mesh.onBeforeRender = (_, __, camera) => (mesh.material.uniforms.uOpen.value = isHidden(ships, node, camera) ? 0 : 1);
+      mesh.renderOrder = 11; // over the plain sea and the plain sky, which are drawn last of what hides
       node.add(mesh);
       meshes.push(mesh);
-    }
+      return mesh;
+    };
+    add(common, GLOW_VERTEX, GLOW_FRAGMENT);
+    const uOpen = { value: 1 };
+    add({ ...common, ...WATER, uOpen }, MIRROR_VERTEX, MIRROR_FRAGMENT)
+      .onBeforeRender = (_, __, camera) => (uOpen.value = isHidden(ships, node, camera) ? 0 : 1);
   }
   return {
     count: found.length,
-    update(now) {
-      time.value = now;
+    update() {
       for (const mesh of meshes) mesh.visible = LIGHT.uLamps.value > 0; // by day there is nothing to draw
     },
   };

@@ -9,6 +9,13 @@ const STEEP = 0.11; // slope towards the eye at which colours are worked out, up
 const SLOPES = { fine: 0.075, middle: 0.065 }; // root mean square of each layer
 const TILES = { fine: 23, middle: 151 }; // [m]
 
+const DRIFT = "vec2(0.94, 0.34)"; // [m/s]
+const [FINE, MIDDLE] = [SLOPES.fine, SLOPES.middle].map((slope) => (slope * STEEPEST * Math.SQRT2).toFixed(4));
+
+/** Slope of the water at a place [m] and time [s], both GLSL, in a shader that has uRipples. */
+export const slopeGlsl = (p, time) => `(${FINE} * (texture2D(uRipples, (${p} - 1.9 * ${DRIFT} * ${time}) / ${TILES.fine.toFixed(1)}).xy - 0.5)
+  + ${MIDDLE} * (texture2D(uRipples, (${p}.yx - 3.0 * ${DRIFT} * ${time}) / ${TILES.middle.toFixed(1)}).yx - 0.5))`;
+
 const vertexShader = /* glsl */ `
   uniform float uTime, uHaze, uShine, uSpread;
   uniform vec3 uSun, uDeep, uScatter, uDisc, uZenith, uHorizon, uGlow, uCloud;
@@ -36,7 +43,7 @@ const vertexShader = /* glsl */ `
   }
   void main() {
     vec4 world = modelMatrix * vec4(position, 1.0);
-    vec2 p = world.xz, drift = vec2(0.94, 0.34) * uTime;
+    vec2 p = world.xz, drift = ${DRIFT} * uTime;
     vRipples = vec4((p - 1.9 * drift) / ${TILES.fine.toFixed(1)}, (p.yx - 3.0 * drift) / ${TILES.middle.toFixed(1)});
     vec3 away = world.xyz - cameraPosition;
     float far = length(away);
@@ -71,7 +78,7 @@ const fragmentShader = /* glsl */ `
   void main() {
     vec2 fine = texture2D(uRipples, vRipples.xy).xy - 0.5;
     vec2 middle = texture2D(uRipples, vRipples.zw).yx - 0.5;
-    vec2 slope = ${(SLOPES.fine * STEEPEST * Math.SQRT2).toFixed(4)} * fine + ${(SLOPES.middle * STEEPEST * Math.SQRT2).toFixed(4)} * middle;
+    vec2 slope = ${FINE} * fine + ${MIDDLE} * middle;
     float towards = clamp(dot(slope, vTowards), ${(-1.5 * STEEP).toFixed(3)}, ${(1.5 * STEEP).toFixed(3)});
     vec3 colour = vLevel + towards * (vLinear + towards * vSquare);
     vec2 off = vGlint - slope;

@@ -67,7 +67,7 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
   const sky = makeSky(renderer);
   const foam = makeFoam(ships, renderer);
   const sea = makeSea(ships.map(({ info }) => ({
-    halfLength: 0.48 * info.L_oa, halfBreadth: 0.47 * info.B, height: info.height, colour: info.colour,
+    halfLength: 0.48 * info.L_oa, halfBreadth: 0.47 * info.B, height: info.height, colour: info.hull,
   })), sky.uniforms, foam.uniforms);
   world.fog = new THREE.Fog(0xffffff, 4000, 22000);
   world.add(...sky.nodes, sea.mesh, ...foam.nodes);
@@ -127,7 +127,7 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
     const { camera, controls } = cameras;
     foam.draw(time - data.start, controls.target, camera.position.distanceTo(controls.target));
     setHaze(Math.max(9000, 4 * camera.position.distanceTo(controls.target))); // it must not hide what is looked at
-    lights.update(time);
+    lights.update();
     sea.update(time, camera, ships.map(({ node }) => ({
       position: node.getWorldPosition(new THREE.Vector3()),
       ahead: new THREE.Vector3(1, 0, 0).transformDirection(node.matrixWorld),
