@@ -3,6 +3,7 @@
     broad_phase      pairs of bodies whose rectangles in the plane overlap
     narrow_phase     what is asked of Bullet: closest points of convex parts, whichever adapter gives them
     bullet           the adapter of pybullet, which has a step of Bullet's own dynamics, too
+    bullet_worlds    its worlds, kept for the next model
     closest_points   the adapter of this package's own library, for a Python without pybullet
     adapter          which of both
     detection        contacts of two hulls, from closest points

@@ -11,9 +11,8 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from ctypes import CDLL
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache, lru_cache
 from types import ModuleType
 from typing import Any
 
@@ -23,6 +22,7 @@ from ...errors import HostError
 from ...ship.frames import SWAP, Array, pose_w, poses_w, swap_axes, swapped_rows
 from ...ship.hull.solid import HullMesh
 from ..dynamics.body_state import BodyState
+from .bullet_worlds import BulletWorlds
 from .narrow_phase import MARGIN, SNAP_PLACE, SNAP_QUATERNION, Closest
 
 __all__ = ["BulletAdapter", "BulletBody", "bullet_module", "has_pybullet", "require_dynamics"]
@@ -34,6 +34,12 @@ Quaternion = tuple[float, float, float, float]
 ITERATIONS = 50
 """Iterations of Bullet's own solver in a step, PyBullet's default: the bound on its work. A pair of hulls has at most
 four contact points there."""
+
+
+@cache
+def _worlds(bullet: ModuleType) -> BulletWorlds:
+    """Those of this process."""
+    return BulletWorlds(bullet)
 
 
 def bullet_module() -> ModuleType:
@@ -101,7 +107,7 @@ class BulletAdapter:
     def __init__(self, hulls: Sequence[HullMesh]) -> None:
         """hulls: one per ship; their vertices are in b about CO [m]. Raises HostError without pybullet."""
         self._p = p = bullet_module()
-        self._client: int = p.connect(p.DIRECT)
+        self._client = _worlds(p).take()
         self._hulls = tuple(hulls)
         # One body per convex part; mass 0 keeps them out of any dynamics.
         self._parts = [[self._body(0.0, part) for part in hull.parts] for hull in hulls]
@@ -111,9 +117,8 @@ class BulletAdapter:
 
     def close(self) -> None:
         """Leave the Bullet world; safe to call twice."""
-        if self._client >= 0 and self._p.isConnected(self._client):
-            self._p.disconnect(self._client)
-            _give_back_memory()
+        if self._client >= 0:
+            _worlds(self._p).give_back(self._client)
         self._client = -1
 
     def _place(self, *placed: tuple[int, Array, Array]) -> None:
@@ -260,14 +265,6 @@ class BulletAdapter:
             localInertiaDiagonal=np.abs(swap_axes(body.inertia)).tolist(), physicsClientId=client,
         )  # fmt: skip
         return handle
-
-
-def _give_back_memory() -> None:
-    """Return freed memory to the system: a world has 30 MB of buffers, and glibc keeps them for the process. Takes
-    some milliseconds; where the C library is another, nothing is done."""
-    trim = getattr(CDLL(None), "malloc_trim", None)
-    if trim is not None:
-        trim(0)
 
 
 @lru_cache(maxsize=512)
