@@ -18,10 +18,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 
 from ...ship.frames import Array
+from ...ship.hull.hull import HULLS_KEPT
 from ...ship.hull.solid import HullMesh
 from ..dynamics.body_state import BodyState
 from ..dynamics.contact import Contact
@@ -30,7 +32,7 @@ from .clipping import convex_polygon
 from .contact_place import FEATURE_DEPTH, contact_manifold, facing_features, spread
 from .narrow_phase import Closest
 
-__all__ = ["CompoundHull", "merge_coplanar", "select_supported"]
+__all__ = ["CompoundHull", "join_parts", "merge_coplanar", "select_supported"]
 
 FLAT = 1e-3
 """Angle [rad] within which a normal is that of a face, and two normals are one. Far above rounding, far below the angle
@@ -103,6 +105,12 @@ class CompoundHull:
             if not all(self.covers(part, p, plane[:3]) for p in places):
                 normals.append(plane[:3])
         return np.array(normals).reshape(-1, 3)
+
+
+@lru_cache(maxsize=HULLS_KEPT)
+def join_parts(hull: HullMesh) -> CompoundHull:
+    """The parts of a hull; the same object for the same hull, as to find the outer faces takes milliseconds."""
+    return CompoundHull(hull)
 
 
 def select_supported(

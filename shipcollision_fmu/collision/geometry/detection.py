@@ -25,7 +25,7 @@ from ..dynamics.body_state import BodyState
 from ..dynamics.contact import Contact, make_contact, make_contacts
 from ..dynamics.contact_frame import contact_axes
 from .adapter import open_narrow_phase
-from .compound_hull import CompoundHull, merge_coplanar, select_supported
+from .compound_hull import join_parts, merge_coplanar, select_supported
 from .contact_place import FEATURE_DEPTH, contact_manifold, facing_features
 from .first_touch import TOUCH, MovingHull, find_first_touch, gap_before
 from .narrow_phase import MARGIN, Closest
@@ -74,7 +74,7 @@ class Detector:
     def __init__(self, hulls: Sequence[HullMesh], adapter: str | None = None) -> None:
         """adapter: see open_narrow_phase."""
         self._hulls = tuple(hulls)
-        self._compounds = [CompoundHull(hull) for hull in hulls]
+        self._compounds = [join_parts(hull) for hull in hulls]
         self._widths = [least_width(hull) for hull in hulls]
         self._scales = [min(1.0, float(np.ptp(hull.vertices, axis=0).min()) / SMALL) for hull in hulls]
         self.narrow_phase = open_narrow_phase(hulls, adapter)

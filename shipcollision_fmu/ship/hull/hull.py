@@ -36,7 +36,7 @@ from .levels import Level, draw_levels
 from .room_for_the_bow import describe_lack_of_room
 from .solid import HullMesh
 
-__all__ = ["build_hull"]
+__all__ = ["HULLS_KEPT", "build_hull"]
 
 HULLS_KEPT = 32
 """Hulls that are kept in memory. With fewer than a run has ships, a mesh is read and cut again for every use."""

@@ -12,7 +12,7 @@ from .convex import Indices, enclosed_volume
 __all__ = ["HullMesh"]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)  # hulls are told apart by identity: what is worked out of one can be kept
 class HullMesh:
     """A closed hull surface and its convex parts, in b about CO [m].
 

@@ -91,6 +91,15 @@ def test_joints_are_no_outer_faces() -> None:
     assert not any(np.allclose(n, [0, 0, 1]) for n in flared.outer_normals(1))  # nor the upper one a keel
 
 
+def test_the_parts_of_a_hull_are_joined_once(pair: Pair) -> None:
+    """Two models of the same ship share what is worked out of its hull; another hull has its own."""
+    one, other = pair(FIVE, FIVE), pair(FIVE, hull(FLARED))
+    (first, second), (third, flared) = one._compounds, other._compounds
+    assert first is second is third
+    assert flared is not first
+    assert len(flared.parts) == 2
+
+
 @pytest.mark.one_in(3)
 @pytest.mark.parametrize("x", [-60.0, -59.99, -20.3, 0.0, 19.999, 20.001, 20.2, 59.5, 60.0])
 @pytest.mark.parametrize("depth", [0.01, 0.3])
