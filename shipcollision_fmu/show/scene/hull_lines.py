@@ -13,6 +13,7 @@ keel:
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -47,17 +48,22 @@ class UnderwaterLines:
     touching: HullRings
     has_bulb: bool
 
-    @property
+    @cached_property
     def aft(self) -> float:
         """Station of the transom [m]."""
         return float(self.rings.edge[-1, 0])
 
-    @property
+    @cached_property
     def length(self) -> float:
         """Length of the deck [m]."""
         return float(self.rings.edge[0, 0]) - self.aft
 
-    @property
+    @cached_property
+    def breadth(self) -> float:
+        """Greatest breadth of the deck [m]."""
+        return 2.0 * float(self.rings.edge[:, 1].max())
+
+    @cached_property
     def post(self) -> float:
         """Station of the stern post [m]."""
         return self.aft + POST * self.length
@@ -105,7 +111,7 @@ class UnderwaterLines:
         if b > 0.0:
             centre = line - 0.2 * back
             ahead = min(1.0, max(0.0, (x - centre) / (front - centre)))
-            bulb = 0.5 * BULB_BREADTH * 2.0 * float(self.rings.edge[:, 1].max()) * b * float(np.sqrt(1.0 - ahead**2))
+            bulb = 0.5 * BULB_BREADTH * self.breadth * b * float(np.sqrt(1.0 - ahead**2))
             y = min(max(y, bulb), self._breadth(self.touching.at(z), x))
         return x, y
 

@@ -6,7 +6,8 @@ transom and back along port. Pictures draw a hull anew between these rings, so i
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -20,18 +21,20 @@ class HullRings:
     """Starboard corners (k, m, 3) of k levels from the deck down, each from the stem to the transom."""
 
     corners: Array
+    _sections: dict[float, Array] = field(init=False, repr=False, default_factory=dict)
+    """Sections by height, as asked for so far: most heights are asked for at each of 150 stations."""
 
-    @property
+    @cached_property
     def z_deck(self) -> float:
         """Height of the deck [m], negative."""
         return float(self.corners[0, 0, 2])
 
-    @property
+    @cached_property
     def z_keel(self) -> float:
         """Depth of the keel [m]."""
         return float(self.corners[-1, 0, 2])
 
-    @property
+    @cached_property
     def edge(self) -> Array:
         """The deck's edge (m, 2), from the stem to the transom."""
         corners: Array = self.corners[0, :, :2]
@@ -39,6 +42,13 @@ class HullRings:
 
     def at(self, z: float) -> Array:
         """Corners (m, 2) of the hull's section at a height z [m]; above the deck those of the deck."""
+        found = self._sections.get(z)
+        if found is None:
+            found = self._sections[z] = self._cut(z)
+            found.flags.writeable = False
+        return found
+
+    def _cut(self, z: float) -> Array:
         heights = self.corners[:, 0, 2]
         i = int(np.clip(np.searchsorted(heights, z, side="right") - 1, 0, len(heights) - 2))
         share = float(np.clip((z - heights[i]) / (heights[i + 1] - heights[i]), 0.0, 1.0))

@@ -10,6 +10,7 @@ A hull of another shape (a box, a user's mesh) is drawn as it is, in bands.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -47,22 +48,22 @@ class WeatherDeck:
     rings: HullRings
     style: Style
 
-    @property
+    @cached_property
     def aft(self) -> float:
         """Station of the after end [m]."""
         return float(self.rings.edge[-1, 0])
 
-    @property
+    @cached_property
     def fore(self) -> float:
         """Station of the stem [m]."""
         return float(self.rings.edge[0, 0])
 
-    @property
+    @cached_property
     def length(self) -> float:
         """Length of the deck [m]."""
         return self.fore - self.aft
 
-    @property
+    @cached_property
     def breadth(self) -> float:
         """Greatest breadth [m]."""
         return 2.0 * float(self.rings.edge[:, 1].max())
@@ -72,12 +73,12 @@ class WeatherDeck:
         """Height of the deck amidships [m], negative."""
         return self.rings.z_deck
 
-    @property
+    @cached_property
     def unit(self) -> float:
         """Scale of all things made for people: 1 on ships broader than 9 m."""
         return min(1.0, self.breadth / 9.0)
 
-    @property
+    @cached_property
     def forecastle(self) -> float:
         """Station at which the forecastle begins [m]."""
         return self.fore - self.style.forecastle_length * self.length

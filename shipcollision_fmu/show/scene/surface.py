@@ -57,11 +57,13 @@ def compute_corner_normals(surface: Surface) -> Array:
     corners = place.reshape(-1)[surface.triangles].reshape(-1)  # (3 m,) by place
     order = np.argsort(corners, kind="stable")
     starts = np.flatnonzero(np.diff(corners[order], prepend=-1))
+    counts = np.diff(starts, append=len(order))
     result = np.empty((len(corners), 3))
-    for group in np.split(order, starts[1:]):
-        faces = group // 3
-        together = (normals[faces] @ normals[faces].T) > CREASE
-        result[group] = together @ areas[faces]
+    for count in np.unique(counts):  # the places at which so many corners meet, all at once
+        groups = order[starts[counts == count, None] + np.arange(count)]
+        faces = groups // 3
+        together = (normals[faces] @ normals[faces].transpose(0, 2, 1)) > CREASE
+        result[groups] = together.astype(float) @ areas[faces]
     result /= np.linalg.norm(result, axis=1)[:, None]
     return result.reshape(-1, 3, 3)
 
