@@ -1,6 +1,7 @@
 """Hub: the clients of a live session at its WebSocket.
 
 state     twenty times a second the latest snapshot, made into text once for all clients
+touches   before it where bodies have touched since the state before
 events    from the session's thread into a short queue of each client; the oldest are dropped
 a slow client is waited for at most PATIENCE, then dropped. Nothing waits for it but its own task
 """
@@ -11,7 +12,7 @@ import asyncio
 import json
 from collections import deque
 from contextlib import suppress
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from typing import Any
 
 from starlette.websockets import WebSocket, WebSocketDisconnect
@@ -20,6 +21,7 @@ from ...errors import InputError, ShipCollisionError
 from ..session.commands import Leave
 from ..session.session import Session
 from ..session.snapshot import Snapshot
+from ..session.touch_log import LoggedTouch
 from . import access
 from .access import Allowance
 from .messages import BadMessageError, parse_message
@@ -43,11 +45,19 @@ class _Client:
     socket: WebSocket
     waiting: deque[dict[str, Any]] = field(default_factory=lambda: deque(maxlen=MOST_EVENTS))
     news: asyncio.Event = field(default_factory=asyncio.Event)
+    touches: tuple[LoggedTouch, ...] = ()  # those that it has been told of
     is_over: bool = False  # asked for besides cancelling: wait_for() of CPython 3.11 may swallow that
 
     def put(self, message: dict[str, Any]) -> None:
         self.waiting.append(message)
         self.news.set()
+
+    def learn(self, touches: tuple[LoggedTouch, ...]) -> list[dict[str, Any]]:
+        """Of the touches so far those that are new to it: all that there were between two states."""
+        if touches is self.touches:
+            return []
+        known, self.touches = {id(logged) for logged in self.touches}, touches
+        return [one.as_message() for one in touches if id(one) not in known]
 
 
 class Hub:
@@ -96,7 +106,7 @@ class Hub:
     def _greet(self, client: _Client) -> None:
         """Tell a new client what it has missed."""
         marks = [{"name": name, "time": time} for name, time in self._session.marks.items()]
-        touches = [{"time": logged.time, **asdict(logged.touch)} for logged in self._session.touches]
+        touches = client.learn(self._session.touches)
         client.put(
             {
                 "type": "hello", **self._hello, "role": client.role, "client": client.name, "marks": marks,
@@ -116,6 +126,8 @@ class Hub:
                     await self._send(client, json.dumps(client.waiting.popleft()))
                 now = loop.time()
                 if now >= due:
+                    if new := client.learn(self._session.touches):
+                        await self._send(client, json.dumps({"type": "touches", "touches": new}))
                     await self._send(client, self._encode(self._session.snapshot))
                     due = max(due + INTERVAL, loop.time())
                 client.news.clear()

@@ -32,6 +32,7 @@ from ...fmi.names import AXES, NED, STATE, named
 from ...scenario.scenario import Scenario, parse_scenario
 from ...scenario.tables.environment import EnvironmentChange
 from ...ship.loading.messages import describe_error
+from ...ship.ship_state import ShipState
 from .bridge import Bridge
 from .input_files import read_input_files
 from .scenario_text import write_scenario
@@ -135,9 +136,17 @@ class LiveRun:
         self._stepper.advance()
         recorder = self._stepper.recorder
         if recorder.contact_count:
-            self.touch_log.add(self.time, map(_observe_touch, recorder.read_contact_points()))
+            self.touch_log.add(self.time, map(_observe_touch, recorder.read_contact_points()), self._turn)
         if self.k <= self._stepper.most_recorded:
             self._end = recorder.read_end()
+
+    def _turn(self, body: str, vector: tuple[float, float, float]) -> tuple[float, float, float]:
+        """A vector in n, in the b of a ship as it is; of an obstacle as it is."""
+        if body not in self.bridges:
+            return vector
+        wire = self._stepper.system.states[list(self.bridges).index(body)]
+        x, y, z = ShipState(*wire.outputs.values[: len(STATE)]).R_nb.T @ vector
+        return float(x), float(y), float(z)
 
     # -- current and wind ---------------------------------------------------------------------------------------------
 

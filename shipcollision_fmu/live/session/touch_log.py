@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable
+from dataclasses import asdict, dataclass
+from typing import Any
 
 from .snapshot import TouchSnapshot
 
@@ -14,15 +15,25 @@ APART = 0.25
 MOST_TOUCHES = 500
 """Touches that are kept, the latest ones; some 150 kB as JSON."""
 
+Vector = tuple[float, float, float]
 Cell = tuple[str, str, tuple[int, ...]]
 
 
 @dataclass(frozen=True)
 class LoggedTouch:
-    """A contact point, and the time [s] at which its cell was first touched."""
+    """A contact point, and the time [s] at which its cell was first touched.
+
+    normal_a, normal_b: the normal from ship_a to ship_b in the b that each had then; ships turn afterwards.
+    """
 
     time: float
     touch: TouchSnapshot
+    normal_a: Vector
+    normal_b: Vector
+
+    def as_message(self) -> dict[str, Any]:
+        """Of the WebSocket."""
+        return asdict(self.touch) | {"time": self.time, "normal_a": self.normal_a, "normal_b": self.normal_b}
 
 
 class TouchLog:
@@ -32,12 +43,17 @@ class TouchLog:
         self._cells: dict[Cell, LoggedTouch] = {}
         self.touches: tuple[LoggedTouch, ...] = ()
 
-    def add(self, time: float, touching: Iterable[TouchSnapshot]) -> None:
-        """Note the contact points of a time, which is later than those before."""
-        new = {_find_cell(touch): LoggedTouch(time, touch) for touch in touching}
-        if new.keys() <= self._cells.keys():
+    def add(self, time: float, touching: Iterable[TouchSnapshot], turn: Callable[[str, Vector], Vector]) -> None:
+        """Note the contact points of a time, which is later than those before. turn(body, vector in n): in its b."""
+        found = {_find_cell(touch): touch for touch in touching}
+        new = {
+            cell: LoggedTouch(time, touch, turn(touch.ship_a, touch.normal), turn(touch.ship_b, touch.normal))
+            for cell, touch in found.items()
+            if cell not in self._cells
+        }
+        if not new:
             return
-        self._cells = {**new, **self._cells}  # a cell keeps its first touch
+        self._cells |= new
         latest = sorted(self._cells.items(), key=lambda item: item[1].time)[-MOST_TOUCHES:]
         self._publish(dict(latest))
 

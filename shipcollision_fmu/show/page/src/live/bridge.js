@@ -19,7 +19,7 @@ const CHART = 250; // between two pictures of the chart [ms]
 const SETTLED = 0.1; // [s] after which a collision's energy tells how strong its effects are
 
 export async function startBridge() {
-  const page = makeLivePage("bridge", { hello: () => greet(), back: (state) => forgetEffects(state), state: (state) => scratches?.add(state) });
+  const page = makeLivePage("bridge", { hello: () => greet(), back: (state) => forgetEffects(state), touches: ({ touches }) => scratches?.add(touches) });
   const { session, ask, messages, time } = page;
   const onShip = (type, fields) => ask(type, { ship: session.own, ...fields });
   const conning = new Conning((fields) => onShip("order", fields), (on) => onShip("horn", { on }));
@@ -61,7 +61,7 @@ export async function startBridge() {
     const info = session.infoOf(session.own);
     document.title = say("bridge_title", { ship: session.own });
     conning.setLimits(info);
-    scratches?.restore(session.hello.touches); // what was scratched while the connection was lost
+    scratches?.restore(session.touches); // what was scratched while the connection was lost
     time.setAllowed(session.hello.sets_pace !== false);
     if (chart === null) {
       chart = new Chart(session.hello, session.histories, session.own);
@@ -92,7 +92,7 @@ export async function startBridge() {
       }, LiveCameras);
       made.cameras.own = made.ships.findIndex(({ info }) => info.name === session.own);
       scratches = makeScratchMarks(made.ships);
-      scratches.restore(session.hello.touches);
+      scratches.add(session.touches);
       viewer = made;
       if (isPlain) togglePlain();
       chooseCamera(session.infoOf(session.own).bridge ? "bridge" : "chase");

@@ -1,8 +1,6 @@
-// Scratches while a run goes on: a stroke to each contact point, on the hulls of both ships. They are those that a page
-// has seen, straight between its states, and before it was opened those that the server has kept; the debriefing has the
-// whole line.
+// Scratches while a run goes on: a stroke to each contact point, on the hulls of both ships. They are those that
+// the server has kept, the latest places, thinned, straight in between; the debriefing has the whole line.
 import * as THREE from "three";
-import { toWorld } from "../tracks.js";
 
 const MOST = 500; // strokes on a ship; the oldest go
 const RECENT = 5; // a stroke begins at a place that was touched so long before at most [s],
@@ -23,13 +21,12 @@ class MarkedShip {
     node.add(this.mesh);
   }
 
-  /** A stroke to a place in b, on the side to which `normal` points, a direction in n; `other` is what touches there. */
-  add(time, other, place, normal) {
+  /** A stroke to a place, on the side to which `outwards` points, both in b; `other` is what touches there. */
+  add(time, other, place, outwards) {
     const away = (mark) => mark.place.distanceTo(place);
     if (this.marks.some((mark) => away(mark) < 0.5 * this.breadth)) return;
     const before = this.marks.filter((mark) => mark.other === other && time - mark.time < RECENT && away(mark) < NEAR);
     const from = before.sort((a, b) => away(a) - away(b))[0]?.place ?? place;
-    const outwards = toWorld(new THREE.Vector3(...normal)).transformDirection(this.node.matrixWorld.clone().invert());
     this.marks.push({ time, other, from, place, outwards });
     if (this.marks.length > MOST) this.marks.shift();
     this.lay();
@@ -60,17 +57,17 @@ class MarkedShip {
 export function makeScratchMarks(ships) {
   const marked = new Map(ships.map((ship) => [ship.info.name, new MarkedShip(ship)]));
   return {
-    /** Draws to the contact points of a state. */
-    add({ time, contact }) {
-      for (const { ship_a, ship_b, a, b, normal } of contact.touching) {
-        marked.get(ship_a)?.add(time, ship_b, new THREE.Vector3(...a), normal);
-        marked.get(ship_b)?.add(time, ship_a, new THREE.Vector3(...b), normal.map((x) => -x));
+    /** Draws to places of contact, [{time, ship_a, ship_b, a, b, normal_a, normal_b}] by time. */
+    add(touches) {
+      for (const { time, ship_a, ship_b, a, b, normal_a, normal_b } of touches) {
+        marked.get(ship_a)?.add(time, ship_b, new THREE.Vector3(...a), new THREE.Vector3(...normal_a));
+        marked.get(ship_b)?.add(time, ship_a, new THREE.Vector3(...b), new THREE.Vector3(...normal_b).negate());
       }
     },
-    /** Draws those so far, [{time, ship_a, ship_b, a, b, normal}] by time, and no others. */
+    /** Draws to those, and no others. */
     restore(touches) {
       this.forget(-Infinity);
-      for (const { time, ...touch } of touches) this.add({ time, contact: { touching: [touch] } });
+      this.add(touches);
     },
     /** Time has gone back: what is scratched later is not scratched. */
     forget(time) {

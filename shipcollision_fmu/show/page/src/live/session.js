@@ -21,7 +21,7 @@ export class Session {
     Object.assign(this, {
       role, hear, token: query.get("token") ?? "", wantedShip: query.get("ship"), hello: null, state: null, ended: null,
       snapshots: new Snapshots(), histories: {}, alarms: new Alarms(), sound: new Sound(), dangers: new Set(),
-      limits: { cpa: 0.3 * MILE, tcpa: 360 }, contacts: [], known: new Set(), old: new Set(), unknownShip: null, isServed: true,
+      limits: { cpa: 0.3 * MILE, tcpa: 360 }, contacts: [], known: new Set(), old: new Set(), unknownShip: null, isServed: true, touches: [],
     });
     this.connection = new Connection(role, this.token, (type, message) => this.listen(type, message));
     setInterval(() => this.sounds(), 250);
@@ -38,6 +38,7 @@ export class Session {
 
   listen(type, message) {
     if (type === "hello") this.greet(message);
+    else if (type === "touches") this.touches.push(...message.touches);
     else if (type === "state") this.take(message);
     else if (type === "event" && message.kind === "collision begins") this.meet({ ...message, time: message.start });
     else if (type === "lost") this.lose();
@@ -63,6 +64,7 @@ export class Session {
   greet(hello) {
     this.alarms.clear("lost");
     this.hello = hello;
+    this.touches = [...hello.touches];
     const isKnown = hello.ships.some(({ name }) => name === this.wantedShip);
     this.own ??= isKnown ? this.wantedShip : hello.own;
     this.unknownShip = isKnown ? null : this.wantedShip;
@@ -79,7 +81,11 @@ export class Session {
       this.old = new Set(state.contact.collisions.map(keyOf)); // no news, unless ships still touch
       this.known = new Set(this.old);
     }
-    if (isBack) this.alarms.clearAll(), this.hear("back", state);
+    if (isBack) {
+      this.alarms.clearAll();
+      this.touches = this.touches.filter(({ time }) => time <= state.time);
+      this.hear("back", state);
+    }
     if (!this.ended) this.watch(state);
   }
 
