@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
-from ..errors import ScenarioError, ShipCollisionError
+from ..errors import HostError, ScenarioError, ShipCollisionError
 from .console import say
 from .options import NUMBER, PATH, SCENARIO, WHOLE_NUMBER
 
@@ -138,11 +138,18 @@ def _refuse_folder(folder: Path, overwrite: bool) -> None:
     from ..cosim.run import RUN_FILES
     from ..files import check_writable
     from ..live.session.input_files import FOLDERS
+    from ..live.session.kept_scenario import UNFINISHED
     from ..live.session.run_folder import SCENARIO as SCENARIO_FILE
     from ..show.outputs import PICTURES
 
     if not overwrite:
         refuse_foreign_files(folder, (*RUN_FILES, *PICTURES, SCENARIO_FILE, *FOLDERS))
+        if (folder / UNFINISHED).exists():
+            again = f"shipcollision run {quote(str(folder / UNFINISHED))} --in-process"
+            raise HostError(
+                f"{folder} holds {UNFINISHED} of a live run that was killed: give another folder with --out, or "
+                f"replace it with --overwrite; `{again}` runs it again"
+            )
     check_writable(folder)
 
 

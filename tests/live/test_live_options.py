@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import re
+import shlex
+import shutil
 import socket
 import threading
 import time
@@ -183,6 +185,19 @@ def test_a_finished_run_is_replaced_with_its_pictures(tmp_path: Path) -> None:
     assert not (tmp_path / "run" / "scene.glb").exists()
     assert (tmp_path / "run" / "notes.txt").is_file()
     assert json.loads((tmp_path / "run" / "summary.json").read_bytes())["steps"] == 4
+
+
+def test_what_a_killed_run_has_left_is_not_replaced(tmp_path: Path) -> None:
+    """Not even beside a finished run, whose files may be."""
+    assert live(tmp_path, "--duration", "0.1").exit_code == 0
+    shutil.copy(tmp_path / "run" / "scenario.toml", tmp_path / "run" / "unfinished.toml")
+    refused = live(tmp_path, "--duration", "0.2")
+    assert refused.exit_code == 1
+    assert "holds unfinished.toml of a live run that was killed: give another folder with --out" in refused.output
+    remedy = re.search(r"`shipcollision (run .*)` runs it again", refused.output)
+    assert remedy is not None
+    assert CliRunner().invoke(main, [*shlex.split(remedy[1]), "--out", str(tmp_path / "again")]).exit_code == 0
+    assert json.loads((tmp_path / "again" / "summary.json").read_bytes())["steps"] == 2
 
 
 def test_where_no_page_was_written_a_command_writes_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

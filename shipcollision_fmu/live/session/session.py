@@ -48,6 +48,7 @@ from .commands import (
     Step,
     TakeCommand,
 )
+from .kept_scenario import KeptScenario
 from .live_run import LiveRun
 from .pacer import FASTEST, SLOWEST, Pacer
 from .run_folder import write_run
@@ -114,6 +115,7 @@ class Session:
         ends = [end for end in (duration, self._run.latest_end) if end is not None]
         self._out, self._duration, self._clock = out, min(ends, default=None), clock or WallClock()
         self._waiting: queue.Queue[Waiting] = queue.Queue(MOST_WAITING)
+        self._kept = None if out is None else KeptScenario(self._run, out, self._clock.now())
         self._pacer = Pacer(check_rate(rate), self._clock.now(), self._run.time)
         self._paused, self._reason, self._begun = paused, "", 0.0
         self._actions: dict[type[Command], Callable[[Any], None]] = {
@@ -219,6 +221,7 @@ class Session:
                 self._obey()
                 if not self._reason and self._is_due():
                     self._advance()
+                    self._keep()
         except BaseException as error:  # a model's, or a fault of ours; people are to hear of it
             self._failed = _describe_fault("the live session failed", error)
             self._reason = str(self._failed)
@@ -256,6 +259,13 @@ class Session:
             self._reason = "the duration is over"
         if self._clock.now() - self._published >= PUBLISHED:
             self._publish()
+
+    def _keep(self) -> None:
+        try:
+            if self._kept is not None:
+                self._kept.keep(self._clock.now())
+        except HostError as error:
+            self._tell("log", message=f"should the process be killed, the run is lost: {error}")
 
     def _do(self, command: Command, answer: Future[Any]) -> None:
         if not answer.set_running_or_notify_cancel():
@@ -440,6 +450,8 @@ class Session:
                 self._tell("log", message="writing the run")
                 lines = write_run(self._run, self._out)
                 self._folder = self._out
+                if self._kept is not None:
+                    self._kept.remove()
                 for line in lines:
                     self._tell("log", message=line)
         except Exception as fault:  # a full disk, say; the pages are to hear of it
