@@ -38,6 +38,7 @@ _OWN_NAMES = {
     "harbour.toml",
     "my.toml",
     "scenario.toml",
+    "unfinished.toml",
     "mine.toml",
     "study.toml",
     "my/ship.toml",
