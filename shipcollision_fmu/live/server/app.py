@@ -19,6 +19,7 @@ from starlette.routing import Route, WebSocketRoute
 from starlette.websockets import WebSocket
 
 from ... import __version__
+from ...scenario.tables.environment import MAXIMUM_CURRENT, MAXIMUM_WIND
 from ..session.pacer import FASTEST, SLOWEST
 from ..session.session import Session
 from .access import Tokens, is_own_origin
@@ -48,6 +49,7 @@ class LiveApp:
             "own": own, "ships": describe_ships(scenario, ships, scene), "step": scenario.step, "scene": "/scene.glb",
             "origin": scene.origin.tolist(), "rates": [SLOWEST, FASTEST], "sets_pace": sets_pace,
             "obstacles": describe_obstacles(scene),
+            "environment_limits": {"wind": MAXIMUM_WIND, "current": MAXIMUM_CURRENT},
         }  # fmt: skip
         self._title, self._glb = f"{scenario.name}, live", write_glb(scene)
         self._names = frozenset({"localhost", host.lower(), socket.gethostname().lower()})

@@ -407,6 +407,29 @@ def test_the_instructor_sets_what_there_is_to_set(browser: Chrome, server: LiveS
     browser.find_element(By.ID, "set-wind").click()
     page.wait("return Math.abs(live.state.environment.wind.speed - 20 * 1852 / 3600) < 1e-9")
     assert page.state(".environment.wind.from_deg") == 270.0
+    assert page.run("return document.querySelector('.converted').textContent") == "= 10.3 m/s"
+    page.wait("return document.getElementById('book').textContent.includes('Wind 20.0 kn (10.3 m/s) from 270')")
+    for text, said in (
+        ("strong", "“strong” is no speed: give a number such as 12, 12 kn or 6 m/s."),
+        ("120 kn", "“120 kn” is beyond the limit: give at most 116.6 kn (60.0 m/s)."),
+        ("", "“” is no speed: give a number such as 12, 12 kn or 6 m/s."),
+    ):
+        fill("wind-speed", text)
+        browser.find_element(By.ID, "set-wind").click()
+        page.wait(f"return document.querySelector('.messages').textContent === '{said}'")
+        assert page.state(".environment.wind.speed") == pytest.approx(20 * 1852 / 3600)
+    fill("wind-speed", "6 m/s")
+    fill("wind-from", "west")
+    browser.find_element(By.ID, "set-wind").click()
+    page.wait("return document.querySelector('.messages').textContent.startsWith('“west” is no direction')")
+    fill("wind-from", "270°" + Keys.ENTER)
+    page.wait("return live.state.environment.wind.speed === 6")
+    Select(browser.find_element(By.ID, "speed-unit")).select_by_value("m/s")
+    browser.find_element(By.ID, "mark-name").click()
+    page.wait("return document.getElementById('wind-speed').value === '6'")
+    assert page.run("return document.querySelector('.set-row span').textContent") == "Wind [m/s]"
+    Select(browser.find_element(By.ID, "speed-unit")).select_by_value("kn")
+    page.wait("return document.getElementById('wind-speed').value === '11.7'")
     fill("current-speed", "2")
     fill("current-towards", "90")
     browser.find_element(By.ID, "set-current").click()

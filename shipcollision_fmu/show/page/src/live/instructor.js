@@ -4,9 +4,10 @@ import { clockTime, number } from "../format.js";
 import { inWords, onLanguage, say, TEXTS } from "../texts.js";
 import { Chart } from "./chart.js";
 import { commandWords, Conning, threeDigits } from "./conning.js";
+import { inBothUnits, makeEnvironment } from "./environment.js";
 import { makeLivePage } from "./live_page.js";
-import { instruments, KNOT, toDegrees, toRadians, wholeTurn } from "./navigation.js";
-import { labelled, makeSwitches, textButton } from "./page_tools.js";
+import { instruments, KNOT, toDegrees } from "./navigation.js";
+import { makeSwitches, textButton } from "./page_tools.js";
 
 const NUMBERS = 200; // between two readings [ms]
 const LINES = 60; // of the log book
@@ -24,7 +25,7 @@ export async function startInstructor() {
   const title = inWords(element("h1", {}), { text: "instructor_title" });
   const ships = makeShips(ask, (name) => conn(name));
   const marks = makeMarks(ask);
-  const environment = makeEnvironment(ask);
+  const environment = makeEnvironment(ask, page.messages.tell, () => session.hello.environment_limits);
   const book = element("ol", { class: "book", id: "book" });
   let sure = null;
   const end = textButton("end_run", () => {
@@ -148,7 +149,7 @@ function describeEvent({ kind, message, ...event }) {
   if (kind === "pause") return say(event.paused ? "log_pause" : "log_go_on");
   if (kind === "environment") {
     const { wind, current } = event;
-    return say("log_environment", { wind: number(wind.speed / KNOT, 1), from: threeDigits(wind.from_deg), current: number(Math.hypot(...current) / KNOT, 1) });
+    return say("log_environment", { wind: inBothUnits(wind.speed), from: threeDigits(wind.from_deg), current: inBothUnits(Math.hypot(...current)) });
   }
   const key = `log_${kind.replace(" ", "_")}`;
   return key in TEXTS ? say(key, { ...event, energy: number((event.energy ?? 0) / 1e6, 1) }) : kind;
@@ -182,43 +183,6 @@ function makeMarks(ask) {
         const back = textButton("go_back", () => ask("back", { name: mark.name }), { "data-mark": mark.name });
         return element("li", {}, inWords(back, { text: "go_back" }, { name: mark.name, time: clockTime(mark.time, 0) }));
       }));
-    },
-  };
-}
-
-function makeEnvironment(ask) {
-  const fields = {
-    wind_speed: labelled("wind_speed", { min: 0, max: 100, step: 0.5, id: "wind-speed" }), wind_from: labelled("wind_from", { min: 0, max: 360, step: 1, id: "wind-from" }),
-    current_speed: labelled("current_speed", { min: 0, max: 10, step: 0.1, id: "current-speed" }), current_towards: labelled("current_towards", { min: 0, max: 360, step: 1, id: "current-towards" }),
-  };
-  const value = (key) => Number(fields[key].input.value);
-  const sets = {
-    wind: () => ask("environment", { wind: { speed: value("wind_speed") * KNOT, from_deg: value("wind_from") } }),
-    current: () => {
-      const [speed, towards] = [value("current_speed") * KNOT, toRadians(value("current_towards"))];
-      return ask("environment", { current: [speed * Math.cos(towards), speed * Math.sin(towards)] });
-    },
-  };
-  const touched = new Set();
-  for (const [key, { input }] of Object.entries(fields)) input.addEventListener("input", () => touched.add(key));
-  const send = (what) => async () => {
-    await sets[what]();
-    for (const key of Object.keys(fields)) if (key.startsWith(what)) touched.delete(key);
-  };
-  return {
-    node: element("section", {}, inWords(element("h2", {}), { text: "environment" }),
-      element("div", { class: "row set-row" }, fields.wind_speed.node, fields.wind_from.node, textButton("set", send("wind"), { id: "set-wind" })),
-      element("div", { class: "row set-row" }, fields.current_speed.node, fields.current_towards.node, textButton("set", send("current"), { id: "set-current" }))),
-    show({ wind, current }) {
-      const [north, east] = current;
-      const now = {
-        wind_speed: wind.speed / KNOT, wind_from: wind.from_deg, current_speed: Math.hypot(north, east) / KNOT,
-        current_towards: toDegrees(wholeTurn(Math.atan2(east, north))),
-      };
-      for (const [key, { input }] of Object.entries(fields)) {
-        if (touched.has(key) || document.activeElement === input) continue;
-        input.value = String(Number(now[key].toFixed(key.endsWith("speed") ? 1 : 0)));
-      }
     },
   };
 }
