@@ -111,6 +111,7 @@ def _collect_data(scene: Scene) -> dict[str, Any]:
         "scratches": [
             {"id": s.id, "ship": s.ship, "other": s.other, "times": s.times.tolist()} for s in scene.scratches
         ],
+        "wind": scene.wind.round(2).tolist(),
         "dents": [
             {
                 "kind": dent.kind,

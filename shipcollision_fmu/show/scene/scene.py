@@ -31,6 +31,7 @@ from .effects import Effect, make_effects
 from .fittings import Fitting
 from .lights import Light
 from .looks import make_looks
+from .machinery import read_wind
 from .resample import choose_samples
 from .run_folder import CollisionEvent, RunFolder, ShipBody, read_run_folder
 from .scratches import Scratch, lay_scratches
@@ -124,7 +125,10 @@ class Event:
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """A scene. `origin` (3,) in n [m] is a round place near its middle, for formats in single precision."""
+    """A scene. `wind` (2,) is the air's mean velocity, north and east [m/s].
+
+    `origin` (3,) in n [m] is a round place near its middle, for formats in single precision.
+    """
 
     name: str
     description: str
@@ -139,6 +143,7 @@ class Scene:
     dents: tuple[Dent, ...]
     events: tuple[Event, ...]
     signals: Signals
+    wind: Array
 
     def ship(self, name: str) -> Ship:
         """The ship of that name; KeyError if there is none."""
@@ -180,6 +185,7 @@ def build_scene(run: RunFolder) -> Scene:
         dents=make_dents(run, scratches),
         events=tuple(map(_build_event, run.events.collisions)),
         signals=signals_of(run),
+        wind=_find_wind(run),
     )
 
 
@@ -240,6 +246,16 @@ def _choose_origin(run: RunFolder) -> Array:
         tracks = run.states[:, :, :3].reshape(-1, 3)
         place = 0.5 * (tracks.min(axis=0) + tracks.max(axis=0))
     return np.array([*np.round(place[:2], -1), 0.0]) + 0.0  # no negative zero
+
+
+def _find_wind(run: RunFolder) -> Array:
+    """Mean velocity (2,) of the air in n [m/s], to where it blows; zero of a run that does not tell."""
+    wind = read_wind(run)
+    if wind is None:
+        return np.zeros(2)
+    velocity = -wind[:, :1] * np.column_stack([np.cos(wind[:, 1]), np.sin(wind[:, 1])])
+    mean: Array = velocity.mean(axis=0)
+    return mean
 
 
 def _build_event(collision: CollisionEvent) -> Event:

@@ -6,6 +6,7 @@
 import * as THREE from "three";
 import { LIGHT } from "./daylight.js";
 import { crush, grownAt } from "./dent_shapes.js";
+import { FIRE, FIRE_GLSL } from "./fire_light.js";
 import { FINISH_GLSL } from "./finish.js";
 import { randomNumbers } from "./random.js";
 
@@ -60,7 +61,7 @@ const FRAGMENT = /* glsl */ `
     // Torn edges of decks and frames stand in the opening.
     float plate = min(abs(vLocal.y - 2.7 * floor(vLocal.y / 2.7 + 0.5)), 1.6 * abs(vLocal.x - 3.4 * floor(vLocal.x / 3.4 + 0.5)));
     colour = mix(colour, vec3(0.26, 0.20, 0.17) * light, smoothstep(0.16, 0.08, plate) * 0.8);
-    colour += uGlow * vec3(1.1, 0.34, 0.05) * (0.25 + 0.75 * exp(-inside / 3.0)) * (0.6 + 0.4 * hash(floor(at.xy)));
+    colour += uGlow * vec3(0.9, 0.22, 0.03) * exp(-abs(inside - 2.0) / 2.0) * (way == deck && d.y < 0.0 ? 0.9 : 0.35) * exp(-0.08 * dot(vLocal.xy, vLocal.xy) / (1.0 + 0.1 * uDepth));
     colour *= 0.35 + 0.65 * smoothstep(0.0, 0.12, -edge) + 0.2;
     gl_FragColor = vec4(finish(colour), 1.0);
   }`;
@@ -70,11 +71,13 @@ const PLATE_VERTEX = /* glsl */ `
   attribute vec3 aTint;
   varying vec3 vColour;
   ${FINISH_GLSL}
+  ${FIRE_GLSL}
   void main() {
+    vec3 place = (modelMatrix * vec4(position, 1.0)).xyz;
     vec3 up = normalize(mat3(modelMatrix) * normal);
-    vec3 eye = cameraPosition - (modelMatrix * vec4(position, 1.0)).xyz;
+    vec3 eye = cameraPosition - place;
     if (dot(up, eye) < 0.0) up = -up; // plates have two sides
-    vec3 light = uBeam * max(dot(up, uSun), 0.0) + mix(uBelow, uAbove, 0.5 + 0.5 * up.y);
+    vec3 light = uBeam * max(dot(up, uSun), 0.0) + mix(uBelow, uAbove, 0.5 + 0.5 * up.y) + 0.4 * fireLight(place, up);
     vColour = finish(aTint * (light / 3.14159265 + 0.01));
     gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
   }`;
@@ -195,7 +198,7 @@ function makePlates(dent, rays, centre, { outwards }, random) {
     return (k ? rays[ray][k - 1] : centre).clone().lerp(rays[ray][k], (distance - from) / (to - from));
   };
   const mesh = new THREE.Mesh(geometry, new THREE.ShaderMaterial({
-    uniforms: LIGHT, vertexShader: PLATE_VERTEX, fragmentShader: PLATE_FRAGMENT, side: THREE.DoubleSide, toneMapped: false,
+    uniforms: { ...LIGHT, ...FIRE }, vertexShader: PLATE_VERTEX, fragmentShader: PLATE_FRAGMENT, side: THREE.DoubleSide, toneMapped: false,
   }));
   return {
     mesh,
@@ -279,7 +282,7 @@ class CrushedBow {
 
 /** How bright a fire is within a dent at a time: from 0 to 1. */
 function glowAt(dent, fires, now) {
-  const shares = fires.filter(({ ship, point }) => ship === dent.ship && Math.abs(point[0] - dent.point[0]) < 3 * dent.half_width)
+  const shares = fires.filter(({ kind, ship, point }) => kind === "fire" && ship === dent.ship && Math.abs(point[0] - dent.point[0]) < 3 * dent.half_width)
     .map(({ time, duration }) => Math.min(1, (now - time) / 0.5, (time + duration + 4 - now) / 6));
   return Math.max(0, ...shares);
 }

@@ -5,6 +5,7 @@ import { randomNumbers } from "./random.js";
 
 const LIFE = 1.1; // [s] of the longest
 const MOST = 900; // sparks of all scratches
+const LEAST = 90; // of one
 
 /** Points of a ribbon with the times at which they are drawn, in the ribbon's own frame, thinned to `count`. */
 function pointsOf(node, count) {
@@ -24,13 +25,14 @@ export function addSparks(root) {
   const each = Math.max(4, Math.floor(MOST / Math.max(1, ribbons.length)));
   const made = ribbons.map((node, number) => {
     const points = pointsOf(node, Math.ceil(each / 6));
+    const perPoint = Math.max(6, Math.min(24, Math.ceil(LEAST / points.length))); // a dent of few points throws up as many
     const random = randomNumbers(number + 11);
     const place = [], birth = [], seed = [];
     for (const { at, time: drawn } of points) {
-      for (let k = 0; k < 6; k++) {
+      for (let k = 0; k < perPoint; k++) {
         for (const end of [0, 1]) {
           const numbers = end ? seed.slice(-4) : [random(), random(), random(), random()];
-          place.push(...at);
+          place.push(at[0], at[1], Math.min(at[2], -0.5 - 4 * numbers[1])); // steel that meets below the water meets above as well
           birth.push(drawn, end);
           seed.push(...numbers);
         }

@@ -5,6 +5,7 @@ import { Cameras } from "./cameras.js";
 import { LIGHT } from "./daylight.js";
 import { addDents } from "./dents.js";
 import { addEffects } from "./effects.js";
+import { addFireLight } from "./fire_light.js";
 import { makeFoam } from "./foam.js";
 import { HAZE, setHaze } from "./haze.js";
 import { makeLabels } from "./labels.js";
@@ -86,16 +87,18 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
   });
   const panes = new Set(); // windows, lit when it is dark
   gltf.scene.traverse(({ material }) => material?.name === "windows" && panes.add(material));
-  const nodeOf = (name) => ships.find(({ info }) => info.name === name).node;
   const labels = makeLabels(ships, canvas);
   canvas.after(labels.node);
   const lights = addLights(gltf.scene);
   const scratches = growScratches(gltf.scene);
   const showSparks = addSparks(gltf.scene);
-  const effects = [addEffects(data.effects, nodeOf)];
+  const effects = [addEffects(data.effects, ships, data.start)];
   const plainShips = makePlainShips(gltf.scene, ships);
   const dents = [addDents(data.dents ?? [], ships)];
-  const fires = data.effects.filter(({ kind }) => kind === "fire"); // that glow in dents
+  const burns = ({ kind }) => kind === "fire" || kind === "explosion";
+  const fires = data.effects.filter(burns); // that light hulls, water and dents
+  const fireLight = addFireLight(world);
+  let wind = data.wind ?? [0, 0];
 
   const moved = []; // what else follows the time
 
@@ -115,7 +118,8 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
     shown.triangles = scratches.show(time - data.start);
     shown.sparks = showSparks(time - data.start);
     shown.dents = dents.flatMap(({ show }) => show(time, fires));
-    shown.effects = effects.reduce((count, showAt) => count + showAt(time, plain), 0);
+    shown.effects = effects.reduce((count, showAt) => count + showAt(time, plain, wind), 0);
+    fireLight.show(time, fires, ships);
   }
 
   function draw() {
@@ -212,8 +216,8 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
     },
     /** Adds effects of a collision that has happened since; returns what takes them away again. */
     addEffects(more) {
-      const showAt = addEffects(more, nodeOf);
-      const burning = more.filter(({ kind }) => kind === "fire");
+      const showAt = addEffects(more, ships, data.start);
+      const burning = more.filter(burns);
       effects.push(showAt);
       fires.push(...burning);
       return () => {
@@ -229,6 +233,8 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
       return () => (added.remove(), dents.splice(dents.indexOf(added), 1));
     },
     setSky,
+    /** Velocity of the air, north and east [m/s]: smoke goes with it. */
+    setWind: (velocity) => (wind = velocity),
     /** Plain: a flat sea, light worked out at corners, no shadows, and no more pixels than the screen's own. For processors that draw. */
     setPlain(isPlain) {
       plain = isPlain;

@@ -18,6 +18,9 @@ const NUMBERS = 150; // between two readings of the instruments [ms]
 const CHART = 250; // between two pictures of the chart [ms]
 const SETTLED = 0.1; // [s] after which a collision's energy tells how strong its effects are
 
+/** Velocity of the air, north and east [m/s], from a wind as a state has it. */
+const airOf = ({ speed, from_deg }) => [Math.cos, Math.sin].map((part) => -speed * part((from_deg * Math.PI) / 180));
+
 export async function startBridge() {
   const page = makeLivePage("bridge", { hello: () => greet(), back: (state) => forgetEffects(state), touches: ({ touches }) => scratches?.add(touches) });
   const { session, ask, messages, time } = page;
@@ -197,6 +200,7 @@ export async function startBridge() {
     const state = session.present(now);
     if (!state || !session.hello) return;
     shown = state;
+    if (viewer) viewer.setWind(airOf(state.environment.wind));
     if (viewer) addNewEffects(state); // behind the chart, too: a fire begins when it does
     if (viewer && !isChartLarge()) {
       viewer.setPlaying(!session.state.paused); // a plain picture may have fewer pixels while the ships move
