@@ -115,7 +115,7 @@ def test_keys_steer_the_ship_and_instruments_follow(bridge: BridgePage) -> None:
     heading = "return Number(document.getElementById('show-heading_short').textContent)"
     yaw = degrees(bridge.state(".ships.own.eta[5]")) % 360.0
     assert abs((bridge.run(heading) - yaw + 180.0) % 360.0 - 180.0) < 3.0
-    assert bridge.run("return document.getElementById('wheel').getAttribute('aria-valuetext')") == "Stb 15°"
+    assert bridge.run("return document.getElementById('wheel').getAttribute('aria-valuetext')") == "Starboard 15°"
     press(bridge, "m")
     bridge.wait("return live.state.ships.own.rudder_order === 0")
     press(bridge, Keys.ARROW_UP)

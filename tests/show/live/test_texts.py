@@ -61,6 +61,20 @@ def test_the_replay_page_and_its_texts_name_each_other(
     assert asked - set(texts) - set(replay) == set()
 
 
+def test_terms_are_those_of_mariners(texts: dict[str, list[str]], replay: dict[str, list[str]]) -> None:
+    """Heading and course are two things, and so are a chart that is head up and one that is course up; a ship goes
+    astern, it is not aft; 前进四 to 前进一 and the like stand on telegraphs."""
+    assert texts["head_up"] == ["Head up", "Voraus oben", "Forut opp", "艏向上"]
+    assert [replay["heading"][3], texts["heading_short"][3], texts["cog"][3]] == ["艏向", "艏向", "对地航向"]
+    for position, chinese in zip(range(1, 5), "一二三四", strict=True):
+        assert texts[f"telegraph_{position}"][3] == f"前进{chinese}"
+        assert texts[f"telegraph_-{position}"][3] == f"后退{chinese}"
+        assert texts[f"telegraph_{position}"][2].endswith(" forover")
+        assert texts[f"telegraph_-{position}"][2].endswith(" akterover")
+    for side, words in (("port", ("Backbord", "Babord")), ("starboard", ("Steuerbord", "Styrbord"))):
+        assert texts[f"{side}_value"][1:3] == [f"{word} {{value}}°" for word in words]
+
+
 @pytest.mark.parametrize(("language", "said"), [("en", "Stop"), ("de", "Stopp"), ("nb", "Stopp"), ("zh", "停车")])
 def test_a_language_is_chosen(language: str, said: str) -> None:
     body = "globalThis.document = { documentElement: {} }; setLanguage(data); return [say('telegraph_0'), language()];"
