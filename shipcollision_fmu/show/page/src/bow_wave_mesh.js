@@ -12,7 +12,10 @@ const SUNK = 0.1; // and so far under the sea it ends [m]
 
 /** `outline`: {x, port, starboard} as waterline.js has it; `flow`: velocity of midship in b: ahead, to starboard [m/s], turn [rad/s]. */
 export function makeBowWave({ x, port, starboard }, draught) {
-  const sides = [[traceSide(x, starboard), 1], [traceSide(x, port), -1]];
+  const sides = [[starboard, 1], [port, -1]].map(([half, sign]) => {
+    const side = traceSide(x, half);
+    return [side, sign, findEntrance(side)];
+  });
   const rows = ALONG.length, columns = ACROSS.length + 1, each = rows * columns;
   const places = new Float32Array(2 * each * 3), looks = new Float32Array(2 * each * 2);
   const geometry = new THREE.BufferGeometry();
@@ -33,9 +36,11 @@ export function makeBowWave({ x, port, starboard }, draught) {
     vertexShader: /* glsl */ `
       attribute vec2 aLook;
       varying vec2 vLook, vPlace;
+      varying vec3 vBody;
       ${ON_SEA_HEAD}
       void main() {
         vLook = aLook;
+        vBody = waterAt(position.xz, position.y);
         vPlace = position.xz;
         gl_Position = onSea(position.xz, position.y);
       }`,
@@ -57,10 +62,10 @@ export function makeBowWave({ x, port, starboard }, draught) {
   /** `pose`: of midship in the page's world [x, z], and cosine and sine of the heading. */
   function update([px, pz, c, s], [ahead, sway, turn]) {
     let highest = 0;
-    sides.forEach(([side, sign], j) => {
+    sides.forEach(([side, sign, entrance], j) => {
       const atBow = sway + turn * side[0].along;
       const drift = Math.atan2(sign * atBow, Math.max(ahead, 0.5)); // towards this side
-      const wave = measureBowWave(ahead, draught, findEntrance(side) + drift);
+      const wave = measureBowWave(ahead, draught, entrance + drift);
       highest = Math.max(highest, wave.height);
       const end = 0.45 * side.at(-1).s;
       ALONG.forEach((share, i) => {

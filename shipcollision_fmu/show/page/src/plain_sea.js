@@ -6,7 +6,7 @@ import { FINISH_GLSL } from "./finish.js";
 import { STEEPEST, WATER } from "./ripples.js";
 
 const STEEP = 0.11; // slope towards the eye at which colours are worked out, up and down
-const SLOPES = { fine: 0.075, middle: 0.065 }; // root mean square of each layer
+const SLOPES = { fine: 0.09, middle: 0.042 }; // root mean square of each layer
 const TILES = { fine: 23, middle: 151 }; // [m]
 
 const DRIFT = "vec2(0.94, 0.34)"; // [m/s]
@@ -76,8 +76,9 @@ const fragmentShader = /* glsl */ `
   varying vec2 vTowards, vGlint, vShine;
   varying vec3 vLevel, vLinear, vSquare;
   void main() {
-    vec2 fine = texture2D(uRipples, vRipples.xy).xy - 0.5;
-    vec2 middle = texture2D(uRipples, vRipples.zw).yx - 0.5;
+    // A view along the water would read them too coarsely: the larger waves alone would be left, as stains.
+    vec2 fine = texture2D(uRipples, vRipples.xy, -1.0).xy - 0.5;
+    vec2 middle = texture2D(uRipples, vRipples.zw, -0.5).yx - 0.5;
     vec2 slope = ${FINE} * fine + ${MIDDLE} * middle;
     float towards = clamp(dot(slope, vTowards), ${(-1.5 * STEEP).toFixed(3)}, ${(1.5 * STEEP).toFixed(3)});
     vec3 colour = vLevel + towards * (vLinear + towards * vSquare);

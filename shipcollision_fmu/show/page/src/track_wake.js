@@ -2,10 +2,10 @@
 // Functions of the track up to a time, so that going back in time brings back the water of that time. Numbers only.
 
 export const OLDEST = 260; // age of the oldest wake [s]
-const STEPS = [[60, 1], [OLDEST, 5]]; // up to an age, sections were left so many seconds apart
-export const MOST = 2 + 62 + 42; // sections at once, at most
+const STEPS = [[16, 1], [60, 4], [OLDEST, 10]]; // up to an age, sections were left so many seconds apart
+export const MOST = 56; // sections at once, at most
 const KELVIN = Math.SQRT1_2 / 2; // tangent of half the angle of Kelvin's wedge
-const MOMENT = 0.5; // speeds are those over so many seconds
+const MOMENT = 0.5; // speeds are those since the section before, or over so many seconds at least
 const FADES = { white: 38, churned: 110, thrown: 20, waves: 60 }; // ages at which they have faded to a third [s]
 const CATCHES_UP = 15; // water that is churned runs after a ship that slows down, for so long [s]
 
@@ -25,16 +25,18 @@ export function sectionTimes(time) {
  * `aft`, `fore`: stations of stern and bow [m].
  */
 export function followTrack(poseAt, time, { aft, fore }) {
+  const times = sectionTimes(time), poses = times.map(poseAt);
   let behind = 0, run = 0, last = null;
-  const sections = sectionTimes(time).map((at) => {
-    const [x, z, c, s] = poseAt(at), [x0, z0] = poseAt(at - MOMENT);
-    const speed = Math.max(0, ((x - x0) * c + (z - z0) * s) / MOMENT);
+  const sections = poses.map(([x, z, c, s], i) => {
     const stern = [x + aft * c, z + aft * s], bow = [x + fore * c, z + fore * s];
     if (last) {
       behind += Math.hypot(stern[0] - last.stern[0], stern[1] - last.stern[1]);
       run += Math.hypot(bow[0] - last.bow[0], bow[1] - last.bow[1]);
     }
-    return (last = { age: time - at, speed, churn: speed, ahead: [c, s], stern, bow, behind, run });
+    let j = Math.min(i + 1, times.length - 1);
+    while (times[i] - times[j] < MOMENT && j + 1 < times.length) j++;
+    const speed = j > i ? Math.max(0, ((x - poses[j][0]) * c + (z - poses[j][1]) * s) / (times[i] - times[j])) : last.speed;
+    return (last = { age: time - times[i], speed, churn: speed, ahead: [c, s], stern, bow, behind, run });
   });
   for (let i = sections.length - 2; i >= 0; i--) {
     const { speed, age } = sections[i], before = sections[i + 1];
@@ -66,6 +68,6 @@ export function thrownAt({ age, speed, run }, { L, B }) {
       0.75 * begins * Math.exp(-run / (0.8 * L)) * Math.exp(-age / FADES.thrown), 0],
     // The edge of Kelvin's wedge, where waves are steepest.
     [0.5 * B * reach + KELVIN * run, 2 + 0.03 * run,
-      0.16 * begins * Math.exp(-run / (1.5 * L)) * Math.exp(-age / FADES.waves), 0.3 * begins * reach * Math.exp(-run / (3 * L)) * Math.exp(-age / FADES.waves)],
+      0.3 * begins * reach * Math.exp(-run / (1.5 * L)) * Math.exp(-age / FADES.waves), 0.4 * begins * reach * Math.exp(-run / (2 * L)) * Math.exp(-age / FADES.waves)],
   ];
 }

@@ -52,12 +52,13 @@ const foamVertex = (head, toPlace) => /* glsl */ `
   }`;
 const foamPixel = (head, colour) => /* glsl */ `
   uniform sampler2D uRipples;
+  uniform float uPatch;
   varying vec4 vFoam;
   varying vec2 vPlace;
   ${head}
   void main() {
     // Its edge is ragged, by patches of the water that lie still.
-    float across = abs(vFoam.x) + 0.5 * (texture2D(uRipples, vPlace / 61.0).b - 0.5) * smoothstep(0.2, 0.8, abs(vFoam.x));
+    float across = abs(vFoam.x) + 0.5 * (texture2D(uRipples, vPlace / uPatch).b - 0.5) * smoothstep(0.2, 0.8, abs(vFoam.x));
     float inside = smoothstep(1.0, 0.5, across);
     inside *= mix(0.66 + 0.34 * smoothstep(0.3, 0.8, across), inside, vFoam.w); // propellers and the hull's sides churn it
     float foam = vFoam.y * inside, churned = vFoam.z * inside;
@@ -102,17 +103,17 @@ const WAVES_PIXEL = /* glsl */ `
 export function makeWake({ track, info }, ends, cover) {
   const size = { L: info.L_oa, B: info.B };
   const foam = makeStrips(5, 4), waves = makeStrips(1, 4);
-  const ripples = { uRipples: WATER.uRipples };
+  const patches = { uRipples: WATER.uRipples, uPatch: { value: 1.2 * info.B } };
   const mesh = new THREE.Group().add(
     new THREE.Mesh(foam.geometry, new THREE.ShaderMaterial({
-      ...ADDING, uniforms: { ...ripples, uCover: cover }, vertexShader: foamVertex("", TO_FIELD), fragmentShader: foamPixel("", "vec4(foam, 0.0, 0.0, churned)"),
+      ...ADDING, uniforms: { ...patches, uCover: cover }, vertexShader: foamVertex("", TO_FIELD), fragmentShader: foamPixel("", "vec4(foam, 0.0, 0.0, churned)"),
     })),
     new THREE.Mesh(waves.geometry, new THREE.ShaderMaterial({
       ...ADDING, uniforms: { uCover: cover, uSize: { value: new THREE.Vector2(size.L, size.B) } }, vertexShader: WAVES_VERTEX, fragmentShader: WAVES_PIXEL,
     })),
   );
   const plain = new THREE.Mesh(foam.geometry, new THREE.ShaderMaterial({
-    ...ON_SEA, uniforms: ON_SEA_UNIFORMS,
+    ...ON_SEA, uniforms: { ...ON_SEA_UNIFORMS, ...patches },
     vertexShader: foamVertex(ON_SEA_HEAD, "gl_Position = onSea(place, 0.0);"), fragmentShader: foamPixel(ON_SEA_PIXEL, "paintFoam(foam, churned, 0.0)"),
   }));
   plain.renderOrder = -5;
