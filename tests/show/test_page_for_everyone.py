@@ -105,7 +105,8 @@ def test_in_chinese_nothing_is_left_in_english(page: Page) -> None:
     """But names, what the scenario and the ships' files say of themselves, and units."""
     own = page.run(
         "return [replay.data.name, replay.data.description, 'shipcollision-fmu', "
-        "...replay.data.ships.flatMap((ship) => [ship.name, ship.model, ship.kind])]"
+        "...replay.data.ships.flatMap((ship) => [ship.name, ship.model, ship.kind]), "
+        "...[...document.querySelectorAll('.title h1, .title li span')].map((node) => node.textContent)]"
     )
 
     def english() -> set[str]:

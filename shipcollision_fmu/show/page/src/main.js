@@ -12,6 +12,7 @@ import { SKIES } from "./daylight.js";
 import { listenToKeys, makeHelp } from "./keys.js";
 import { makeLanguageSwitch } from "./language_switch.js";
 import { makePlots } from "./plots.js";
+import { readKind, readTitle } from "./readable.js";
 import { makeStageTools } from "./stage_tools.js";
 import "./texts_replay.js";
 import { inWords, language, LANGUAGES, say, setLanguage } from "./texts.js";
@@ -32,10 +33,10 @@ function makeTitle(data) {
     const paint = () => (dot.style.background = lineColour(ship.colour));
     onTheme(paint);
     paint();
-    const size = `${ship.model}, ${ship.kind}, ${Math.round(ship.L_oa)} m`;
+    const size = `${readKind(ship.model, ship.kind)}, ${Math.round(ship.L_oa)} m`;
     return element("li", {}, dot, element("b", { text: ship.name }), element("span", { text: size }));
   });
-  return element("header", { class: "title" }, makeLanguageSwitch(), element("h1", { text: data.name }),
+  return element("header", { class: "title" }, makeLanguageSwitch(), element("h1", { text: readTitle(data.name), title: data.name }),
     element("p", { text: data.description }),
     ...(data.is_native ? [inWords(element("p"), { text: "native_run" })] : []),
     element("ul", {}, ...ships));

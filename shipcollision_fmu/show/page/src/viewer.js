@@ -144,7 +144,7 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
     renderer.shadowMap.needsUpdate = seen !== shadowOf;
     shadowOf = seen;
     renderer.render(world, camera);
-    labels.update(camera);
+    labels.update(camera, cameras.free);
     shown.frames++;
   }
 
