@@ -21,11 +21,19 @@ from shipcollision_fmu.errors import StepError
 from shipcollision_fmu.live.protocols.outlets import Outlets
 from shipcollision_fmu.live.server.host_names import find_hosts
 from shipcollision_fmu.live.server.serve import bind
+from shipcollision_fmu.live.session import run_folder
 from shipcollision_fmu.live.session import session as session_module
 from shipcollision_fmu.live.session.commands import End
 from shipcollision_fmu.live.session.live_run import LiveRun
 from shipcollision_fmu.live.session.session import Session
 from shipcollision_fmu.scenario.scenario import Scenario
+
+
+@pytest.fixture(autouse=True)
+def _stand_in_for_the_page(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is in the page of a run is not these tests' matter, and writing it takes half of their time;
+    test_server.py opens one that a live run has written."""
+    monkeypatch.setattr(run_folder, "write_page", lambda folder: (folder / "replay.html").write_text("a page"))
 
 
 def live(folder: Path, *arguments: str) -> Result:

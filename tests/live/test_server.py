@@ -472,6 +472,7 @@ def test_the_end_is_told_and_the_replay_served(tmp_path: Path) -> None:
             assert (end["folder"], end["replay"], end["error"]) == (str(tmp_path / "run"), "/replay.html", None)
         status, body, _ = server.get(f"/replay.html?token={server.app.tokens.bridge}")
         assert (status, body) == (200, (tmp_path / "run" / "replay.html").read_bytes())
+        assert body.startswith(b"<!doctype html>")
 
 
 def test_where_no_page_was_written_none_is_offered_nor_that_of_an_older_run(

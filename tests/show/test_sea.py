@@ -142,7 +142,7 @@ def test_a_ship_is_followed_from_where_the_other_is_not(browser: Chrome, kvlcc2_
         assert abs(x) > 0.5 * own.L_oa or abs(y) > 0.5 * own.B
 
 
-@pytest.mark.parametrize("sky", ["dusk", "night"])
+@pytest.mark.parametrize("sky", ["night", pytest.param("dusk", marks=pytest.mark.slow)])
 def test_scrubbing_back_brings_the_same_sea_and_sky(page: Page, sky: str) -> None:
     page.run("replay.sky(arguments[0]); replay.camera('impact')", sky)
     page.slide(1.0)

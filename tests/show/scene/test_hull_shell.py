@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -35,8 +36,10 @@ def distance(surface: trimesh.Trimesh, points: np.ndarray) -> np.ndarray:
     return np.asarray(away)
 
 
-def measure_sides(drawn: Drawn) -> tuple[np.ndarray, np.ndarray]:
+@cache
+def measure_sides(kind: str) -> tuple[np.ndarray, np.ndarray]:
     """Points between waterline and deck of either hull (n, 3), and their distances from the other one [m]."""
+    drawn = draw_ship(kind)
     touches = trimesh.Trimesh(drawn.hull.vertices, drawn.hull.triangles, process=False)
     found, away = [], []
     for one, other in ((skin(drawn), touches), (touches, skin(drawn))):
@@ -53,7 +56,7 @@ def measure_sides(drawn: Drawn) -> tuple[np.ndarray, np.ndarray]:
 def test_sides_between_the_ends_and_the_edge_of_the_deck_are_those_of_the_hull_that_touches(kind: str) -> None:
     """Both ways: nothing stands off, and nothing is missing."""
     drawn = draw_ship(kind)
-    points, away = measure_sides(drawn)
+    points, away = measure_sides(kind)
     share = points[:, 0] / drawn.L + 0.5
     middle = (share > STERN) & (share < 1.0 - BOW)
     assert middle.sum() > 40
@@ -75,7 +78,7 @@ def test_ends_above_water_are_within_the_hull_that_touches_by_no_more_than_state
         assert rings.at(z)[-1, 0] - 1e-6 <= x <= rings.at(z)[0, 0] + 1e-6
     table = re.findall(r"^ *\| ([a-z ]+) \| (\d\.\d) m \|$", GUIDE.read_text(encoding="utf-8"), re.M)
     stated = float(dict(table)[kind])
-    assert stated - 0.15 < measure_sides(drawn)[1].max() <= stated
+    assert stated - 0.15 < measure_sides(kind)[1].max() <= stated
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -87,7 +87,7 @@ def test_a_drift_beyond_the_limit_is_refused_alike() -> None:
 @pytest.mark.parametrize("separation", [2.0, 100.0])
 def test_coasting_encounters(separation: float) -> None:
     study = read_twins("encounter", "target_sway = 0.3\n" + SLOW, separation)
-    native, python = compute_rows(study, 0, 12, "native"), compute_rows(study, 0, 12, "python")
+    native, python = compute_rows(study, 0, 6, "native"), compute_rows(study, 0, 6, "python")
     assert {"done", "refused"} == set(native.encounters.column("status").to_pylist())
     compare(native, python, 1e-5)
 
