@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 from selenium.webdriver import Chrome
 
+from shipcollision_fmu.ship.frames import rotation_from_quaternion
 from shipcollision_fmu.show.page import write_page
 from shipcollision_fmu.show.scene.scene import load_scene
 
@@ -96,3 +97,26 @@ def test_the_slider_stays_where_it_is_in_slow_motion(browser: Chrome, guan2014: 
     slow, has_rate = seen(scene.events[0].time)
     assert has_rate
     assert slow == usual
+
+
+def test_every_ship_in_the_picture_has_its_name_over_it(browser: Chrome, guan2014: Path) -> None:
+    """Between where its ends are in the picture, or beside another label."""
+    write_page(guan2014)
+    scene = load_scene(guan2014)
+    browser.get("about:blank")
+    page = Page(browser, guan2014 / "replay.html", "camera=all", (1280, 720))
+    poses = page.slide(0.0)["poses"]
+    labels = page.run("""
+        return [...document.querySelectorAll(".label")].map((label) => {
+          const { left, right, bottom } = label.getBoundingClientRect();
+          return { hidden: label.hidden, name: label.textContent, x: (left + right) / 2, width: right - left, bottom };
+        });
+    """)
+    assert [(label["name"], label["hidden"]) for label in labels] == [(ship.name, False) for ship in scene.ships]
+    for ship, label in zip(scene.ships, labels, strict=True):
+        R = rotation_from_quaternion(poses[ship.name]["quaternion"])
+        ends = [poses[ship.name]["position"] + R @ [along * ship.L_oa, 0.0, 0.0] for along in (-0.5, 0.5)]
+        (a, y), (b, _) = (page.run("return replay.project(arguments[0])", end.tolist()) for end in ends)
+        assert min(a, b) - label["width"] < label["x"] < max(a, b) + label["width"]
+        assert abs(label["x"] - (a + b) / 2) < 0.3 * abs(a - b) + label["width"]
+        assert label["bottom"] < y

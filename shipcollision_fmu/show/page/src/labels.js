@@ -22,8 +22,8 @@ export function makeLabels(ships, canvas) {
     const { x, y } = ship.worldToLocal(point.copy(camera.position));
     if (Math.abs(x) < 0.5 * info.L_oa && Math.abs(y) < 0.5 * info.B) return null; // those aboard know it
     const top = info.height + Math.min(HOUSE, 0.4 * info.L_oa);
-    const seen = ALONG.map((share) => ship.localToWorld(point.set(share * info.L_oa, 0, -top)).project(camera))
-      .filter((place) => Math.abs(place.z) < 1 && Math.abs(place.x) < 1).map((place) => [place.x, place.y]);
+    const seen = ALONG.map((share) => ship.localToWorld(point.set(share * info.L_oa, 0, -top)).project(camera).toArray())
+      .filter(([across, , depth]) => Math.abs(depth) < 1 && Math.abs(across) < 1);
     if (!seen.length || seen.every(([, up]) => Math.abs(up) > FAR_OUT)) return null;
     const xs = seen.map(([across]) => across);
     return [((Math.min(...xs) + Math.max(...xs) + 2) / 4) * width, ((1 - Math.max(...seen.map(([, up]) => up))) / 2) * height - 4];
