@@ -32,6 +32,8 @@ MOST_CLIENTS = 32
 """Clients at a time: a class. More are refused."""
 INTERVAL = 0.05
 """[s] between two states: 20 Hz."""
+INSTRUCTORS = frozenset({"armed"})
+"""Events that instructors alone are told of: a failure that is to come is to surprise the bridge."""
 PATIENCE = 5.0
 """[s] for which a message may take to be sent. A slower client is dropped."""
 MOST_EVENTS = 200
@@ -110,7 +112,8 @@ class Hub:
         client.put(
             {
                 "type": "hello", **self._hello, "role": client.role, "client": client.name, "marks": marks,
-                "events": list(self._history), "touches": touches,
+                "events": [event for event in self._history if _is_for(event, client)], "touches": touches,
+                **({"armed": self._session.armed} if client.role == "instructor" else {}),
             }
         )  # fmt: skip
         if self._end is not None:
@@ -161,7 +164,8 @@ class Hub:
             message = {"type": "event", **event}
             self._history.append(event)
         for client in self._clients:
-            client.put(message)
+            if _is_for(event, client):
+                client.put(message)
         if event["kind"] == "end":
             self._end = message
             self.has_ended.set()
@@ -205,6 +209,10 @@ class Hub:
         except (InputError, ShipCollisionError) as error:
             return _make_answer("error", request, message=str(error))
         return _make_answer("ok", request, step_count=self._session.snapshot.step_count)
+
+
+def _is_for(event: dict[str, Any], client: _Client) -> bool:
+    return client.role == "instructor" or event["kind"] not in INSTRUCTORS
 
 
 def _make_answer(kind: str, request: Any, **what: Any) -> dict[str, Any]:

@@ -106,6 +106,25 @@ class _Fail(_Message):
         return commands.Fail(self.ship, self.what, self.on)
 
 
+class _Arm(_Message):
+    ship: str
+    what: Literal["rudder", "blackout"]
+    at: float | None = None
+    of: str | None = None
+    within: float | None = None
+
+    def command(self, client: str, is_instructor: bool) -> Command:
+        return commands.Arm(self.ship, self.what, self.at, self.of, self.within)
+
+
+class _Disarm(_Message):
+    ship: str
+    what: Literal["rudder", "blackout"]
+
+    def command(self, client: str, is_instructor: bool) -> Command:
+        return commands.Disarm(self.ship, self.what)
+
+
 class _Mark(_Message):
     name: str = Field(max_length=60)
 
@@ -128,7 +147,8 @@ class _End(_Message):
 _BRIDGE: dict[str, type[Any]] = {"order": _Order, "command": _Take, "horn": _Horn}
 _TIME: dict[str, type[Any]] = {"rate": _Rate, "pause": _Pause, "step": _Step}
 _INSTRUCTOR: dict[str, type[Any]] = {
-    "environment": _Environment, "fail": _Fail, "mark": _Mark, "back": _Back, "end": _End,
+    "environment": _Environment, "fail": _Fail, "arm": _Arm, "disarm": _Disarm, "mark": _Mark, "back": _Back,
+    "end": _End,
 }  # fmt: skip
 
 

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 __all__ = [
-    "FAILURES", "Back", "ChangeEnvironment", "Command", "End", "Fail", "Horn", "Leave", "Mark", "Order", "Pause",
-    "Rate", "Step", "TakeCommand",
+    "FAILURES", "Arm", "Back", "ChangeEnvironment", "Command", "Disarm", "End", "Fail", "Horn", "Leave", "Mark",
+    "Order", "Pause", "Rate", "Step", "TakeCommand",
 ]  # fmt: skip
 
 FAILURES = ("rudder", "blackout")
@@ -67,6 +67,25 @@ class Fail:
 
 
 @dataclass(frozen=True)
+class Arm:
+    """A failure of a ship that is to begin at the run time `at` [s], or once ship `of` is nearer than `within` [m]."""
+
+    ship: str
+    what: str
+    at: float | None = None
+    of: str | None = None
+    within: float | None = None
+
+
+@dataclass(frozen=True)
+class Disarm:
+    """What was armed is not to begin."""
+
+    ship: str
+    what: str
+
+
+@dataclass(frozen=True)
 class ChangeEnvironment:
     """Another current, velocity of the water [north, east] [m/s], or another wind, speed [m/s] and from_deg [deg]."""
 
@@ -115,5 +134,18 @@ class End:
 
 
 Command: TypeAlias = (
-    Order | TakeCommand | Leave | Horn | Fail | ChangeEnvironment | Mark | Back | Rate | Pause | Step | End
+    Order
+    | TakeCommand
+    | Leave
+    | Horn
+    | Fail
+    | Arm
+    | Disarm
+    | ChangeEnvironment
+    | Mark
+    | Back
+    | Rate
+    | Pause
+    | Step
+    | End
 )

@@ -1,7 +1,7 @@
 """LiveRun: a scenario that people steer while it runs, without a clock.
 
     advance          one communication step, with the orders that wait
-    bridges          orders and failures by ship (bridge.py)
+    bridges          orders and failures by ship (bridge.py); armed.py has failures that begin by themselves
     change           current and wind from the next communication point
     mark, go_back    keep the whole state and come back to it; from there the run is, to the bit, as without
     finish           the Run, and the scenario that gives the same run again
@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from contextlib import ExitStack
 from dataclasses import dataclass
-from math import degrees
+from math import degrees, dist
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -33,6 +33,7 @@ from ...scenario.scenario import Scenario, parse_scenario
 from ...scenario.tables.environment import EnvironmentChange
 from ...ship.loading.messages import describe_error
 from ...ship.ship_state import ShipState
+from .armed import Armed, ArmedFailures
 from .bridge import Bridge
 from .input_files import read_input_files
 from .scenario_text import write_scenario
@@ -59,6 +60,7 @@ class _Kept:
     changes: dict[int, EnvironmentChange]
     around: list[float]
     waiting: EnvironmentChange | None
+    armed: tuple[Armed, ...]
     end: EndValues
 
 
@@ -95,7 +97,7 @@ class LiveRun:
         self._around = self._coming.get(0, surroundings(scenario))
         self._waiting: EnvironmentChange | None = None
         self._marks: dict[str, _Kept] = {}
-        self.touch_log = TouchLog()
+        self.touch_log, self.armed, self.triggered = TouchLog(), ArmedFailures(), list[Armed]()
         self._begin = perf_counter()
         self._end = self._stepper.recorder.read_end()
         self.advance()
@@ -130,6 +132,7 @@ class LiveRun:
     def advance(self) -> None:
         """One communication step. Raises StepError; the record then ends before it."""
         k = self.k
+        self._trigger()
         for bridge in self.bridges.values():
             bridge.prepare(k)
         self._change(k)
@@ -140,12 +143,38 @@ class LiveRun:
         if self.k <= self._stepper.most_recorded:
             self._end = recorder.read_end()
 
+    # -- failures that are armed ---------------------------------------------------------------------------------------
+
+    def arm(self, armed: Armed) -> None:
+        """Let a failure begin by itself. Raises InputError for one that cannot be."""
+        bridge = self.bridges[armed.ship]
+        bridge.require_limits()
+        if armed.what in bridge.failures:
+            raise InputError(f"{armed.ship}: {armed.what} is on already: end it first")
+        armed.check(self.time, self._distance)
+        self.armed.arm(armed)
+
+    def _trigger(self) -> None:
+        """Begin what is due, for the order of this communication point; `triggered` then has what has begun."""
+        due = self.armed.take_due(self.time, self._distance)
+        self.triggered = [one for one in due if one.what not in self.bridges[one.ship].failures]
+        for one in self.triggered:
+            self.bridges[one.ship].fail(one.what, True)
+
+    def _distance(self, ship: str, other: str) -> float:
+        """[m] between CO of two ships in plan."""
+        here, there = (self._read_state(name)[:2] for name in (ship, other))
+        return dist(here, there)
+
+    def _read_state(self, ship: str) -> list[float]:
+        wire = self._stepper.system.states[list(self.bridges).index(ship)]
+        return list(wire.outputs.values[: len(STATE)])
+
     def _turn(self, body: str, vector: tuple[float, float, float]) -> tuple[float, float, float]:
         """A vector in n, in the b of a ship as it is; of an obstacle as it is."""
         if body not in self.bridges:
             return vector
-        wire = self._stepper.system.states[list(self.bridges).index(body)]
-        x, y, z = ShipState(*wire.outputs.values[: len(STATE)]).R_nb.T @ vector
+        x, y, z = ShipState(*self._read_state(body)).R_nb.T @ vector
         return float(x), float(y), float(z)
 
     # -- current and wind ---------------------------------------------------------------------------------------------
@@ -190,7 +219,7 @@ class LiveRun:
         kept = _Kept(
             self.k, [component.save() for component in self._components],
             {ship: bridge.save() for ship, bridge in self.bridges.items()}, self._stepper.recorder.mark(),
-            dict(self._changes), list(self._around), self._waiting, self._end,
+            dict(self._changes), list(self._around), self._waiting, self.armed.listed, self._end,
         )  # fmt: skip
         others = {other: mark for other, mark in self._marks.items() if other != name}
         self._marks = {**others, name: kept}  # a new one, as other threads may read the one before
@@ -215,7 +244,7 @@ class LiveRun:
         self._coming = {k: values for k, values in changed_surroundings(self.scenario).items() if k >= kept.k}
         if self._changes:
             self._coming.clear()
-        self._waiting = kept.waiting
+        self._waiting, self.armed.listed = kept.waiting, kept.armed
         self._marks = {name: mark for name, mark in self._marks.items() if mark.k <= kept.k}
 
     # -- what is seen -------------------------------------------------------------------------------------------------

@@ -11,7 +11,8 @@ A command is done between two steps. Orders take effect at the next communicatio
 
     collision begins | collision ends     id, ship_a, ship_b, point in n, energy
     command        ship, client (None: nobody)
-    failure        ship, what, on         mark, back      name        environment    current, wind
+    failure        ship, what, on         armed           armed: all that are now, each ship, what, at, of, within
+                                          mark, back      name        environment    current, wind
     horn           ship, on               rate            rate        pause          paused
     log            message
     end            folder, message, error (None: all well)
@@ -24,7 +25,7 @@ import threading
 from collections.abc import Callable
 from concurrent.futures import Future
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
 from time import monotonic
 from typing import Any, Protocol
@@ -32,11 +33,14 @@ from typing import Any, Protocol
 from ...errors import HostError, InputError, ShipCollisionError
 from ...scenario.scenario import Scenario
 from ...show.page import PAGE
+from .armed import Armed
 from .commands import (
     FAILURES,
+    Arm,
     Back,
     ChangeEnvironment,
     Command,
+    Disarm,
     End,
     Fail,
     Horn,
@@ -120,6 +124,7 @@ class Session:
         self._paused, self._reason, self._begun = paused, "", 0.0
         self._actions: dict[type[Command], Callable[[Any], None]] = {
             Order: self._order, TakeCommand: self._take, Leave: self._leave, Horn: self._sound, Fail: self._fail,
+            Arm: self._arm, Disarm: self._disarm,
             ChangeEnvironment: self._change, Mark: self._mark, Back: self._go_back, Rate: self._set_rate,
             Pause: self._pause, Step: self._step, End: self._end,
         }  # fmt: skip
@@ -155,6 +160,11 @@ class Session:
     def marks(self) -> dict[str, float]:
         """Times [s] of the marks by name."""
         return self._run.marks
+
+    @property
+    def armed(self) -> list[dict[str, Any]]:
+        """The failures that are armed, as in the event."""
+        return [asdict(one) for one in self._run.armed.listed]
 
     @property
     def touches(self) -> tuple[LoggedTouch, ...]:
@@ -248,7 +258,12 @@ class Session:
         return not self._paused and self._clock.now() >= self._pacer.due(self._run.time + self._run.step)
 
     def _advance(self) -> None:
+        armed = self._run.armed.listed
         self._run.advance()
+        for begun in self._run.triggered:
+            self._tell("failure", ship=begun.ship, what=begun.what, on=True)
+        if self._run.armed.listed is not armed:
+            self._tell("armed", armed=self.armed)
         self._pacer.note(self._clock.now(), self._run.time)
         if self._run.k == self._run.recorded + 1:
             self._tell(
@@ -366,12 +381,27 @@ class Session:
         del self._command[ship]
         self._tell("command", ship=ship, client=None)
 
+    @staticmethod
+    def _require_failure(what: str) -> None:
+        if what not in FAILURES:
+            raise InputError(f"failure {what!r} is unknown: give {' or '.join(FAILURES)}")
+
     def _fail(self, command: Fail) -> None:
         self._require_ship(command.ship)
-        if command.what not in FAILURES:
-            raise InputError(f"failure {command.what!r} is unknown: give {' or '.join(FAILURES)}")
+        self._require_failure(command.what)
         self._run.bridges[command.ship].fail(command.what, command.on)
         self._tell("failure", ship=command.ship, what=command.what, on=command.on)
+
+    def _arm(self, command: Arm) -> None:
+        for ship in (command.ship, command.of or command.ship):
+            self._require_ship(ship)
+        self._require_failure(command.what)
+        self._run.arm(Armed(command.ship, command.what, command.at, command.of, command.within))
+        self._tell("armed", armed=self.armed)
+
+    def _disarm(self, command: Disarm) -> None:
+        self._run.armed.disarm(command.ship, command.what)
+        self._tell("armed", armed=self.armed)
 
     def _change(self, command: ChangeEnvironment) -> None:
         self._run.change(command.current, command.wind)
@@ -395,6 +425,7 @@ class Session:
         self._restart()
         self._touching = {number: on for number, on in self._touching.items() if number in self._run.list_touches()}
         self._tell("back", name=command.name)
+        self._tell("armed", armed=self.armed)
 
     def _step(self, command: Step) -> None:
         if not self._paused:

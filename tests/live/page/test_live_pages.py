@@ -462,6 +462,41 @@ def test_the_instructor_sets_what_there_is_to_set(browser: Chrome, server: LiveS
     assert page.complaints() == []
 
 
+def test_the_instructor_arms_failures(browser: Chrome, server: LiveServer) -> None:
+    page = BridgePage(browser, server.address("instructor"))
+    page.wait("return live.state")
+    value, arm = browser.find_element(By.ID, "arm-value"), browser.find_element(By.ID, "arm")
+    for text in ("soon", "5"):
+        value.clear()
+        value.send_keys(text)
+        arm.click()
+        page.wait(f"return document.querySelector('.messages').textContent.startsWith('“{text}” is no time')")
+    value.clear()
+    value.send_keys("0:01")
+    arm.click()
+    page.wait("return document.querySelector('.messages').textContent.includes('must be later than now')")
+    Select(browser.find_element(By.ID, "arm-ship")).select_by_value("target")
+    Select(browser.find_element(By.ID, "arm-what")).select_by_value("blackout")
+    Select(browser.find_element(By.ID, "arm-when")).select_by_value("own")
+    value.clear()
+    value.send_keys("0.5" + Keys.ENTER)
+    page.wait("return document.querySelector('[data-armed]')")
+    page.run("location.reload()")
+    page.wait("return window.live?.state && document.querySelector('[data-armed]')")
+    said = page.run("return document.querySelector('[data-armed=\"target blackout\"] span').textContent")
+    assert said == "target: Blackout within 0.500 NM of own"
+    browser.find_element(By.CSS_SELECTOR, "[data-armed] button").click()
+    page.wait("return !document.querySelector('[data-armed]')")
+    Select(browser.find_element(By.ID, "arm-ship")).select_by_value("target")
+    soon = int(page.state(".time")) + 20
+    browser.find_element(By.ID, "arm-value").send_keys(f"{soon // 60}:{soon % 60:02}" + Keys.ENTER)
+    page.wait("return document.querySelector('[data-armed=\"target rudder\"]')")
+    page.wait("return live.state.ships.target.failures.includes('rudder')")
+    page.wait("return !document.querySelector('[data-armed]')")
+    page.run("live.ask('fail', {ship: 'target', what: 'rudder', on: false})")
+    assert page.complaints() == []
+
+
 @pytest.mark.parametrize("role", ["bridge", "instructor"])
 def test_on_a_phone_nothing_is_cut_off_and_fingers_hit(browser: Chrome, server: LiveServer, role: str) -> None:
     with as_phone(browser):

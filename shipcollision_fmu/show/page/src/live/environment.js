@@ -4,7 +4,7 @@ import { number } from "../format.js";
 import { inWords, onLanguage, say } from "../texts.js";
 import { toDegrees, toRadians, wholeTurn } from "./navigation.js";
 import { textButton } from "./page_tools.js";
-import { parseDirection, parseSpeed, UNITS } from "./speed_entry.js";
+import { parseDirection, parseSpeed, UNITS } from "./typed.js";
 
 const ROWS = [["wind", "wind_speed", "wind_from", "wind-from"], ["current", "current_speed", "current_towards", "current-towards"]];
 const KEY = "shipcollision-speed-unit";

@@ -2,6 +2,7 @@
 import { element } from "../dom.js";
 import { clockTime, number } from "../format.js";
 import { inWords, onLanguage, say, TEXTS } from "../texts.js";
+import { makeArmed } from "./armed.js";
 import { Chart } from "./chart.js";
 import { commandWords, Conning, threeDigits } from "./conning.js";
 import { inBothUnits, makeEnvironment } from "./environment.js";
@@ -25,6 +26,7 @@ export async function startInstructor() {
   const title = inWords(element("h1", {}), { text: "instructor_title" });
   const ships = makeShips(ask, (name) => conn(name));
   const marks = makeMarks(ask);
+  const armed = makeArmed(ask, page.messages.tell);
   const environment = makeEnvironment(ask, page.messages.tell, () => session.hello.environment_limits);
   const book = element("ol", { class: "book", id: "book" });
   let sure = null;
@@ -35,7 +37,7 @@ export async function startInstructor() {
     sure = setTimeout(() => ((sure = null), (end.textContent = say("end_run")), end.classList.remove("sure")), 4000);
   }, { id: "end", class: "end" });
   document.body.append(stage, element("aside", { class: "side" }, element("header", { class: "command-bar" }, element("div", {}, title), time.node),
-    ships.node, conningPlace, environment.node, marks.node,
+    ships.node, conningPlace, environment.node, armed.node, marks.node,
     element("section", {}, inWords(element("h2", {}), { text: "log_book" }), book), end, makeSwitches(page.help.toggle)), page.help.card);
   onLanguage(() => (document.title = say("instructor_title")));
   let chart = null;
@@ -46,6 +48,7 @@ export async function startInstructor() {
     book.replaceChildren();
     for (const event of hello.events ?? []) write(event);
     ships.greet(hello);
+    armed.greet(hello);
     if (chart === null) {
       chart = new Chart(hello, session.histories, null);
       stage.prepend(chart.node);
@@ -74,6 +77,7 @@ export async function startInstructor() {
   function note(event) {
     if (event.kind === "mark") marks.add(event);
     if (event.kind === "back") marks.keep(event.time);
+    if (event.kind === "armed") armed.show(event.armed);
     write(event);
   }
 
@@ -143,6 +147,7 @@ function makeShips(ask, conn) {
 /** A line for an event of the server; null for what is no news. */
 function describeEvent({ kind, message, ...event }) {
   if (kind === "log") return message;
+  if (kind === "armed") return null; // they have a list of their own
   if (kind === "command") return say(event.client === null ? "log_command_none" : "log_command", event);
   if (kind === "failure") return say(event.on ? "log_failure_on" : "log_failure_off", { ship: event.ship, what: say(`fail_${event.what}`) });
   if (kind === "horn") return event.on ? say("log_horn", event) : null;

@@ -1,5 +1,6 @@
-// Speeds and directions as people type them: "12", "12 kn", "6,2 m/s", "270", "270°".
-import { KNOT } from "./navigation.js";
+// Numbers as people type them: speeds "12", "12 kn", "6,2 m/s", directions "270", "270°", times "12:30", distances "0.5",
+// "900 m".
+import { KNOT, MILE } from "./navigation.js";
 
 /** A unit by its name in the page: metres per second in one. */
 export const UNITS = { kn: KNOT, "m/s": 1 };
@@ -24,4 +25,20 @@ export function parseSpeed(text, unit) {
 export function parseDirection(text) {
   const found = read(text);
   return found && ["", "°"].includes(found.rest) && found.value >= 0 && found.value <= 360 ? found.value : null;
+}
+
+/** The time [s] of a text such as "12:30" or "1:05:00"; null: it is none. */
+export function parseTime(text) {
+  const found = /^(?:(\d+):)?(\d{1,4}):([0-5]\d(?:[.,]\d+)?)$/.exec(text.trim());
+  if (!found || (found[1] !== undefined && Number(found[2]) > 59)) return null;
+  return 3600 * Number(found[1] ?? 0) + 60 * Number(found[2]) + Number(found[3].replace(",", "."));
+}
+
+const RANGES = [[/^(|nm|sm|海里)$/i, MILE], [/^(m|米)$/i, 1], [/^km$/i, 1000]];
+
+/** The distance [m] of a text such as "0.5", in nautical miles, or "900 m"; null: it is none. */
+export function parseRange(text) {
+  const found = read(text);
+  const unit = found && RANGES.find(([words]) => words.test(found.rest));
+  return unit && found.value > 0 ? found.value * unit[1] : null;
 }
