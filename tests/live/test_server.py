@@ -146,6 +146,17 @@ def test_the_instructor_changes_wind_fails_a_rudder_and_goes_back(server: LiveSe
         assert ask(client, type="command", ship="own", take=False)["type"] == "ok"
 
 
+def test_a_mark_has_a_note(server: LiveServer) -> None:
+    with server.connect("instructor") as client:
+        assert ask(client, type="mark", name="noted", note=" ask for her intentions ")["type"] == "ok"
+        refused = ask(client, type="mark", name="noted", note="two\nlines")["message"]
+        assert refused == "mark 'noted': give a note of up to 200 printable characters, in one line"
+        assert "note" in ask(client, type="mark", name="noted", note="x" * 201)["message"]
+        with connect(server.address("instructor")) as later:
+            marks = {mark["name"]: mark["note"] for mark in receive(later)["marks"]}
+    assert (marks["noted"], marks["start"]) == ("ask for her intentions", "")
+
+
 @pytest.mark.parametrize("role", ["bridge", "instructor"])
 def test_who_comes_later_hears_what_has_happened(monkeypatch: pytest.MonkeyPatch, role: str) -> None:
     """The latest events, once each: what is told from then on is none of them."""

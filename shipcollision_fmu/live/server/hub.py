@@ -107,7 +107,10 @@ class Hub:
 
     def _greet(self, client: _Client) -> None:
         """Tell a new client what it has missed."""
-        marks = [{"name": name, "time": time} for name, time in self._session.marks.items()]
+        notes = self._session.notes
+        marks = [
+            {"name": name, "time": time, "note": notes.get(name, "")} for name, time in self._session.marks.items()
+        ]
         touches = client.learn(self._session.touches)
         client.put(
             {

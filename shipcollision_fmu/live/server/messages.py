@@ -127,9 +127,10 @@ class _Disarm(_Message):
 
 class _Mark(_Message):
     name: str = Field(max_length=60)
+    note: str = Field("", max_length=200)
 
     def command(self, client: str, is_instructor: bool) -> Command:
-        return commands.Mark(self.name)
+        return commands.Mark(self.name, self.note)
 
 
 class _Back(_Message):

@@ -95,9 +95,10 @@ class ChangeEnvironment:
 
 @dataclass(frozen=True)
 class Mark:
-    """Keep the whole state under a name, to go back to it."""
+    """Keep the whole state under a name, to go back to it. `note`: a line on it."""
 
     name: str
+    note: str = ""
 
 
 @dataclass(frozen=True)

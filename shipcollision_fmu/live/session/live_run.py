@@ -62,6 +62,7 @@ class _Kept:
     waiting: EnvironmentChange | None
     armed: tuple[Armed, ...]
     end: EndValues
+    note: str = ""
 
 
 class LiveRun:
@@ -212,14 +213,19 @@ class LiveRun:
         """Simulated times [s] of the marks by name."""
         return {name: round(kept.k * self.step, 9) for name, kept in self._marks.items()}
 
-    def mark(self, name: str) -> None:
-        """Keep the state under a name; one of that name is replaced. Raises InputError for too many marks."""
+    @property
+    def notes(self) -> dict[str, str]:
+        """Notes on the marks by name, empty where there is none."""
+        return {name: kept.note for name, kept in self._marks.items()}
+
+    def mark(self, name: str, note: str = "") -> None:
+        """Keep the state under a name, with a note; one of that name goes. Raises InputError for too many marks."""
         if name not in self._marks and len(self._marks) >= MOST_MARKS:
             raise InputError(f"mark {name!r}: there are {MOST_MARKS} marks, which is the limit: take the name of one")
         kept = _Kept(
             self.k, [component.save() for component in self._components],
             {ship: bridge.save() for ship, bridge in self.bridges.items()}, self._stepper.recorder.mark(),
-            dict(self._changes), list(self._around), self._waiting, self.armed.listed, self._end,
+            dict(self._changes), list(self._around), self._waiting, self.armed.listed, self._end, note,
         )  # fmt: skip
         others = {other: mark for other, mark in self._marks.items() if other != name}
         self._marks = {**others, name: kept}  # a new one, as other threads may read the one before

@@ -12,7 +12,7 @@ A command is done between two steps. Orders take effect at the next communicatio
     collision begins | collision ends     id, ship_a, ship_b, point in n, energy
     command        ship, client (None: nobody)
     failure        ship, what, on         armed           armed: all that are now, each ship, what, at, of, within
-                                          mark, back      name        environment    current, wind
+                                          mark, back      name, note   environment    current, wind
     horn           ship, on               rate            rate        pause          paused
     log            message
     end            folder, message, error (None: all well)
@@ -76,6 +76,8 @@ START = "start"
 """Name of the mark at the beginning."""
 LONGEST_NAME = 60
 """Characters in the name of a mark."""
+LONGEST_NOTE = 200
+"""Characters in the note on a mark."""
 
 
 class Clock(Protocol):
@@ -160,6 +162,11 @@ class Session:
     def marks(self) -> dict[str, float]:
         """Times [s] of the marks by name."""
         return self._run.marks
+
+    @property
+    def notes(self) -> dict[str, str]:
+        """Notes on the marks by name."""
+        return self._run.notes
 
     @property
     def armed(self) -> list[dict[str, Any]]:
@@ -417,8 +424,11 @@ class Session:
             raise InputError(f"mark {name[:LONGEST_NAME]!r}: give a name of 1 to {LONGEST_NAME} printable characters")
         if name == START:
             raise InputError(f"mark {name!r} is the beginning of the run: take another name")
-        self._run.mark(name)
-        self._tell("mark", name=name)
+        note = command.note.strip()
+        if len(note) > LONGEST_NOTE or not note.isprintable():
+            raise InputError(f"mark {name!r}: give a note of up to {LONGEST_NOTE} printable characters, in one line")
+        self._run.mark(name, note)
+        self._tell("mark", name=name, note=note)
 
     def _go_back(self, command: Back) -> None:
         self._run.go_back(command.name)

@@ -441,6 +441,7 @@ def test_the_instructor_sets_what_there_is_to_set(browser: Chrome, server: LiveS
     stuck.click()
     page.wait("return live.state.ships.target.failures.length === 0")
     fill("mark-name", "here")
+    fill("mark-note", "Before the turn; ask for her intentions")
     browser.find_element(By.ID, "set-mark").click()
     page.wait("return document.querySelector('[data-mark=here]')")
     marked = page.state(".time")
@@ -458,7 +459,14 @@ def test_the_instructor_sets_what_there_is_to_set(browser: Chrome, server: LiveS
     Select(browser.find_element(By.ID, "rate")).select_by_value("2")
     browser.find_element(By.ID, "pause").click()
     page.wait("return !live.state.paused && live.state.rate === 2")
-    assert "Mark here" in page.run("return document.getElementById('book').textContent")
+    said = "Mark here: Before the turn; ask for her intentions"
+    assert said in page.run("return document.getElementById('book').textContent")
+    page.run("location.reload()")
+    page.wait("return window.live?.state && document.querySelector('[data-mark=here]')")
+    noted = page.run(
+        "return document.querySelector('[data-mark=here]').parentElement.querySelector('.note').textContent"
+    )
+    assert noted == "Before the turn; ask for her intentions"
     assert page.complaints() == []
 
 

@@ -196,6 +196,7 @@ export const TEXTS = {
   set: ["Set", "Setzen", "Sett", "设定"],
   marks: ["Marks", "Marken", "Merker", "标记"],
   mark_name: ["Name of the mark", "Name der Marke", "Navn på merket", "标记名称"],
+  mark_note: ["Note on it", "Notiz dazu", "Notat til det", "备注"],
   set_mark: ["Set mark", "Marke setzen", "Sett merke", "设置标记"],
   go_back: ["Go back to {name}, {time}", "Zurück zu {name}, {time}", "Gå tilbake til {name}, {time}", "返回 {name}，{time}"],
   no_marks: ["No mark has been set.", "Es ist keine Marke gesetzt.", "Ingen merker er satt.", "尚未设置标记。"],

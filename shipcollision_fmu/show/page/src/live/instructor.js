@@ -152,6 +152,7 @@ function describeEvent({ kind, message, ...event }) {
   if (kind === "failure") return say(event.on ? "log_failure_on" : "log_failure_off", { ship: event.ship, what: say(`fail_${event.what}`) });
   if (kind === "horn") return event.on ? say("log_horn", event) : null;
   if (kind === "pause") return say(event.paused ? "log_pause" : "log_go_on");
+  if (kind === "mark") return event.note ? `${say("log_mark", event)}: ${event.note}` : say("log_mark", event);
   if (kind === "environment") {
     const { wind, current } = event;
     return say("log_environment", { wind: inBothUnits(wind.speed), from: threeDigits(wind.from_deg), current: inBothUnits(Math.hypot(...current)) });
@@ -162,31 +163,36 @@ function describeEvent({ kind, message, ...event }) {
 
 function makeMarks(ask) {
   const name = inWords(element("input", { type: "text", id: "mark-name", maxlength: 40 }), { "aria-label": "mark_name", placeholder: "mark_name" });
+  const note = inWords(element("input", { type: "text", id: "mark-note", maxlength: 200 }), { "aria-label": "mark_note", placeholder: "mark_note" });
   const list = element("ul", { class: "mark-list" });
   const none = inWords(element("p", { class: "none" }), { text: "no_marks" });
   const set = async () => {
-    const answer = await ask("mark", { name: name.value.trim() || String(list.children.length + 1) });
-    if (answer) name.value = "";
+    const answer = await ask("mark", { name: name.value.trim() || String(list.children.length + 1), note: note.value.trim() });
+    if (answer) name.value = note.value = "";
   };
-  name.addEventListener("keydown", (event) => {
-    event.stopPropagation();
-    if (event.key === "Enter") set();
-  });
+  for (const input of [name, note]) {
+    input.addEventListener("keydown", (event) => {
+      event.stopPropagation();
+      if (event.key === "Enter") set();
+    });
+  }
   return {
-    node: element("section", {}, inWords(element("h2", {}), { text: "marks" }), list, none, element("div", { class: "row wide-first" }, name, textButton("set_mark", set, { id: "set-mark" }))),
-    add({ name: called, time }) {
-      this.show([...this.known.filter((mark) => mark.name !== called), { name: called, time }]);
+    node: element("section", {}, inWords(element("h2", {}), { text: "marks" }), list, none, element("div", { class: "row wide-first" }, name, textButton("set_mark", set, { id: "set-mark" })),
+      element("div", { class: "row" }, note)),
+    add({ name: called, time, note: said }) {
+      this.show([...this.known.filter((mark) => mark.name !== called), { name: called, time, note: said }]);
     },
     keep(latest) {
       this.show(this.known.filter((mark) => mark.time <= latest));
     },
-    /** `known`: [{name, time}]. */
+    /** `known`: [{name, time, note}]. */
     show(known) {
       this.known = known;
       none.hidden = known.length > 0;
       list.replaceChildren(...known.map((mark) => {
         const back = textButton("go_back", () => ask("back", { name: mark.name }), { "data-mark": mark.name });
-        return element("li", {}, inWords(back, { text: "go_back" }, { name: mark.name, time: clockTime(mark.time, 0) }));
+        const said = mark.note ? [element("p", { class: "note", text: mark.note })] : [];
+        return element("li", {}, inWords(back, { text: "go_back" }, { name: mark.name, time: clockTime(mark.time, 0) }), ...said);
       }));
     },
   };
