@@ -269,6 +269,28 @@ def test_waves_mirror_a_lamp_below_it_and_break_its_light(browser: Chrome, kvlcc
     assert max(changes) > 4
 
 
+@pytest.mark.parametrize("plain", ["yes", "no"])
+def test_lamps_shine_on_the_house_at_night(browser: Chrome, kvlcc2_crossing: Path, plain: str) -> None:
+    """Moonlight is blue, lamps are warm."""
+    scene = load_scene(kvlcc2_crossing)
+    crossing = Page(browser, write_page(kvlcc2_crossing), f"plain={plain}&t=5&camera=all&sky=night", (640, 440))
+    at = eye(crossing)
+    poses = crossing.run("return replay.drawn().poses")
+    warm = {}
+    for ship in scene.ships:
+        pose = poses[ship.name]
+        R, origin = rotation_from_quaternion(np.array(pose["quaternion"])), np.array(pose["position"])
+        walls = [f.surface for f in ship.fittings if f.part == "house" and f.is_closed]
+        wall = max(walls, key=lambda surface: float(np.prod(np.ptp(surface.vertices, axis=0)[[0, 2]])))
+        corners = wall.vertices[wall.triangles]
+        area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        middle = corners.mean(axis=1)
+        facing = np.einsum("ij,ij->i", area, (at - origin) @ R - middle) / np.linalg.norm((at - origin) @ R)
+        red, _, blue = crossing.colour(origin + R @ middle[int(np.argmax(facing))], half=1)
+        warm[ship.name] = red - blue
+    assert max(warm.values()) > 3
+
+
 def test_a_gentle_contact_raises_dust_and_spray_and_sets_nothing_on_fire(browser: Chrome, meeting: MakeRun) -> None:
     folder = meeting()
     scene = load_scene(folder)

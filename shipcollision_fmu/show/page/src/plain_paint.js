@@ -4,29 +4,45 @@ import { LIGHT } from "./daylight.js";
 import { FIRE, FIRE_GLSL } from "./fire_light.js";
 import { FINISH_GLSL } from "./finish.js";
 import { HAZE } from "./haze.js";
+import { DIM_GLSL, findFloods, LAMPS_GLSL, SHADE_GLSL } from "./paint.js";
 
 const vertexShader = /* glsl */ `
-  attribute vec4 aPaint; // colour, and whether lamps shine out of it
+  attribute vec4 aPaint; // colour, and what it is: 0 else, 1 windows, out of which lamps shine, 2 walls with lamps, 3 plating
   uniform vec3 uSun, uBeam, uAbove, uBelow, uHorizon;
   uniform float uLamps, uNear, uFar, uOwnLight;
   varying vec3 vColour;
   ${FINISH_GLSL}
   ${FIRE_GLSL}
+  ${LAMPS_GLSL}
+  ${SHADE_GLSL}
+  ${DIM_GLSL}
   void main() {
     vec4 world = modelMatrix * vec4(position, 1.0);
     vec3 up = normalize(mat3(modelMatrix) * normal);
-    vec3 light = uBeam * max(dot(up, uSun), 0.0) + mix(uBelow, uAbove, 0.5 + 0.5 * up.y) + fireLight(world.xyz, up);
-    vec3 colour = aPaint.rgb * (light / 3.14159265 + uOwnLight) + aPaint.a * uLamps * vec3(0.55, 0.407, 0.209);
-    vec4 view = viewMatrix * world;
-    vColour = finish(mix(colour, uHorizon, smoothstep(uNear, uFar, -view.z)));
-    gl_Position = projectionMatrix * view;
+    vec3 view = world.xyz - cameraPosition;
+    float edge = 1.0 - abs(dot(up, normalize(view)));
+    vec3 around = mix(uBelow, uAbove, 0.5 + 0.5 * up.y) * shadeOf(normal, -position.z, step(2.5, aPaint.a));
+    vec3 light = uBeam * max(dot(up, uSun), 0.0) + around + fireLight(world.xyz, up);
+    vec3 paint = dim(aPaint.rgb);
+    vec3 colour = paint * (light / 3.14159265 + uOwnLight) + uHorizon * (0.16 * edge * edge * edge);
+    if (uLamps > 0.0) {
+      if (aPaint.a == 1.0) colour += uLamps * vec3(0.55, 0.407, 0.209);
+      float wall = aPaint.a == 2.0 && abs(normal.z) < 0.7 ? 0.19 : 0.0;
+      colour += paint * WARM * uLamps * (wall + 0.55 * floodsAt(position, normal));
+    }
+    vec4 seen = viewMatrix * world;
+    vColour = finish(mix(colour, uHorizon, smoothstep(uNear, uFar, -seen.z)));
+    gl_Position = projectionMatrix * seen;
   }`;
 
 const fragmentShader = /* glsl */ `
   varying vec3 vColour;
   void main() { gl_FragColor = vec4(vColour, 1.0); }`;
 
-/** The material for what joinTriangles makes; `glow`: share of their colour that things give off by themselves. */
-export const makePaint = (glow = 0, more = {}) => new THREE.ShaderMaterial({
-  uniforms: { ...LIGHT, ...HAZE, ...FIRE, uOwnLight: { value: glow } }, vertexShader, fragmentShader, toneMapped: false, ...more,
+/**
+ * The material for what joinTriangles makes; `glow`: share of their colour that things give off by themselves; `uFloods`:
+ * the lamps of the ship that it is for.
+ */
+export const makePaint = (glow = 0, more = {}, uFloods = findFloods([])) => new THREE.ShaderMaterial({
+  uniforms: { ...LIGHT, ...HAZE, ...FIRE, uFloods, uOwnLight: { value: glow } }, vertexShader, fragmentShader, toneMapped: false, ...more,
 });

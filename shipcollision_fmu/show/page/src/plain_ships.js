@@ -2,6 +2,7 @@
 // thick it is: parts thinner than half a pixel, such as railings far away, are left out, and do not flicker either. What is
 // below is sorted by its depth: only what the ship lifts out of the water is drawn.
 import * as THREE from "three";
+import { findFloods } from "./paint.js";
 import { makePaint } from "./plain_paint.js";
 import { collectTriangles, findThickness, joinTriangles } from "./triangles.js";
 
@@ -71,9 +72,8 @@ export function makePlainShips(root, ships) {
       const owner = ownerOf(mesh);
       byOwner.set(owner, [...(byOwner.get(owner) ?? []), mesh]);
     });
-    const material = makePaint();
     return [...byOwner].map(([owner, meshes]) => {
-      const made = makePlainShip(meshes, owner, ships.find(({ node }) => node === owner)?.info, material);
+      const made = makePlainShip(meshes, owner, ships.find(({ node }) => node === owner)?.info, makePaint(0, {}, findFloods(meshes)));
       owner.add(...made.meshes);
       return made;
     });

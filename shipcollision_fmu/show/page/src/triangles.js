@@ -1,7 +1,9 @@
 // Triangles of several meshes as one list, and a list as one mesh: few draw calls for the plain picture.
 import * as THREE from "three";
+import { isPlated, isWall } from "./paint.js";
 
-const usesLamps = ({ material }) => material.name === "windows";
+/** What light a paint has of its own: see plain_paint.js. */
+const kindOf = ({ material }) => (material.name === "windows" ? 1 : isWall(material) ? 2 : isPlated(material) ? 3 : 0);
 
 /** Colour of a surface that does not mirror anything: metal is darker without what it mirrors. */
 function paintOf({ material }) {
@@ -12,7 +14,7 @@ function paintOf({ material }) {
 const turnOver = (nine) => [...nine.slice(0, 3), ...nine.slice(6), ...nine.slice(3, 6)];
 
 /**
- * Triangles in the frame of the meshes' owner: {corners: 9 numbers, normals: 9, paint: colour and whether lamps shine out of it,
+ * Triangles in the frame of the meshes' owner: {corners: 9 numbers, normals: 9, paint: colour and kind,
  * last: when its last corner is drawn [s], if it has times, ids: of its corners}. Surfaces seen from both sides come twice.
  */
 export function collectTriangles(meshes, owner) {
@@ -23,7 +25,7 @@ export function collectTriangles(meshes, owner) {
     const toOwner = mesh.parent === owner ? new THREE.Matrix4().compose(mesh.position, mesh.quaternion, new THREE.Vector3(1, 1, 1))
       : inverse.clone().multiply(mesh.matrixWorld);
     const { index, attributes } = mesh.geometry;
-    const paint = [...paintOf(mesh), usesLamps(mesh) ? 1 : 0];
+    const paint = [...paintOf(mesh), kindOf(mesh)];
     const turned = new THREE.Matrix3().getNormalMatrix(toOwner);
     for (let i = 0; i < index.count; i += 3) {
       const at = [0, 1, 2].map((k) => index.getX(i + k));

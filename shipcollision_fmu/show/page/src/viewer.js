@@ -11,6 +11,7 @@ import { HAZE, setHaze } from "./haze.js";
 import { makeLabels } from "./labels.js";
 import { addLights } from "./lights.js";
 import { makePace } from "./pace.js";
+import { paintShip } from "./paint.js";
 import { makePlainShips } from "./plain_ships.js";
 import { growScratches } from "./scratches.js";
 import { makeSea } from "./sea.js";
@@ -85,6 +86,7 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
       node.receiveShadow = true;
     }
   });
+  for (const { node, info } of ships) paintShip(node, Math.min(1, info.B / 9), sky.uniforms);
   const panes = new Set(); // windows, lit when it is dark
   gltf.scene.traverse(({ material }) => material?.name === "windows" && panes.add(material));
   const labels = makeLabels(ships, canvas);
