@@ -7,11 +7,11 @@ import { toWorld } from "./tracks.js";
 const UP = new THREE.Vector3(0, 1, 0);
 const LOW = (4.6 * Math.PI) / 180; // elevation of the first view: from a launch, with sky over the ships
 const FILLED = 0.86; // of the free part of the picture, by all ships
-const AROUND = { across: 0.65, upright: 0.25 }; // of the ships' length: what the free part shows of an impact, at least
+const AROUND = { two: 0.65, one: 0.4, upright: 0.25 }; // of the ships' length: across, while both are there, and upright
 const RISES = [0.13, 0.2, 0.32]; // elevations from which an impact may be seen [rad]
-const BESIDE = 0.8; // best angle between the eye and the normal of the side that is struck [rad]
+const BESIDE = 0.65; // best angle between the eye and the normal of the side that is struck [rad]
 const BLOCKED = 4; // worse than a place that is hidden once: the eye is within a ship
-const OBLIQUE = 1.1; // and the greatest from which an opening is still seen well
+const OBLIQUE = 0.95; // and the greatest from which an opening is still seen well
 const LOOKS = 12; // directions that are tried for a free view
 const MOMENTS = [0.05, 0.6, 3]; // after the impact [s], at which its place must be seen
 const STRONG = 0.5; // of the strongest impact so far: a weaker one is not what is looked at
@@ -265,10 +265,15 @@ export class Cameras {
     }).length;
   }
 
+  /** The ships that are at a place: not those that have left it. */
+  shipsAt(place) {
+    const near = this.ships.filter(({ node, info }) => node.getWorldPosition(new THREE.Vector3()).distanceTo(place) < 0.75 * info.L_oa);
+    return near.length ? near : this.ships;
+  }
+
   /** A ship's length [m] as it matters at a place: the mean of the logarithms of all that are near. */
   lengthAt(place) {
-    const near = this.ships.filter(({ node, info }) => node.getWorldPosition(new THREE.Vector3()).distanceTo(place) < 0.75 * info.L_oa);
-    const lengths = (near.length ? near : this.ships).map(({ info }) => info.L_oa);
+    const lengths = this.shipsAt(place).map(({ info }) => info.L_oa);
     return Math.exp(lengths.reduce((sum, length) => sum + Math.log(length), 0) / lengths.length);
   }
 
@@ -322,8 +327,8 @@ export class Cameras {
     const outwards = new THREE.Vector3(...effect.outwards).transformDirection(node.matrixWorld).setY(0).normalize();
     const target = this.placesOf(effect)[0];
     const { tanX, tanY } = this.freeAngles(), length = this.lengthAt(target);
-    const distance = Math.max(25, (AROUND.across * length) / (2 * tanX), (AROUND.upright * length) / (2 * tanY));
-    const near = this.ships.filter((ship) => !this.isFarFrom(ship.node, ship.info, target));
+    const near = this.shipsAt(target), across = near.length > 1 ? AROUND.two : AROUND.one;
+    const distance = Math.max(25, (across * length) / (2 * tanX), (AROUND.upright * length) / (2 * tanY));
     const tried = [];
     for (const rise of RISES) {
       for (let i = -17; i <= 17; i++) {

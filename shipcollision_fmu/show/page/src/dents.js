@@ -217,7 +217,7 @@ function makePlates(dent, rays, centre, { outwards }, random) {
   };
 }
 
-const BARE = [0.34, 0.28, 0.25]; // what is left of the colour where paint is worn off and soot lies
+const BARE = [0.48, 0.41, 0.37]; // what is left of the colour where paint is worn off and soot lies
 
 /** A bow whose corners move as it is crushed; `node` has the meshes that are seen, of either picture. */
 class CrushedBow {
