@@ -85,4 +85,4 @@ export function whitenessOf(wave, s, out) {
 }
 
 /** How little of what is behind shines through water of this height [m]: only its edge, which lies on the sea, is thin. */
-export const opacityOf = (height) => smoothstep(0.05, 0.35, height);
+export const opacityOf = (height) => smoothstep(0.02, 0.11, height);
