@@ -118,6 +118,14 @@ def test_scratches_have_grown_as_far_as_they_have(page: Page, folder: Path, scen
     assert (triangles == 0) == (when == "before")
 
 
+def test_dents_are_there_after_the_contact_alone(page: Page, folder: Path, scene: Scene) -> None:
+    """None before, all at the end, and none again when time goes back."""
+    times = moments(scene, folder)
+    dents = [page.slide(times[when])["dents"] for when in ("before", "after", "before")]
+    assert len(scene.dents) > 1
+    assert dents == [[0] * len(scene.dents), [1] * len(scene.dents), [0] * len(scene.dents)]
+
+
 def test_the_impact_is_seen_where_it_happens(page: Page, folder: Path, scene: Scene) -> None:
     """At the contact point or up to 9 m above: a ship before, a bright flash during, and fire or smoke to the end."""
     times = moments(scene, folder)

@@ -121,6 +121,9 @@ export class Cameras {
     if (this.mode !== "impact" || this.moved || Math.abs(time - this.checked) < CHECK) return;
     this.checked = time;
     if (Math.abs(time - this.chosen) < PATIENCE && time >= this.chosen) return;
+    const effect = this.effectAt(time), struck = this.ships.find(({ info }) => info.name === effect.ship);
+    // Rays take long, and most of the time there is not even a ship in plan.
+    if (!this.isAnotherInTheWay(struck.node, this.placesOf(effect)[0], this.camera.position) && !this.isWithin(this.camera.position)) return;
     if (this.hidden(time)) this.choose("impact", time);
   }
 
