@@ -9,7 +9,7 @@ const quad = new Float32Array([-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0]);
 
 // Half the width of a glow in the picture [rad]: a light dazzles less the farther it is, down to a point that can still be seen.
 const SMALLEST = 0.0048, GLARE = 0.0085, FAR = 260; // [rad], [rad], [m]
-const TILT = 0.26; // slope of the water beyond which hardly any wave mirrors a light
+const TILT = 0.22; // slope of the water beyond which hardly any wave mirrors a light
 const SURFACE = 0.3; // [m] over the water: swell would hide it
 const DEEPER = 0.012; // of its distance by which what lies on the water is drawn nearer
 

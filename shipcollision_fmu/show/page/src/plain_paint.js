@@ -20,16 +20,16 @@ const vertexShader = /* glsl */ `
     vec4 world = modelMatrix * vec4(position, 1.0);
     vec3 up = normalize(mat3(modelMatrix) * normal);
     vec3 view = world.xyz - cameraPosition;
-    float edge = 1.0 - abs(dot(up, normalize(view)));
+    float edge = 1.0 - abs(dot(up, view)) * inversesqrt(dot(view, view));
     vec3 around = mix(uBelow, uAbove, 0.5 + 0.5 * up.y) * shadeOf(normal, -position.z, step(2.5, aPaint.a));
     vec3 light = uBeam * max(dot(up, uSun), 0.0) + around + fireLight(world.xyz, up);
-    vec3 paint = dim(aPaint.rgb);
-    vec3 colour = paint * (light / 3.14159265 + uOwnLight) + uHorizon * (0.16 * edge * edge * edge);
+    vec3 paint = aPaint.rgb, own = vec3(0.0);
     if (uLamps > 0.0) {
-      if (aPaint.a == 1.0) colour += uLamps * vec3(0.55, 0.407, 0.209);
+      paint = dim(paint);
       float wall = aPaint.a == 2.0 && abs(normal.z) < 0.7 ? 0.19 : 0.0;
-      colour += paint * WARM * uLamps * (wall + 0.55 * floodsAt(position, normal));
+      own = uLamps * (aPaint.a == 1.0 ? vec3(0.55, 0.407, 0.209) : paint * WARM * (wall + 0.55 * floodsAt(position, normal)));
     }
+    vec3 colour = paint * (light / 3.14159265 + uOwnLight) + own + uHorizon * (0.16 * edge * edge * edge);
     vec4 seen = viewMatrix * world;
     vColour = finish(mix(colour, uHorizon, smoothstep(uNear, uFar, -seen.z)));
     gl_Position = projectionMatrix * seen;

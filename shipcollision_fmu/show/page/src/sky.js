@@ -114,25 +114,26 @@ function makeStars() {
   while (places.length < 3 * STARS) {
     const y = random(), angle = 2 * Math.PI * random(), flat = Math.sqrt(1 - y * y);
     places.push(flat * Math.cos(angle), y, flat * Math.sin(angle));
-    light.push(Math.min(1, 0.16 / Math.sqrt(random() + 0.01)) * Math.min(1, 0.15 + 4 * y));
+    light.push(Math.min(1, 0.22 / Math.sqrt(random() + 0.01)) * Math.min(1, 0.15 + 4 * y));
   }
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.Float32BufferAttribute(places, 3));
   geometry.setAttribute("aLight", new THREE.Float32BufferAttribute(light, 1));
+  const uRatio = { value: 1 }; // of the picture's pixels to the screen's: with few of them stars would be slabs
   const stars = new THREE.Points(geometry, new THREE.ShaderMaterial({
-    uniforms: LIGHT,
+    uniforms: { ...LIGHT, uRatio },
     depthWrite: false,
     transparent: true,
     blending: THREE.AdditiveBlending,
     vertexShader: /* glsl */ `
       attribute float aLight;
-      uniform float uStars;
+      uniform float uStars, uRatio;
       varying float vLight;
       void main() {
-        vLight = aLight * uStars;
+        vLight = aLight * uStars * min(1.0, 0.4 + 0.6 * uRatio);
         vec4 place = projectionMatrix * mat4(mat3(viewMatrix)) * vec4(position, 1.0);
         gl_Position = place.xyww;
-        gl_PointSize = 1.6 + 2.2 * aLight;
+        gl_PointSize = max(1.3, (1.6 + 2.2 * aLight) * uRatio);
       }`,
     fragmentShader: /* glsl */ `
       varying float vLight;
@@ -142,6 +143,7 @@ function makeStars() {
       }`,
   }));
   stars.frustumCulled = false;
+  stars.onBeforeRender = (renderer) => (uRatio.value = renderer.getPixelRatio());
   stars.renderOrder = -9;
   return stars;
 }
