@@ -135,3 +135,11 @@ def test_the_bridge_does_not_hear_of_what_is_to_come() -> None:
         failure = receive_until(bridge, "event", kind="failure")
         assert (failure["ship"], failure["what"], failure["on"]) == ("own", "rudder", True)
         assert receive_until(client, "event", kind="armed")["armed"] == []
+
+
+def test_going_back_tells_what_is_armed_then() -> None:
+    with serving(paused=True) as server, server.connect("instructor") as client:
+        assert ask(client, type="arm", ship="own", what="rudder", at=9.0)["type"] == "ok"
+        client.send('{"type": "back", "name": "start"}')
+        receive_until(client, "event", kind="back")
+        assert receive_until(client, "event", kind="armed")["armed"] == []

@@ -260,7 +260,7 @@ def test_a_fault_in_a_command_is_answered_and_the_run_goes_on(monkeypatch: pytes
     def fail(self: Any, name: str) -> None:
         raise MemoryError("no room")
 
-    monkeypatch.setattr(module.LiveRun, "mark", lambda self, name: name == "start" or fail(self, name))
+    monkeypatch.setattr(module.LiveRun, "mark", lambda self, name, note="": name == "start" or fail(self, name))
     session, events, clock = played([(1.0, Mark("here")), (2.0, End())])
     assert session.snapshot.time == pytest.approx(2.0, abs=0.1)
     with pytest.raises(HostError, match="Mark failed: MemoryError: no room"):

@@ -431,11 +431,13 @@ class Session:
         self._tell("mark", name=name, note=note)
 
     def _go_back(self, command: Back) -> None:
+        armed = self._run.armed.listed
         self._run.go_back(command.name)
         self._restart()
         self._touching = {number: on for number, on in self._touching.items() if number in self._run.list_touches()}
         self._tell("back", name=command.name)
-        self._tell("armed", armed=self.armed)
+        if self._run.armed.listed != armed:
+            self._tell("armed", armed=self.armed)
 
     def _step(self, command: Step) -> None:
         if not self._paused:
