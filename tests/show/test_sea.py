@@ -305,7 +305,9 @@ def test_a_gentle_contact_raises_dust_and_spray_and_sets_nothing_on_fire(browser
 
 INK = """
     const canvas = document.querySelector(".plot canvas");
-    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d", { willReadFrequently: true });
+    copy.drawImage(canvas, 0, 0);
+    const { data } = copy.getImageData(0, 0, canvas.width, canvas.height);
     let sum = 0, count = 0;
     for (let i = 0; i < data.length; i += 4) {
       if (data[i + 3] > 128 && Math.abs(data[i] - data[i + 2]) < 60) (sum += data[i + 1]), count++;

@@ -106,6 +106,31 @@ def test_a_picture_is_drawn_in_every_frame(bridge: BridgePage) -> None:
     assert bridge.driver.execute_async_script(FRAMES) >= 12
 
 
+CHART_LIGHT = """
+    const copy = new OffscreenCanvas(64, 64).getContext("2d", { willReadFrequently: true });
+    copy.drawImage(document.querySelector(".chart-canvas"), 0, 0, 64, 64);
+    const { data } = copy.getImageData(0, 0, 64, 64);
+    let sum = 0;
+    for (let i = 1; i < data.length; i += 4) sum += data[i];
+    return (4 * sum) / data.length;
+"""
+
+
+def test_the_bridge_is_dark_beside_a_night(bridge: BridgePage) -> None:
+    """So that eyes used to the dark see the picture; its chart follows."""
+
+    def look(sky: str) -> tuple[str, float]:
+        Select(bridge.driver.find_element(By.ID, "sky")).select_by_value(sky)
+        return bridge.run("return document.documentElement.dataset.theme"), bridge.run(CHART_LIGHT)
+
+    bridge.run("localStorage.removeItem('shipcollision-theme')")
+    bridge.driver.refresh()
+    bridge.wait("return document.body?.dataset.ready === 'true' && live.state !== null")
+    (day, bright), (night, dark), (again, _) = look("day"), look("night"), look("day")
+    assert (day, night, again) == ("light", "dark", "light")
+    assert dark < 0.5 * bright
+
+
 def test_keys_steer_the_ship_and_instruments_follow(bridge: BridgePage) -> None:
     press(bridge, Keys.ARROW_RIGHT * 3)
     bridge.wait("return Math.abs(live.state.ships.own.rudder_order - 15 * Math.PI / 180) < 1e-9")
