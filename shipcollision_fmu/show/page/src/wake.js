@@ -7,6 +7,7 @@ import { WATER } from "./ripples.js";
 import { churnedAt, followTrack, MOST, OLDEST, thrownAt } from "./track_wake.js";
 import { toWorld } from "./tracks.js";
 
+const LEAST = 0.02; // foam that is weaker than this is not drawn
 const WIDEST = 460; // half the breadth of the waves that are drawn [m]
 
 /** A geometry of strips of sections, two corners each; `show(count)` draws so many sections of every strip. */
@@ -128,15 +129,17 @@ export function makeWake({ track, info }, ends, cover) {
     return [middle.x, middle.z, ahead.x / length, ahead.y / length];
   }
 
+  const shownHalf = (half, white, green) => (white + green > LEAST ? half : 0); // a strip without breadth costs no pixels
   const beside = ([x, z], [c, s], across) => [x - s * across, z + c * across];
 
   function setFoam(section, i) {
-    const churned = churnedAt(section, size), thrown = thrownAt(section, size);
+    const { half: reach, white: foamy, green: churned } = churnedAt(section, size), thrown = thrownAt(section, size);
+    const shown = shownHalf(reach, foamy, churned);
     for (const [corner, v] of [-1, 1].entries()) {
-      foam.set(0, i, corner, beside(section.stern, section.ahead, v * churned.half), [v, churned.white, churned.green, 0]);
+      foam.set(0, i, corner, beside(section.stern, section.ahead, v * shown), [v, foamy, churned, 0]);
       for (const [k, [distance, half, white, green]] of thrown.entries()) {
         for (const [j, side] of [-1, 1].entries()) {
-          foam.set(1 + 2 * k + j, i, corner, beside(section.bow, section.ahead, side * (distance + v * half)), [v, white, green, 1]);
+          foam.set(1 + 2 * k + j, i, corner, beside(section.bow, section.ahead, side * (distance + v * shownHalf(half, white, green))), [v, white, green, 1]);
         }
       }
     }
