@@ -6,13 +6,14 @@ import os
 import tempfile
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from functools import lru_cache
 from hashlib import sha256
 from pathlib import Path
 from time import time
 
 from ..files import IN_PLACE, check_writable, user_cache, write_file
 from .compilers import Compiler, find_compiler
-from .objects import compile_object, digest_source, is_kept, run
+from .objects import compile_object, digest_source, is_kept, read_text, run
 from .pe import clear_time_stamps
 from .platforms import Target
 from .sources import Part
@@ -110,7 +111,8 @@ def _find_place(
     home: Path, name: str, parts: Sequence[Part], target: Target, exports: Sequence[str], kind: str
 ) -> Path:
     """Where the library is kept."""
-    digests = [digest_source(part, file, target) for part in parts for file in part.files]
+    read = lru_cache(maxsize=None)(read_text)  # of this call alone: files may be edited before the next
+    digests = [digest_source(part, file, target, read) for part in parts for file in part.files]
     key = sha256(repr((name, target.zig, tuple(exports), kind, digests)).encode()).hexdigest()
     return home / key[:32] / f"{name}{target.suffix}"
 

@@ -10,7 +10,7 @@ import os
 import re
 import subprocess
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from hashlib import sha256
 from pathlib import Path
@@ -21,7 +21,7 @@ from .compilers import Compiler
 from .platforms import Target
 from .sources import Part
 
-__all__ = ["FLAGS", "compile_object", "digest_source", "is_kept", "run"]
+__all__ = ["FLAGS", "compile_object", "digest_source", "is_kept", "read_text", "run"]
 
 FLAGS = (
     "-std=c++17", "-O2", "-DNDEBUG",
@@ -35,10 +35,22 @@ FLAGS = (
 _INCLUDE = re.compile(rb'^[ \t]*#[ \t]*include[ \t]*["<]([^">]+)[">]', re.MULTILINE)
 
 
-def digest_source(part: Part, file: str, target: Target) -> str:
-    """Digest of a source, of all files that it includes, and of how it is compiled."""
+Read = Callable[[Part, Path, str], tuple[bytes, list[tuple[Path, Path]]]]
+
+
+def read_text(part: Part, home: Path, inside: str) -> tuple[bytes, list[tuple[Path, Path]]]:
+    """Content of a file below the folder `home`, and where the files lie that it includes, as (folder, path below)."""
+    content = (home / inside).read_bytes()
+    return content, list(_find_included(part, home, Path(inside).parent, content))
+
+
+def digest_source(part: Part, file: str, target: Target, read: Read = read_text) -> str:
+    """Digest of a source, of all files that it includes, and of how it is compiled.
+
+    read: for many sources at once, read_text() with a memory: they include the same files, a hundred times over.
+    """
     total = sha256(repr((FLAGS, part.flags, target.zig)).encode())
-    for name, content in sorted(_gather(part, file).items()):
+    for name, content in sorted(_gather(part, file, read).items()):
         total.update(f"{name}\0{len(content)}\0".encode() + content)
     return total.hexdigest()
 
@@ -82,7 +94,7 @@ def run(command: list[str], compiler: Compiler, failure: str, folder: Path | Non
         raise HostError(f"{failure} by {compiler.name}: {first.strip()}")
 
 
-def _gather(part: Part, file: str) -> dict[str, bytes]:
+def _gather(part: Part, file: str, read: Read) -> dict[str, bytes]:
     """Contents of a source and of all files that it includes, by their names below their folders."""
     found: dict[str, bytes] = {}
     waiting = [(part.root, Path(file))]
@@ -91,9 +103,8 @@ def _gather(part: Part, file: str) -> dict[str, bytes]:
         inside = os.path.normpath(name).replace(os.sep, "/")
         if inside in found:
             continue
-        content = (home / inside).read_bytes()
-        found[inside] = content
-        waiting.extend(_find_included(part, home, Path(inside).parent, content))
+        found[inside], included = read(part, home, inside)
+        waiting.extend(included)
     return found
 
 

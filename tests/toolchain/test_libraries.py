@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from shipcollision_fmu.errors import HostError
-from shipcollision_fmu.toolchain import bullet_sources, compilers, libraries, load, sources
+from shipcollision_fmu.toolchain import bullet_sources, compilers, libraries, load, objects, sources
 from shipcollision_fmu.toolchain.compilers import find_compiler
 from shipcollision_fmu.toolchain.libraries import build_libraries, build_library, native_cache
 from shipcollision_fmu.toolchain.mach_o import join_libraries
@@ -55,6 +55,22 @@ def test_what_includes_an_edited_file_is_compiled_again(tmp_path: Path) -> None:
     assert build(small(tmp_path / "src", 5), tmp_path / "cache").shipcollision_a() == 5
     new = {path.name for path in tmp_path.glob("cache/objects/*.o")} - before
     assert [name.partition("-")[0] for name in new] == ["a"]
+
+
+def test_each_file_is_read_once_to_find_a_library(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Sources include the same headers: all of native/ together include theirs fifteen times over."""
+    part = small(tmp_path / "src")
+    (part.root / "b.cpp").write_text('#include "number.hpp"\nextern "C" int other() { return NUMBER; }\n', "ascii")
+    build(part, tmp_path / "cache")
+    read: list[str] = []
+
+    def count(one: Part, home: Path, inside: str) -> tuple[bytes, list[tuple[Path, Path]]]:
+        read.append(inside)
+        return objects.read_text(one, home, inside)
+
+    monkeypatch.setattr(libraries, "read_text", count)
+    build(part, tmp_path / "cache")
+    assert sorted(read) == ["a.cpp", "b.cpp", "number.hpp"]
 
 
 def test_other_names_are_not_exported(tmp_path: Path) -> None:
