@@ -17,6 +17,7 @@ import { makeTargets } from "./targets.js";
 const NUMBERS = 150; // between two readings of the instruments [ms]
 const CHART = 250; // between two pictures of the chart [ms]
 const SETTLED = 0.1; // [s] after which a collision's energy tells how strong its effects are
+const DENTED = 0.4; // [s] after which its dents are made, which takes a moment: the alarm comes first
 
 /** Velocity of the air, north and east [m/s], from a wind as a state has it. */
 const airOf = ({ speed, from_deg }) => [Math.cos, Math.sin].map((part) => -speed * part((from_deg * Math.PI) / 180));
@@ -152,7 +153,7 @@ export async function startBridge() {
       const infos = viewer.ships.map(({ info }) => info).filter(({ name }) => name === ship_a || name === ship_b);
       const ignition = ignitionOf(infos);
       if (state.time >= start + SETTLED) addOnce(`${key} hit`, () => effectsOf(collision, infos, start, energy, false));
-      if (state.time >= start + SETTLED) addDents(key, collision, infos);
+      if (state.time >= start + DENTED) addDents(key, collision, infos);
       // What burnt already when this page first saw it began to burn at most a few seconds after the collision did.
       if (energy < ignition) unlit.add(key);
       else addOnce(`${key} fire`, () => effectsOf(collision, infos, unlit.has(key) ? state.time : start, ignition, true));
