@@ -93,9 +93,10 @@ def live(
     if duration is not None and not duration > 0.0:
         raise ScenarioError(f"--duration {duration:g} s must be greater than 0: give one such as 600")
     folder = out if out is not None else Path("runs") / f"{loaded.name}-live-{datetime.now():%Y%m%d-%H%M%S}"
-    _refuse_folder(folder, overwrite)
     offered = _Offered(own, nmea, nmea_tcp, dis, orders, _choose_order_token(orders, order_token))
-    with hold_folder(folder):
+    with hold_folder(folder):  # first: the files of a run that goes on are those of no other
+        if not overwrite:
+            _refuse_files(folder)
         session = _run(
             loaded, offered, folder, host, port, {"rate": rate, "duration": duration, "paused": paused},
             sets_pace=not instructor_only, in_browser=browser,
@@ -132,25 +133,22 @@ def _choose_order_token(orders: str | None, token: str | None) -> str | None:
     return token
 
 
-def _refuse_folder(folder: Path, overwrite: bool) -> None:
-    """Refuse a folder that cannot be written, or that has files of other origin."""
+def _refuse_files(folder: Path) -> None:
+    """Refuse a folder that has files of other origin, or those of a run that was killed."""
     from ..cosim.earlier_run import refuse_foreign_files
     from ..cosim.run import RUN_FILES
-    from ..files import check_writable
     from ..live.session.input_files import FOLDERS
     from ..live.session.kept_scenario import UNFINISHED
     from ..live.session.run_folder import SCENARIO as SCENARIO_FILE
     from ..show.outputs import PICTURES
 
-    if not overwrite:
-        refuse_foreign_files(folder, (*RUN_FILES, *PICTURES, SCENARIO_FILE, *FOLDERS))
-        if (folder / UNFINISHED).exists():
-            again = f"shipcollision run {quote(str(folder / UNFINISHED))} --in-process"
-            raise HostError(
-                f"{folder} holds {UNFINISHED} of a live run that was killed: give another folder with --out, or "
-                f"replace it with --overwrite; `{again}` runs it again"
-            )
-    check_writable(folder)
+    refuse_foreign_files(folder, (*RUN_FILES, *PICTURES, SCENARIO_FILE, *FOLDERS))
+    if (folder / UNFINISHED).exists():
+        again = f"shipcollision run {quote(str(folder / UNFINISHED))} --in-process"
+        raise HostError(
+            f"{folder} holds {UNFINISHED} of a live run that was killed: give another folder with --out, or "
+            f"replace it with --overwrite; `{again}` runs it again"
+        )
 
 
 def _run(

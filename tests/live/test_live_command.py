@@ -130,6 +130,7 @@ def test_ctrl_c_and_sigterm_end_and_store_the_run(tmp_path: Path, number: signal
             assert process.stdout.readline().startswith("instructor: http://127.0.0.1:")
             assert process.stdout.readline() == "Ctrl-C ends the run and stores it\n"
             assert b"live.js" in urllib.request.urlopen(bridge, timeout=20).read()
+            (tmp_path / "run" / "unfinished.toml").touch()  # as after half a minute
             for other in (["live", "--port", "0"], ["run", "kvlcc2_crossing", "--in-process", "--overwrite"]):
                 refused = CliRunner().invoke(main, [*other, "--out", "run"])
                 assert (refused.exit_code, refused.stdout) == (1, "")
