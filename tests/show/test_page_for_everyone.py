@@ -211,3 +211,16 @@ def test_a_quantity_that_never_changes_has_no_plot_and_is_named(browser: Chrome,
     assert flat.run("return document.getElementById('steady').textContent") == (
         "Left out, as it does not change: Roll (0.00 °)"
     )
+
+
+def test_the_card_of_keys_opens_at_its_beginning(page: Page) -> None:
+    """The button at its end has the focus."""
+    page.run("dispatchEvent(new KeyboardEvent('keydown', { key: '?' }))")
+    high, seen, top = page.run("""
+        const card = document.querySelector("dialog[open]");
+        const found = [card.scrollHeight, card.clientHeight, card.scrollTop];
+        card.close();
+        return found;
+    """)
+    assert high > seen  # else there is nothing to scroll
+    assert top == 0
