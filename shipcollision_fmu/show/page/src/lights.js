@@ -61,7 +61,7 @@ const MIRROR_VERTEX = /* glsl */ `
   uniform float uOpen;
   varying vec3 vPlace;
   varying vec3 vLamp;
-  varying float vLight;
+  varying vec2 vShine; // how bright the light is in a slope that mirrors it, and how few slopes near it do so
   ${SEEN_GLSL}
   void main() {
     vLamp = (modelMatrix * vec4(0.0, 0.0, 0.0, 1.0)).xyz;
@@ -76,11 +76,15 @@ const MIRROR_VERTEX = /* glsl */ `
     float width = max(${TILT.toFixed(3)} * (eye / near + lamp / far) * near * far / (near + far), 0.002 * near);
     vec2 p = cameraPosition.xz + along * at + vec2(-along.y, along.x) * position.x * width;
     vPlace = vec3(p.x, ${SURFACE.toFixed(1)}, p.y);
-    vLight = uLamps * uOpen * findSeen();
+    float rough = mix(0.05, 0.145, 1.0 - exp(-near / 900.0)); // slopes that are too small to be seen from here
+    float spread = rough * rough * 0.5 + 0.0009, light = uLamps * uOpen * findSeen();
+    vec3 toEye = normalize(cameraPosition - vPlace), toLamp = normalize(vLamp - vPlace);
+    float mirror = 0.10 + 0.90 * pow(1.0 - max(dot(toEye, normalize(toEye + toLamp)), 0.0), 3.0);
+    vShine = vec2(0.55 * light * mirror * sqrt(0.004 / spread) / (1.0 + far / 120.0), 0.125 / spread);
     vec4 view = viewMatrix * vec4(vPlace, 1.0), nearer = projectionMatrix * vec4(view.xyz * ${(1 - DEEPER).toFixed(3)}, 1.0);
     gl_Position = projectionMatrix * view;
     gl_Position.z = nearer.z / nearer.w * gl_Position.w;
-    if (vLight < 0.004) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+    if (light < 0.004) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
   }`;
 
 const MIRROR_FRAGMENT = /* glsl */ `
@@ -89,19 +93,14 @@ const MIRROR_FRAGMENT = /* glsl */ `
   uniform float uTime;
   varying vec3 vPlace;
   varying vec3 vLamp;
-  varying float vLight;
+  varying vec2 vShine;
   void main() {
     vec3 toEye = cameraPosition - vPlace, toLamp = vLamp - vPlace;
-    float far = length(toEye), from = length(toLamp);
-    vec3 middle = normalize(toEye / far + toLamp / from);
-    vec2 slope = ${slopeGlsl("vPlace.xz", "uTime")};
-    float rough = mix(0.05, 0.145, 1.0 - exp(-far / 900.0)); // slopes that are too small to be seen from here
-    float spread = rough * rough * 0.5 + 0.0009;
-    vec2 off = -middle.xz / middle.y - slope;
-    float glint = exp(-dot(off, off) / (2.0 * spread)) * sqrt(0.004 / spread);
-    float mirror = 0.10 + 0.90 * pow(1.0 - max(dot(toEye / far, middle), 0.0), 3.0);
-    float light = 0.55 * glint * mirror * vLight / (1.0 + from / 120.0);
-    gl_FragColor = vec4(uColour * min(light, 0.6), 1.0);
+    vec3 middle = toEye * inversesqrt(dot(toEye, toEye)) + toLamp * inversesqrt(dot(toLamp, toLamp));
+    vec2 off = middle.xz / middle.y + ${slopeGlsl("vPlace.xz", "uTime")};
+    float glint = max(0.0, 1.0 - dot(off, off) * vShine.y); // Gauss's bell is a power of a parabola here
+    glint *= glint;
+    gl_FragColor = vec4(uColour * min(vShine.x * glint * glint, 0.6), 1.0);
     #include <colorspace_fragment>
   }`;
 
