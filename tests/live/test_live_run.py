@@ -73,7 +73,7 @@ def do_anything(run: LiveRun, rng: random.Random) -> None:
             pass  # a stuck rudder, for instance
 
 
-@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.slow)])
 def test_whatever_is_ordered_the_scenario_gives_the_same_run(run: LiveRun, tmp_path: Path, seed: int) -> None:
     rng = random.Random(seed)
     back = {rng.randrange(500, 700), rng.randrange(500, 700)}
