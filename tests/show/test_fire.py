@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,7 @@ import pytest
 from selenium.webdriver import Chrome
 
 from shipcollision_fmu.ship.frames import rotation_from_quaternion
-from shipcollision_fmu.show.page import write_page
+from shipcollision_fmu.show.page import build_page
 from shipcollision_fmu.show.scene.scene import load_scene
 
 from .browser import Page
@@ -20,22 +21,27 @@ BURNING = 6.0
 
 
 @pytest.mark.needs("pybullet")
-def test_a_fire_lights_the_hull_at_night(browser: Chrome, guan2014: Path) -> None:
-    """Plating 25 m from the fire, on the side that is seen, is brighter and redder than where it is 120 m away."""
-    write_page(guan2014)
+def test_a_fire_lights_the_hull_at_night(browser: Chrome, guan2014: Path, tmp_path: Path) -> None:
+    """Plating beside the fire is redder than in the same picture without one, and by more than plating far from it."""
     scene = load_scene(guan2014)
     fire = next(effect for effect in scene.effects if effect.kind == "fire")
-    page = Page(browser, guan2014 / "replay.html", "sky=night&camera=impact&bare", (900, 560))
-    pose = page.slide(BURNING)["poses"][fire.ship]
-    R = rotation_from_quaternion(pose["quaternion"])
-
-    def colour(along: float) -> tuple[float, float, float]:
-        point = fire.point + [along, 0.0, 0.0]
-        return page.colour(pose["position"] + R @ [point[0], point[1], 0.4 * point[2]], half=3)
-
-    near, far = colour(25.0), colour(120.0)
-    assert near[0] > 1.3 * far[0]
-    assert near[0] - far[0] > 2.0 * (near[2] - far[2])
+    dark = replace(scene, effects=tuple(e for e in scene.effects if e.kind not in ("fire", "explosion", "smoke")))
+    found = []
+    for name, shown in (("fire", scene), ("dark", dark)):
+        path = tmp_path / f"{name}.html"
+        path.write_text(build_page(shown), encoding="utf-8")
+        page = Page(browser, path, "sky=night&camera=impact&bare", (900, 560))
+        pose = page.slide(BURNING)["poses"][fire.ship]
+        R = rotation_from_quaternion(pose["quaternion"])
+        x, y, z = fire.point
+        beside, far_off = [x + 10.0, y, 0.8 * z], [x + 60.0, y, 0.4 * z]
+        places = [pose["position"] + R @ place for place in (beside, far_off)]
+        found.append([page.colour(place, half=3)[0] for place in places])
+    (near, far), (near_without, far_without) = found
+    assert near_without > 0.0
+    assert far_without > 0.0
+    assert near > 1.2 * near_without
+    assert near - near_without > 2.0 * (far - far_without)
 
 
 @pytest.mark.needs("pybullet")
