@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from contextlib import ExitStack
 from datetime import datetime
 from functools import partial
@@ -94,11 +95,12 @@ def live(
         raise ScenarioError(f"--duration {duration:g} s must be greater than 0: give one such as 600")
     folder = out if out is not None else Path("runs") / f"{loaded.name}-live-{datetime.now():%Y%m%d-%H%M%S}"
     offered = _Offered(own, nmea, nmea_tcp, dis, orders, _choose_order_token(orders, order_token))
-    with hold_folder(folder):  # first: the files of a run that goes on are those of no other
+    with ExitStack() as held:
+        held.enter_context(hold_folder(folder))  # first: the files of a run that goes on are those of no other
         if not overwrite:
             _refuse_files(folder)
         session = _run(
-            loaded, offered, folder, host, port, {"rate": rate, "duration": duration, "paused": paused},
+            loaded, offered, folder, host, port, {"rate": rate, "duration": duration, "paused": paused}, held.close,
             sets_pace=not instructor_only, in_browser=browser,
         )  # fmt: skip
     if session.error is not None:
@@ -152,10 +154,11 @@ def _refuse_files(folder: Path) -> None:
 
 
 def _run(
-    scenario: Scenario, offered: _Offered, folder: Path, host: str, port: int, pace: dict[str, Any], *,
-    sets_pace: bool, in_browser: bool,
+    scenario: Scenario, offered: _Offered, folder: Path, host: str, port: int, pace: dict[str, Any],
+    give_back: Callable[[], None], *, sets_pace: bool, in_browser: bool,
 ) -> Session:  # fmt: skip
-    """The session, after its end: pages at `host` and `port`, outlets as offered."""
+    """The session, after its end: pages at `host` and `port`, outlets as offered. `give_back` is called once the folder
+    has the run, as pages may stay open beyond."""
     from ..live.server.app import LiveApp
     from ..live.server.host_names import find_hosts
     from ..live.server.serve import bind, serve
@@ -169,10 +172,12 @@ def _run(
             stack.callback(outlets.close)
             outlets.start()
         hosts, at = find_hosts(listening), int(listening.getsockname()[1])
-        serve(
-            app, listening, lambda: _tell_of_start(app, hosts, at, offered, in_browser),
-            lambda: _tell_of_end(app, folder),
-        )  # fmt: skip
+
+        def end() -> None:
+            give_back()
+            _tell_of_end(app, folder)
+
+        serve(app, listening, lambda: _tell_of_start(app, hosts, at, offered, in_browser), end)
     return session
 
 

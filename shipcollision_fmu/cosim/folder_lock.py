@@ -19,12 +19,13 @@ def hold_folder(path: Path) -> Iterator[None]:
     """Meanwhile the folder is there, and no other process holds it. It is removed again if nothing was written.
 
     The lock is the system's, on the folder itself: it ends with the process, and leaves no file. Where the file system
-    or Windows has none, nothing is held. Raises HostError when another process, or another call, holds the folder.
+    or Windows has none, and where the folder may not be read, nothing is held. Raises HostError when another process,
+    or another call, holds the folder.
     """
     check_writable(path)
     made = [place for place in (path, *path.parents) if not place.exists()]
     path.mkdir(parents=True, exist_ok=True)
-    handle = None if sys.platform == "win32" else os.open(path, os.O_RDONLY)
+    handle = _open(path)
     try:
         if handle is not None:
             _lock(handle, path)
@@ -35,6 +36,15 @@ def hold_folder(path: Path) -> Iterator[None]:
         with suppress(OSError):  # something was written
             for place in made:
                 place.rmdir()
+
+
+def _open(path: Path) -> int | None:
+    if sys.platform == "win32":
+        return None
+    try:
+        return os.open(path, os.O_RDONLY)
+    except OSError:  # a folder may be written and not read
+        return None
 
 
 def _lock(handle: int, path: Path) -> None:

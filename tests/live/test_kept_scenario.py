@@ -65,6 +65,13 @@ def test_many_orders_are_written_less_often(tmp_path: Path) -> None:
     assert kept.scenario.duration == pytest.approx(EVERY, abs=0.2)
 
 
+def test_what_an_earlier_run_has_left_is_not_taken_for_this_one(tmp_path: Path) -> None:
+    (tmp_path / "run").mkdir()
+    (tmp_path / "run" / UNFINISHED).touch()
+    play(tmp_path, [(0.5 * EVERY, Mark("kill")), (3.0, End())])
+    assert not (tmp_path / "killed" / UNFINISHED).exists()
+
+
 def test_a_disk_that_is_full_ends_no_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def fail(out: Path, files: Any) -> None:
         raise HostError("no room")

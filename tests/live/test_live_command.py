@@ -7,16 +7,23 @@ import signal
 import socket
 import subprocess
 import sys
+import time
 import urllib.request
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
+from websockets.sync.client import connect
 
 from shipcollision_fmu import load_scenario, simulate
 from shipcollision_fmu.cli import main
+from shipcollision_fmu.cosim.folder_lock import hold_folder
+from shipcollision_fmu.errors import HostError
 from shipcollision_fmu.live import extra
+
+from .live_command import live_command
+from .live_server import receive
 
 
 @pytest.fixture(autouse=True)
@@ -108,6 +115,21 @@ def test_files_of_other_origin_are_kept(tmp_path: Path) -> None:
     result = called("--out", "mine")
     assert result.exit_code == 1
     assert "mine holds scenario.toml of other origin" in result.stderr
+
+
+def test_a_stored_run_is_free_while_pages_go_to_its_replay(tmp_path: Path) -> None:
+    with live_command(tmp_path, "--rate", "20", "--duration", "1") as live, connect(live.socket) as client:
+        while receive(client)["type"] != "end":
+            pass
+        for _ in range(200):
+            try:
+                with hold_folder(tmp_path / "run"):
+                    break
+            except HostError:  # the end is told before the command says where the run is
+                time.sleep(0.05)
+        else:
+            raise AssertionError("the folder is still held")
+        assert live.process.poll() is None
 
 
 COMMAND = """

@@ -6,6 +6,7 @@ gives the run up to there. At the end scenario.toml takes its place.
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
 
 from ...files import write_files
@@ -21,10 +22,11 @@ ORDERS = 1000
 
 
 class KeptScenario:
-    """The file of a run in the folder `out`, from the wall time `now` [s] on."""
+    """The file of a run in the folder `out`, from the wall time `now` [s] on. That of an earlier run is removed."""
 
     def __init__(self, run: LiveRun, out: Path, now: float) -> None:
-        self._run, self._out, self._due = run, out, now + EVERY
+        self._run, self._out, self._due, self._has_inputs = run, out, now + EVERY, False
+        self.remove()
 
     def keep(self, now: float) -> None:
         """Write it if it is due. Raises HostError, and then not again before the next time."""
@@ -32,9 +34,12 @@ class KeptScenario:
             return
         orders = sum(len(bridge.log) for bridge in self._run.bridges.values() if bridge.limits is not None)
         self._due = now + EVERY * (1.0 + orders / ORDERS)
-        self._run.inputs.write(self._out)
+        if not self._has_inputs:  # they are as they were when the run began
+            self._run.inputs.write(self._out)
+            self._has_inputs = True
         write_files(self._out, {UNFINISHED: self._run.write_scenario()})
 
     def remove(self) -> None:
-        """The run is written: it is no longer needed."""
-        (self._out / UNFINISHED).unlink(missing_ok=True)
+        """It is not, or no longer, needed."""
+        with suppress(OSError):
+            (self._out / UNFINISHED).unlink(missing_ok=True)

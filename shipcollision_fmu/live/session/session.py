@@ -400,7 +400,7 @@ class Session:
         self._tell("failure", ship=command.ship, what=command.what, on=command.on)
 
     def _arm(self, command: Arm) -> None:
-        for ship in (command.ship, command.of or command.ship):
+        for ship in (command.ship, *([] if command.of is None else [command.of])):
             self._require_ship(ship)
         self._require_failure(command.what)
         self._run.arm(Armed(command.ship, command.what, command.at, command.of, command.within))

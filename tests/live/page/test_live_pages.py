@@ -186,6 +186,14 @@ PRESSED = """
     new MutationObserver(() => pressed.push(pilot.ariaPressed)).observe(pilot, { attributeFilter: ["aria-pressed"] });
 """
 
+HELD_UP = """
+    const connection = live.session.connection;
+    const { ask } = connection;
+    const released = new Promise((resolve) => (window.release = resolve));
+    connection.ask = (...all) => released.then(() => ask.apply(connection, all));
+    released.then(() => (connection.ask = ask));
+"""
+
 
 def test_a_refused_order_never_looks_taken(bridge: BridgePage, server: LiveServer) -> None:
     press(bridge, "m")
@@ -207,6 +215,23 @@ def test_a_refused_order_never_looks_taken(bridge: BridgePage, server: LiveServe
     press(bridge, "a")
     bridge.wait("return pressed.includes('true')")
     press(bridge, "am")
+    bridge.wait("return live.state.ships.own.rudder_order === 0")
+
+
+def test_auto_again_looks_taken_only_once_it_is(bridge: BridgePage) -> None:
+    """Midships and Auto, one after the other, while the server's answers are held up."""
+    press(bridge, "m")
+    bridge.wait("return live.state.ships.own.heading_order === null")
+    press(bridge, "a")
+    bridge.wait("return document.getElementById('autopilot').ariaPressed === 'true'")
+    bridge.run(PRESSED + HELD_UP)
+    press(bridge, "ma")
+    bridge.wait("return document.getElementById('autopilot').ariaPressed === 'false'")
+    bridge.wait_for_frame()
+    assert set(bridge.run("return pressed")) == {"false"}
+    bridge.run("release()")
+    bridge.wait("return document.getElementById('autopilot').ariaPressed === 'true'")
+    press(bridge, "m")
     bridge.wait("return live.state.ships.own.rudder_order === 0")
 
 

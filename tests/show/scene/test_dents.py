@@ -18,7 +18,7 @@ TWO_SIDES = 1.0
 """[m] A contact point lies within an overlap of two hulls, so near the plating of each."""
 
 
-@pytest.fixture(params=["guan2014", "kvlcc2_crossing"])
+@pytest.fixture(params=[pytest.param("guan2014", marks=pytest.mark.needs("pybullet")), "kvlcc2_crossing"])
 def folder(request: pytest.FixtureRequest) -> Path:
     return Path(request.getfixturevalue(request.param))
 

@@ -80,7 +80,7 @@ const MIRROR_VERTEX = /* glsl */ `
     float spread = rough * rough * 0.5 + 0.0009, light = uLamps * uOpen * findSeen();
     vec3 toEye = normalize(cameraPosition - vPlace), toLamp = normalize(vLamp - vPlace);
     float mirror = 0.10 + 0.90 * pow(1.0 - max(dot(toEye, normalize(toEye + toLamp)), 0.0), 3.0);
-    vShine = vec2(0.55 * light * mirror * sqrt(0.004 / spread) / (1.0 + far / 120.0), 0.125 / spread);
+    vShine = vec2(0.22 * light * mirror * sqrt(0.004 / spread) / (1.0 + far / 120.0), 0.125 / spread);
     vec4 view = viewMatrix * vec4(vPlace, 1.0), nearer = projectionMatrix * vec4(view.xyz * ${(1 - DEEPER).toFixed(3)}, 1.0);
     gl_Position = projectionMatrix * view;
     gl_Position.z = nearer.z / nearer.w * gl_Position.w;
@@ -100,7 +100,7 @@ const MIRROR_FRAGMENT = /* glsl */ `
     vec2 off = middle.xz / middle.y + ${slopeGlsl("vPlace.xz", "uTime")};
     float glint = max(0.0, 1.0 - dot(off, off) * vShine.y); // Gauss's bell is a power of a parabola here
     glint *= glint;
-    gl_FragColor = vec4(uColour * min(vShine.x * glint * glint, 0.6), 1.0);
+    gl_FragColor = vec4(uColour * min(vShine.x * glint * glint, 0.3), 1.0);
     #include <colorspace_fragment>
   }`;
 

@@ -29,7 +29,7 @@ const vertexShader = /* glsl */ `
       float wall = aPaint.a == 2.0 && abs(normal.z) < 0.7 ? 0.19 : 0.0;
       own = uLamps * (aPaint.a == 1.0 ? vec3(0.55, 0.407, 0.209) : paint * WARM * (wall + 0.55 * floodsAt(position, normal)));
     }
-    vec3 colour = paint * (light / 3.14159265 + uOwnLight) + own + uHorizon * (0.16 * edge * edge * edge);
+    vec3 colour = paint * (light / 3.14159265 + uOwnLight * (1.0 - 0.85 * uLamps)) + own + uHorizon * (0.16 * edge * edge * edge);
     vec4 seen = viewMatrix * world;
     vColour = finish(mix(colour, uHorizon, smoothstep(uNear, uFar, -seen.z)));
     gl_Position = projectionMatrix * seen;

@@ -1,6 +1,7 @@
 // Scratches come as ribbons in the .glb, each vertex with the time at which it is drawn. Here a stretch that has begun
 // is drawn up to the present time.
 import * as THREE from "three";
+import { LIGHT } from "./daylight.js";
 import { makePaint } from "./plain_paint.js";
 import { collectTriangles, joinTriangles } from "./triangles.js";
 
@@ -16,9 +17,13 @@ function growing(material) {
       "#include <begin_vertex>",
       "#include <begin_vertex>\nvDrawnAt = _time;",
     );
-    shader.fragmentShader = `uniform float uTime;\nvarying float vDrawnAt;\n${shader.fragmentShader}`.replace(
+    shader.uniforms.uLamps = LIGHT.uLamps;
+    shader.fragmentShader = `uniform float uTime, uLamps;\nvarying float vDrawnAt;\n${shader.fragmentShader}`.replace(
       "#include <clipping_planes_fragment>",
       "#include <clipping_planes_fragment>\nif (vDrawnAt > uTime) discard;",
+    ).replace(
+      "#include <emissivemap_fragment>",
+      "#include <emissivemap_fragment>\ntotalEmissiveRadiance *= 1.0 - 0.85 * uLamps; // else it would shine at night",
     );
   };
   return Object.assign(made, OVER);

@@ -114,7 +114,7 @@ const fragmentShader = (count) => /* glsl */ `
       if (t < end && end > 0.0 && t < nearest) {
         nearest = t;
         vec3 at = abs(origin + t * ray); // fainter towards the top, where there is more than a hull, and from afar, where waves scatter it
-        found = vec4(uColours[i], 0.8 * smoothstep(1.02, 0.85, at.x) * smoothstep(1.05, 0.55, at.z) * exp(-t / (5.0 * size.z)));
+        found = vec4(uColours[i], 0.8 * smoothstep(1.02, 0.85, at.x) * smoothstep(1.05, 0.55, at.z) * exp(-t / (12.0 * size.z)));
       }
     }
     return found;
@@ -145,7 +145,7 @@ const fragmentShader = (count) => /* glsl */ `
     mirrored.y = abs(mirrored.y) + 0.6 * rough;
     mirrored = normalize(mirrored);
     vec3 reflection = skyAt(mirrored, 2.2 + 8.0 * rough);
-    vec4 ship = mirroredShip(vWorld, normalize(mirrored + vec3(-0.6 * slope.x, 0.0, -0.6 * slope.y)));
+    vec4 ship = mirroredShip(vWorld, normalize(mirrored - vec3(slope.x, 0.0, slope.y) * (0.6 * exp(-distance_ / 500.0))));
     reflection = mix(reflection, ship.rgb * uFoam, ship.a);
     float crest = clamp(0.32 + 0.55 * height + field.g * 0.5, 0.0, 1.3);
     float through = pow(max(dot(view, normalize(vec3(uSun.x, 0.0, uSun.z))), 0.0), 3.0); // light through the crests

@@ -180,7 +180,6 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
 
   function setSharpness() {
     renderer.setPixelRatio(plain ? pace.share : Math.min(window.devicePixelRatio, 2));
-    resize();
     want();
   }
 

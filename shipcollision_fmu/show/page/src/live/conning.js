@@ -165,7 +165,7 @@ export class Conning {
 
   setRudder(degrees) {
     this.ordered = Math.min(this.limit, Math.max(-this.limit, degrees));
-    this.isOnAutopilot = false;
+    this.isOnAutopilot = this.isPilotTaken = false;
     delete this.fields?.heading_deg;
     this.send({ rudder_deg: this.ordered });
     this.paint();
