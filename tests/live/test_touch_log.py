@@ -30,10 +30,10 @@ def test_a_place_is_kept_once_with_its_first_time() -> None:
     assert [(one.time, one.touch.ship_b, one.touch.a[0]) for one in log.touches] == [
         (1.0, "target", 0.0), (1.0, "target", 10.0), (2.0, "quay", 10.0), (3.0, "target", 5.0),
     ]  # fmt: skip
-    log.forget(2.0)
+    log.restore(log.touches[:3])
     assert [one.time for one in log.touches] == [1.0, 1.0, 2.0]
-    log.add(4.0, [touch(5.0)], keep)
-    assert log.touches[-1].time == 4.0
+    log.add(4.0, [touch(5.0), touch(0.0)], keep)
+    assert [one.time for one in log.touches] == [1.0, 1.0, 2.0, 4.0]
 
 
 def test_the_latest_are_kept(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -64,4 +64,21 @@ def test_touches_are_those_of_the_run_and_go_with_what_is_forgotten(scenario_fil
             assert abs((atan2(normal[1], normal[0]) - angle + pi) % (2 * pi) - pi) < 0.01
     run.go_back("before")
     assert run.touch_log.touches == ()
+    run.close()
+
+
+def test_going_back_restores_what_the_limit_has_pushed_out(
+    scenario_file: Write, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(touch_log, "MOST_TOUCHES", 1)
+    run = LiveRun(load_scenario(scenario_file(("duration = 3.0", "duration = 30.0"))))
+    while not run.touch_log.touches and run.time < 3.0:
+        run.advance()
+    run.mark("full")
+    kept = run.touch_log.touches
+    while kept == run.touch_log.touches and run.time < 3.0:
+        run.advance()
+    assert run.touch_log.touches[0].time > kept[0].time
+    run.go_back("full")
+    assert run.touch_log.touches == kept
     run.close()

@@ -39,7 +39,7 @@ from .input_files import read_input_files
 from .scenario_text import write_scenario
 from .ship_limits import find_limits
 from .snapshot import CollisionSnapshot, ContactSnapshot, EnvironmentSnapshot, ShipSnapshot, TouchSnapshot, WindSnapshot
-from .touch_log import TouchLog
+from .touch_log import LoggedTouch, TouchLog
 
 __all__ = ["MOST_MARKS", "LiveRun"]
 
@@ -61,6 +61,7 @@ class _Kept:
     around: list[float]
     waiting: EnvironmentChange | None
     armed: tuple[Armed, ...]
+    touches: tuple[LoggedTouch, ...]
     end: EndValues
     note: str = ""
 
@@ -225,7 +226,8 @@ class LiveRun:
         kept = _Kept(
             self.k, [component.save() for component in self._components],
             {ship: bridge.save() for ship, bridge in self.bridges.items()}, self._stepper.recorder.mark(),
-            dict(self._changes), list(self._around), self._waiting, self.armed.listed, self._end, note,
+            dict(self._changes), list(self._around), self._waiting, self.armed.listed, self.touch_log.touches,
+            self._end, note,
         )  # fmt: skip
         others = {other: mark for other, mark in self._marks.items() if other != name}
         self._marks = {**others, name: kept}  # a new one, as other threads may read the one before
@@ -245,7 +247,7 @@ class LiveRun:
             wire.outputs.read()
         self._stepper.recorder.go_back(kept.recorded)
         self._stepper.k = kept.k
-        self.touch_log.forget(self.time)
+        self.touch_log.restore(kept.touches)
         self._changes, self._around, self._end = dict(kept.changes), list(kept.around), kept.end
         self._coming = {k: values for k, values in changed_surroundings(self.scenario).items() if k >= kept.k}
         if self._changes:

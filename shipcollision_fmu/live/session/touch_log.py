@@ -57,9 +57,9 @@ class TouchLog:
         latest = sorted(self._cells.items(), key=lambda item: item[1].time)[-MOST_TOUCHES:]
         self._publish(dict(latest))
 
-    def forget(self, time: float) -> None:
-        """Forget what is later than a time [s]."""
-        self._publish({cell: logged for cell, logged in self._cells.items() if logged.time <= time})
+    def restore(self, touches: tuple[LoggedTouch, ...]) -> None:
+        """Have the touches again that there were at a time; those that the limit has pushed out since, too."""
+        self._publish({_find_cell(logged.touch): logged for logged in touches})
 
     def _publish(self, cells: dict[Cell, LoggedTouch]) -> None:
         self._cells, self.touches = cells, tuple(cells.values())
