@@ -70,6 +70,7 @@ class Hub:
         self._clients: set[_Client] = set()
         self._count = 0
         self._text: tuple[Snapshot | None, str] = (None, "")
+        self._undone: Snapshot | None = None
         self._loop: asyncio.AbstractEventLoop | None = None
         self._history: deque[dict[str, Any]] = deque(maxlen=MOST_EVENTS)
         self._end: dict[str, Any] | None = None
@@ -134,7 +135,8 @@ class Hub:
                 if now >= due:
                     if new := client.learn(self._session.touches):
                         await self._send(client, json.dumps({"type": "touches", "touches": new}))
-                    await self._send(client, self._encode(self._session.snapshot))
+                    if (snapshot := self._session.snapshot) is not self._undone:
+                        await self._send(client, self._encode(snapshot))
                     due = max(due + INTERVAL, loop.time())
                 client.news.clear()
                 if not client.waiting:
@@ -154,6 +156,8 @@ class Hub:
     def _hear(self, event: dict[str, Any]) -> None:
         """Called in the session's thread."""
         assert self._loop is not None
+        if event["kind"] == "back":  # the state from here on is published later than the event
+            self._undone = self._session.snapshot
         try:
             self._loop.call_soon_threadsafe(self._pass_on, event)
         except RuntimeError:  # the loop is closed: nobody is left
