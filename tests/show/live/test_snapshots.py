@@ -75,7 +75,10 @@ def test_after_a_gap_ships_do_not_crawl() -> None:
 
 TRACK = """
 const history = new History();
-for (const [time, x] of data.pushed) history.push(time, [x, 0, 0, 0, 0, 0], [2, 0, 0, 0, 0, 0]);
+for (const [time, x] of data.pushed) {
+  if (x === null) history.goBack(time);
+  else history.push(time, [x, 0, 0, 0, 0, 0], [2, 0, 0, 0, 0, 0]);
+}
 return { at: data.times.map((time) => history.at(time)[0]), count: history.places.length };
 """
 
@@ -88,3 +91,21 @@ def test_a_track_is_linear_straight_before_and_forgets_what_was_undone() -> None
     )
     assert found["at"] == pytest.approx([-10.0, 4.5, 12.0, 14.0, 14.0])
     assert found["count"] < 20
+
+
+def test_a_track_forgets_what_was_undone_though_the_next_state_is_later() -> None:
+    """At 2 m/s from time 10 to 20, back to 15, the next state is that of 21; back to what is to come does nothing."""
+    pushed = [*((10.0 + k, 2.0 * k) for k in range(11)), (15.0, None), (21.0, 40.0), (30.0, None)]
+    found = run_javascript(
+        "live/history.js", "History", TRACK, {"pushed": pushed, "times": [12.5, 15.0, 18.0, 21.0, 99.0]}
+    )
+    assert found["at"] == pytest.approx([5.0, 10.0, 25.0, 40.0, 40.0])
+
+
+def test_a_track_of_which_all_was_undone_begins_again() -> None:
+    found = run_javascript(
+        "live/history.js", "History", TRACK,
+        {"pushed": [(10.0, 0.0), (11.0, 2.0), (5.0, None)], "times": [4.0, 5.0, 99.0]},
+    )  # fmt: skip
+    assert found["at"] == pytest.approx([-12.0, -10.0, -10.0])
+    assert found["count"] == 1

@@ -19,6 +19,11 @@ export class History {
     if (places.length > MOST) places.shift();
   }
 
+  /** Time has gone back, perhaps to less than one push ago: what was later has not happened. */
+  goBack(time) {
+    if (this.now !== null && time < this.now.time) this.push(time, this.at(time), this.now.nu);
+  }
+
   /** eta at a time: linear between what was seen, straight ahead before, and as it is now after. */
   at(time) {
     const { places, now } = this;

@@ -11,6 +11,7 @@ import { Sound } from "./sound.js";
 import { miles } from "./targets.js";
 
 const keyOf = ({ id, time }) => `${id} ${time}`;
+const MOST_TOUCHES = 500; // the latest ones, as live/session/touch_log.py keeps them
 const JUST = 10; // a collision is news for so long [s]
 const KEPT = 0.98; // of the rate that is set: a machine that does so much keeps up
 
@@ -19,7 +20,7 @@ export class Session {
   constructor(role, hear) {
     const query = new URLSearchParams(location.search);
     Object.assign(this, {
-      role, hear, token: query.get("token") ?? "", wantedShip: query.get("ship"), hello: null, state: null, ended: null,
+      role, hear, token: query.get("token") ?? "", wantedShip: query.get("ship"), hello: null, state: null, time: -Infinity, ended: null,
       snapshots: new Snapshots(), histories: {}, alarms: new Alarms(), sound: new Sound(), dangers: new Set(),
       limits: { cpa: 0.3 * MILE, tcpa: 360 }, contacts: [], known: new Set(), old: new Set(), unknownShip: null, isServed: true, touches: [],
     });
@@ -38,9 +39,10 @@ export class Session {
 
   listen(type, message) {
     if (type === "hello") this.greet(message);
-    else if (type === "touches") this.touches.push(...message.touches);
+    else if (type === "touches") this.touches = [...this.touches, ...message.touches].slice(-MOST_TOUCHES);
     else if (type === "state") this.take(message);
     else if (type === "event" && message.kind === "collision begins") this.meet({ ...message, time: message.start });
+    else if (type === "event" && message.kind === "back") this.goBack(message.time);
     else if (type === "lost") this.lose();
     else if (type === "gone") Object.assign(this, { isServed: false });
     else if (type === "end") this.end(message);
@@ -74,19 +76,30 @@ export class Session {
 
   take(state) {
     const isFirst = this.state === null;
+    const isBack = state.time < this.time; // unheard: while the connection was lost, perhaps
+    if (isBack) this.goBack(state.time);
+    if (isFirst || isBack) this.learn(state.contact.collisions);
     this.snapshots.push(state, performance.now());
-    const isBack = !isFirst && state.time < this.state.time; // while the connection was lost, perhaps
-    this.state = state;
-    if (isFirst || isBack) {
-      this.old = new Set(state.contact.collisions.map(keyOf)); // no news, unless ships still touch
-      this.known = new Set(this.old);
-    }
-    if (isBack) {
-      this.alarms.clearAll();
-      this.touches = this.touches.filter(({ time }) => time <= state.time);
-      this.hear("back", state);
-    }
+    Object.assign(this, { state, time: state.time });
     if (!this.ended) this.watch(state);
+  }
+
+  /** Collisions that are no news, unless ships still touch; all others are. */
+  learn(collisions) {
+    this.old = new Set(collisions.map(keyOf));
+    this.known = new Set(this.old);
+  }
+
+  /** The run has gone back to a time [s]: what was later has not happened. The next state may be later than the last one was. */
+  goBack(time) {
+    if (this.state === null) return;
+    this.time = time;
+    this.learn(this.state.contact.collisions.filter((collision) => collision.time <= time));
+    this.alarms.clearAll();
+    this.touches = this.touches.filter((touch) => touch.time <= time);
+    this.snapshots = new Snapshots();
+    for (const history of Object.values(this.histories)) history.goBack(time);
+    this.hear("back", { time });
   }
 
   /** The state that is to be shown now; the tracks then end with it. */
