@@ -21,7 +21,7 @@ class MarkedShip {
     node.add(this.mesh);
   }
 
-  /** A stroke to a place, on the side to which `outwards` points, both in b; `other` is what touches there. */
+  /** A stroke to a place, which lay() then draws, on the side to which `outwards` points, both in b; `other` is what touches there. */
   add(time, other, place, outwards) {
     const away = (mark) => mark.place.distanceTo(place);
     if (this.marks.some((mark) => away(mark) < 0.5 * this.breadth)) return;
@@ -29,12 +29,10 @@ class MarkedShip {
     const from = before.sort((a, b) => away(a) - away(b))[0]?.place ?? place;
     this.marks.push({ time, other, from, place, outwards });
     if (this.marks.length > MOST) this.marks.shift();
-    this.lay();
   }
 
   forget(time) {
     this.marks = this.marks.filter((mark) => mark.time <= time);
-    this.lay();
   }
 
   lay() {
@@ -56,6 +54,7 @@ class MarkedShip {
 /** Strokes on `ships`, [{node, info}]. */
 export function makeScratchMarks(ships) {
   const marked = new Map(ships.map((ship) => [ship.info.name, new MarkedShip(ship)]));
+  const lay = () => marked.forEach((ship) => ship.lay()); // once for all touches of a message
   return {
     /** Draws to places of contact, [{time, ship_a, ship_b, a, b, normal_a, normal_b}] by time. */
     add(touches) {
@@ -63,6 +62,7 @@ export function makeScratchMarks(ships) {
         marked.get(ship_a)?.add(time, ship_b, new THREE.Vector3(...a), new THREE.Vector3(...normal_a));
         marked.get(ship_b)?.add(time, ship_a, new THREE.Vector3(...b), new THREE.Vector3(...normal_b).negate());
       }
+      lay();
     },
     /** Draws to those, and no others. */
     restore(touches) {
@@ -72,6 +72,7 @@ export function makeScratchMarks(ships) {
     /** Time has gone back: what is scratched later is not scratched. */
     forget(time) {
       for (const ship of marked.values()) ship.forget(time);
+      lay();
     },
     /** Where strokes end in b, by ship. */
     get places() {
