@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from shipcollision_fmu.show.scene.dents import find_depth
+from shipcollision_fmu.show.scene.dents import WIDEST, find_depth
 from shipcollision_fmu.show.scene.run_folder import read_run_folder
 from shipcollision_fmu.show.scene.scene import Scene, load_scene
 from tests.show.live.javascript import run_javascript
@@ -54,22 +54,26 @@ def test_the_side_opens_and_the_bow_is_crushed(scene: Scene) -> None:
     assert 0.0 < bow.depth < side.depth
 
 
+def change_energy(folder: Path, changed: Path, share: float) -> Path:
+    """A run whose contacts dissipate a share of the energy of another."""
+    changed.mkdir()
+    for file in folder.iterdir():
+        if file.suffix in (".csv", ".json"):
+            (changed / file.name).write_bytes(file.read_bytes())
+    lines = (folder / "contacts.csv").read_text(encoding="utf-8").splitlines()
+    column = lines[0].split(",").index("energy")
+    rows = [line.split(",") for line in lines]
+    for row in rows[1:]:
+        row[column] = repr(share * float(row[column]))
+    (changed / "contacts.csv").write_text("".join(",".join(row) + "\n" for row in rows), encoding="utf-8")
+    return changed
+
+
 def test_more_energy_makes_larger_dents(folder: Path, tmp_path: Path) -> None:
     """A run whose contacts dissipate a quarter of the energy has dents of half the size, and of a thousandth none."""
     whole = load_scene(folder).dents
     for share, ratio in ((0.25, 0.5), (1e-6, None)):
-        changed = tmp_path / f"{share}"
-        changed.mkdir()
-        for file in folder.iterdir():
-            if file.suffix in (".csv", ".json"):
-                (changed / file.name).write_bytes(file.read_bytes())
-        lines = (folder / "contacts.csv").read_text(encoding="utf-8").splitlines()
-        column = lines[0].split(",").index("energy")
-        rows = [line.split(",") for line in lines]
-        for row in rows[1:]:
-            row[column] = repr(share * float(row[column]))
-        (changed / "contacts.csv").write_text("".join(",".join(row) + "\n" for row in rows), encoding="utf-8")
-        dents = load_scene(changed).dents
+        dents = load_scene(change_energy(folder, tmp_path / f"{share}", share)).dents
         if ratio is None:
             assert dents == ()
         else:
@@ -105,9 +109,12 @@ def test_a_crushed_bow_is_shorter_and_whole_behind() -> None:
     assert back[3] > back[1]
 
 
-def test_the_live_page_has_the_same_dents(folder: Path, scene: Scene) -> None:
-    """From the first points of a collision and its energy, as a live run tells them."""
+@pytest.mark.parametrize("share", [1.0, 1000.0])
+def test_the_live_page_has_the_same_dents(folder: Path, tmp_path: Path, share: float) -> None:
+    """From a collision's first points and its energy, as a live run tells them; a thousandfold is cut in width."""
+    scene = load_scene(change_energy(folder, tmp_path / "changed", share))
     first = scene.dents[0]
+    assert (first.half_width == WIDEST * scene.ship(first.ship).L_pp) == (share > 1.0)
     event = next(event for event in read_run_folder(folder).events.scratches if event.id == first.scratch)
     collision = {
         "id": event.collision, "time": event.start, "ship_a": event.ship_a, "ship_b": event.ship_b,
@@ -117,7 +124,7 @@ def test_the_live_page_has_the_same_dents(folder: Path, scene: Scene) -> None:
         "live/effects_live.js", "dentsOf", "return dentsOf(data.collision, data.infos, data.energy);",
         {
             "collision": collision,
-            "infos": [{"name": ship.name, "L_oa": ship.L_oa} for ship in scene.ships],
+            "infos": [{"name": ship.name, "L_pp": ship.L_pp} for ship in scene.ships],
             "energy": first.energy,
         },
     )  # fmt: skip

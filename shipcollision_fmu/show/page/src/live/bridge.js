@@ -5,7 +5,8 @@ import { inWords, onLanguage, say } from "../texts.js";
 import { drawsInSoftware, makeViewer } from "../viewer.js";
 import { Chart } from "./chart.js";
 import { commandWords, Conning } from "./conning.js";
-import { dentsOf, effectsOf, ignitionOf } from "./effects_live.js";
+import { DentList } from "./dent_list.js";
+import { effectsOf, ignitionOf } from "./effects_live.js";
 import { makeInstruments } from "./instruments.js";
 import { LiveCameras, MODES } from "./live_cameras.js";
 import { makeLivePage } from "./live_page.js";
@@ -23,7 +24,7 @@ const DENTED = 0.4; // [s] after which its dents are made, which takes a moment:
 const airOf = ({ speed, from_deg }) => [Math.cos, Math.sin].map((part) => -speed * part((from_deg * Math.PI) / 180));
 
 export async function startBridge() {
-  const page = makeLivePage("bridge", { hello: () => greet(), back: (state) => forgetEffects(state), touches: ({ touches }) => scratches?.add(touches) });
+  const page = makeLivePage("bridge", { hello: () => greet(), back: ({ time: now }) => forgetEffects(now), touches: ({ touches }) => scratches?.add(touches) });
   const { session, ask, messages, time } = page;
   const onShip = (type, fields) => ask(type, { ship: session.own, ...fields });
   const conning = new Conning((fields) => onShip("order", fields), (on) => onShip("horn", { on }));
@@ -54,7 +55,7 @@ export async function startBridge() {
   let scratches = null;
   let shown = null;
   const effects = new Map(); // collision -> {made, remove}: its effects, and what takes them away
-  const dents = new Map(); // collision -> {energy, made, remove}
+  const dents = new DentList((made) => viewer.addDents(made));
   const unlit = new Set(); // collisions that this page has seen before they set something on fire
   const numbers = { next: 0, chart: 0 };
 
@@ -153,22 +154,11 @@ export async function startBridge() {
       const infos = viewer.ships.map(({ info }) => info).filter(({ name }) => name === ship_a || name === ship_b);
       const ignition = ignitionOf(infos);
       if (state.time >= start + SETTLED) addOnce(`${key} hit`, () => effectsOf(collision, infos, start, energy, false));
-      if (state.time >= start + DENTED) addDents(key, collision, infos);
+      if (state.time >= start + DENTED) dents.meet(key, collision, infos);
       // What burnt already when this page first saw it began to burn at most a few seconds after the collision did.
       if (energy < ignition) unlit.add(key);
       else addOnce(`${key} fire`, () => effectsOf(collision, infos, unlit.has(key) ? state.time : start, ignition, true));
     }
-  }
-
-  /** Dents, and larger ones in their place once there is half as much energy again. A bow is crushed once. */
-  function addDents(key, collision, infos) {
-    const known = dents.get(key);
-    if (collision.energy <= 1.5 * (known?.energy ?? 0)) return;
-    known?.remove();
-    dents.delete(key);
-    const crushed = [...dents.values()].flatMap(({ made }) => made).filter(({ kind }) => kind === "bow").map(({ ship }) => ship);
-    const made = dentsOf(collision, infos, collision.energy).filter(({ kind, ship }) => kind === "side" || !crushed.includes(ship));
-    dents.set(key, { energy: collision.energy, made, remove: viewer.addDents(made) });
   }
 
   function addOnce(key, make) {
@@ -178,10 +168,9 @@ export async function startBridge() {
   }
 
   /** Time has gone back: all effects go, and come again where their collisions have happened; so do later scratches. */
-  function forgetEffects(state) {
-    scratches?.forget(state.time);
+  function forgetEffects(now) {
+    scratches?.forget(now);
     for (const { remove } of effects.values()) remove();
-    for (const { remove } of dents.values()) remove();
     effects.clear();
     dents.clear();
     unlit.clear();
@@ -242,15 +231,15 @@ export async function startBridge() {
     get effects() {
       return [...effects.values()].flatMap(({ made }) => made);
     },
-    /** Dents of collisions so far: [{kind, ship, point, time, depth, half_width}]. */
+    /** Dents of collisions so far: [{kind, ship, point, time, energy, depth, half_width}]. */
     get dents() {
-      return [...dents.values()].flatMap(({ made }) => made);
+      return dents.dents;
     },
     order: (fields) => session.connection.ask("order", { ship: session.own, ...fields }),
     camera: chooseCamera,
     /** Draws now and says what is in the picture. */
     drawn() {
-      shown = session.present(performance.now());
+      shown = session.present(performance.now()) ?? shown;
       viewer.show(shown.time);
       viewer.draw();
       const { camera: eye, mode, zoom } = viewer.cameras;

@@ -11,21 +11,34 @@ const FIRES = { explosion: [0, 1], debris: [0, 1], fire: [0.4, 25], smoke: [0.8,
 
 // Sizes of dents, as in show/scene/dents.py, which says what they mean.
 const STEEL = 47.2e6, PLATES = 0.06, SLOPE = Math.tan(Math.PI / 6), CRUSH = 0.25;
-const BOW = 0.3, STEM = 0.47, SMALLEST = 0.25, WIDEST = 0.1;
-const GROWS = 1; // a dent [s]: the closing speed is not told
+const BOW = 0.3, STEM = 0.47, SMALLEST = 0.25, WIDEST = 0.1, MOST = 8;
+const GROWS = 1; // a dent [s]: the closing speed is not told, and here it is always to the side that the plating opens
 
-/** Dents of a collision of an energy [J]: an opening in the side that is struck, a crushed bow on the ship that strikes. */
+/**
+ * Dents of a collision of an energy [J]: an opening in the side that is struck, a crushed bow on the ship that strikes.
+ * `infos`: name and L_pp of the ships that take part.
+ */
 export function dentsOf(collision, infos, energy) {
   const depth = Math.sqrt(Math.max(0, energy) / STEEL / (PLATES * SLOPE));
   const pointOf = ({ name }) => (name === collision.ship_a ? collision.a : collision.b);
-  const ahead = (info) => pointOf(info)[0] / info.L_oa, foremost = Math.max(...infos.map(ahead));
+  const ahead = (info) => pointOf(info)[0] / info.L_pp, foremost = Math.max(...infos.map(ahead));
   return infos.map((info) => {
     const point = pointOf(info), isBow = ahead(info) > (ahead(info) === foremost ? BOW : STEM);
     return {
       kind: isBow ? "bow" : "side", ship: info.name, point, outwards: [0, Math.sign(point[1]) || 1, 0],
-      time: collision.time, duration: GROWS, depth: isBow ? CRUSH * depth : depth, half_width: Math.min(depth * SLOPE, WIDEST * info.L_oa),
+      time: collision.time, duration: GROWS, energy, depth: isBow ? CRUSH * depth : depth, half_width: Math.min(depth * SLOPE, WIDEST * info.L_pp),
     };
   }).filter(({ half_width }) => half_width >= SMALLEST);
+}
+
+/** Of dents those of the greatest energies, as many as a picture has; a bow is crushed once. */
+export function largestOf(dents) {
+  const found = [];
+  for (const dent of [...dents].sort((a, b) => b.energy - a.energy)) {
+    const isCrushed = dent.kind === "bow" && found.some(({ kind, ship }) => kind === "bow" && ship === dent.ship);
+    if (!isCrushed && found.length < MOST) found.push(dent);
+  }
+  return found;
 }
 
 /** The energy [J] that sets something on fire. `infos`: what is known of the ships that take part. */
@@ -38,7 +51,7 @@ export const ignitionOf = (infos) => (infos.some(({ kind }) => /tanker|gas/i.tes
 export function effectsOf(collision, infos, time, energy, isFire) {
   const borne = infos.map((info) => ({ info, point: info.name === collision.ship_a ? collision.a : collision.b }));
   if (!borne.length) return [];
-  const { info, point } = borne.reduce((a, b) => (b.point[0] / b.info.L_oa < a.point[0] / a.info.L_oa ? b : a));
+  const { info, point } = borne.reduce((a, b) => (b.point[0] / b.info.L_pp < a.point[0] / a.info.L_pp ? b : a));
   const intensity = Math.min(1, Math.max(FAINTEST, Math.cbrt(Math.max(0, energy) / FULL)));
   return Object.entries(isFire ? FIRES : HITS).map(([kind, [delay, duration]], k) => ({
     kind, ship: info.name, point, outwards: [0, Math.sign(point[1]) || 1, 0],
