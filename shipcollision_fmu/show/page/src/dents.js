@@ -83,6 +83,16 @@ const PLATE_VERTEX = /* glsl */ `
   }`;
 const PLATE_FRAGMENT = "varying vec3 vColour; void main() { gl_FragColor = vec4(vColour, 1.0); }";
 
+// One material for all openings, and one for all plates: dents that take the place of smaller ones compile nothing anew.
+const OPENING = new THREE.ShaderMaterial({
+  uniforms: { uAbove: LIGHT.uAbove, uBeam: LIGHT.uBeam, uInverse: { value: new THREE.Matrix4() }, uGrown: { value: 0 }, uGlow: { value: 0 }, uDepth: { value: 0 } },
+  vertexShader: VERTEX, fragmentShader: FRAGMENT, transparent: true, depthWrite: false, side: THREE.DoubleSide, toneMapped: false,
+  polygonOffset: true, polygonOffsetFactor: -3, polygonOffsetUnits: -3,
+});
+const PLATES = new THREE.ShaderMaterial({
+  uniforms: { ...LIGHT, ...FIRE }, vertexShader: PLATE_VERTEX, fragmentShader: PLATE_FRAGMENT, side: THREE.DoubleSide, toneMapped: false,
+});
+
 /** Triangles of a ship's hull within a distance of a place, in b: three corners each. */
 function collectPlating(node, middle, reach) {
   const found = [], corners = [0, 1, 2].map(() => new THREE.Vector3());
@@ -152,14 +162,12 @@ function makeOpening(dent, ship) {
   geometry.setAttribute("position", new THREE.Float32BufferAttribute(places, 3));
   geometry.setAttribute("aLocal", new THREE.Float32BufferAttribute(locals, 3));
   geometry.setAttribute("aRing", new THREE.Float32BufferAttribute(rings, 1));
-  const uniforms = {
-    uAbove: LIGHT.uAbove, uBeam: LIGHT.uBeam, uInverse: { value: toFrame }, uGrown: { value: 0 }, uGlow: { value: 0 },
-    uDepth: { value: Math.min(Math.max(3, dent.depth), 0.6 * info.B) },
+  const values = { uInverse: toFrame, uGrown: 0, uGlow: 0, uDepth: Math.min(Math.max(3, dent.depth), 0.6 * info.B) };
+  const patch = new THREE.Mesh(geometry, OPENING);
+  patch.onBeforeRender = () => {
+    for (const [name, value] of Object.entries(values)) OPENING.uniforms[name].value = value;
+    OPENING.uniformsNeedUpdate = true;
   };
-  const patch = new THREE.Mesh(geometry, new THREE.ShaderMaterial({
-    uniforms, vertexShader: VERTEX, fragmentShader: FRAGMENT, transparent: true, depthWrite: false, side: THREE.DoubleSide, toneMapped: false,
-    polygonOffset: true, polygonOffsetFactor: -3, polygonOffsetUnits: -3,
-  }));
   patch.renderOrder = 0.5; // before fire and smoke
   const plates = makePlates(dent, rays, centre, frame, random);
   for (const mesh of [patch, plates.mesh]) {
@@ -171,13 +179,16 @@ function makeOpening(dent, ship) {
   return {
     grow(share, glow) {
       patch.visible = plates.mesh.visible = share > 0;
-      uniforms.uGlow.value = glow;
+      values.uGlow = glow;
       if (share === shown) return;
       shown = share;
-      uniforms.uGrown.value = share;
+      values.uGrown = share;
       if (share > 0) plates.bend(share);
     },
-    remove: () => node.remove(patch, plates.mesh),
+    remove() {
+      node.remove(patch, plates.mesh);
+      for (const mesh of [patch, plates.mesh]) mesh.geometry.dispose();
+    },
   };
 }
 
@@ -197,11 +208,8 @@ function makePlates(dent, rays, centre, { outwards }, random) {
     const k = RINGS.findIndex((ring) => ring >= distance), to = RINGS[k], from = k ? RINGS[k - 1] : 0;
     return (k ? rays[ray][k - 1] : centre).clone().lerp(rays[ray][k], (distance - from) / (to - from));
   };
-  const mesh = new THREE.Mesh(geometry, new THREE.ShaderMaterial({
-    uniforms: { ...LIGHT, ...FIRE }, vertexShader: PLATE_VERTEX, fragmentShader: PLATE_FRAGMENT, side: THREE.DoubleSide, toneMapped: false,
-  }));
   return {
-    mesh,
+    mesh: new THREE.Mesh(geometry, PLATES),
     bend(share) {
       bends.forEach(({ out, length }, i) => {
         const [a, b] = [along(i, share), along((i + 1) % RAYS, share)];
@@ -248,8 +256,9 @@ class CrushedBow {
     return known;
   }
 
-  /** Colours at the corners, for the full picture: the material of this bow alone has them. */
+  /** Colours at the corners, for the full picture: the material of this bow alone has them, from its first crush on. */
   colour(mesh) {
+    if (mesh.geometry.attributes.color) return mesh.geometry.attributes.color;
     if (!mesh.material.isMeshStandardMaterial || mesh.material.name === "windows") return null;
     const { position } = mesh.geometry.attributes;
     mesh.geometry.setAttribute("color", new THREE.Float32BufferAttribute(new Float32Array(3 * position.count).fill(1), 3));

@@ -260,7 +260,7 @@ function findDrift({ node, track }, wind, sinceStart, drift) {
   return drift.applyQuaternion(node.quaternion.clone().invert());
 }
 
-/** Adds all effects to their ships, [{node, info, track}]; returns what shows them at a time, and how many are at work. */
+/** Adds all effects to their ships, [{node, info, track}]; `show(time)` says how many are at work, `remove()` takes them away. */
 export function addEffects(effects, ships, start = 0) {
   const made = effects.map((effect) => {
     const ship = ships.find(({ info }) => info.name === effect.ship);
@@ -268,16 +268,24 @@ export function addEffects(effects, ships, start = 0) {
     ship.node.add(one.mesh);
     return { effect, ship, ...one };
   });
-  return (time, isPlain = false, wind = [0, 0]) => {
-    let active = 0;
-    for (const { effect, ship, mesh, material, plain } of made) {
-      mesh.material = isPlain ? plain : material;
-      const age = time - effect.time;
-      mesh.visible = age > 0 && age < effect.duration + LINGER[effect.kind];
-      material.uniforms.uAge.value = age; // the plain one has the same
-      if (mesh.visible && DRIFTS.includes(effect.kind)) findDrift(ship, wind, time - start, material.uniforms.uDrift.value);
-      active += mesh.visible;
-    }
-    return active;
+  return {
+    show(time, isPlain = false, wind = [0, 0]) {
+      let active = 0;
+      for (const { effect, ship, mesh, material, plain } of made) {
+        mesh.material = isPlain ? plain : material;
+        const age = time - effect.time;
+        mesh.visible = age > 0 && age < effect.duration + LINGER[effect.kind];
+        material.uniforms.uAge.value = age; // the plain one has the same
+        if (mesh.visible && DRIFTS.includes(effect.kind)) findDrift(ship, wind, time - start, material.uniforms.uDrift.value);
+        active += mesh.visible;
+      }
+      return active;
+    },
+    remove() {
+      for (const { ship, mesh, material, plain } of made) {
+        ship.node.remove(mesh);
+        for (const one of [mesh.geometry, material, plain]) one.dispose();
+      }
+    },
   };
 }

@@ -120,7 +120,7 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
     shown.triangles = scratches.show(time - data.start);
     shown.sparks = showSparks(time - data.start);
     shown.dents = dents.flatMap(({ show }) => show(time, fires));
-    shown.effects = effects.reduce((count, showAt) => count + showAt(time, plain, wind), 0);
+    shown.effects = effects.reduce((count, { show }) => count + show(time, plain, wind), 0);
     fireLight.show(time, fires, ships);
   }
 
@@ -217,13 +217,13 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
     },
     /** Adds effects of a collision that has happened since; returns what takes them away again. */
     addEffects(more) {
-      const showAt = addEffects(more, ships, data.start);
+      const added = addEffects(more, ships, data.start);
       const burning = more.filter(burns);
-      effects.push(showAt);
+      effects.push(added);
       fires.push(...burning);
       return () => {
-        showAt(-Infinity);
-        effects.splice(effects.indexOf(showAt), 1);
+        added.remove();
+        effects.splice(effects.indexOf(added), 1);
         for (const fire of burning) fires.splice(fires.indexOf(fire), 1);
       };
     },
