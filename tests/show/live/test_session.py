@@ -26,11 +26,12 @@ PAGE = """
       heard.length = 0;
       if (step.hello) session.listen("hello", { ships: [{ name: "own" }], own: "own", touches: [] });
       else if (step.back !== undefined) session.listen("event", { kind: "back", time: step.back });
+      else if (step.begins) session.listen("event", { kind: "collision begins", ...begun(0), start: step.begins });
       else if (step.touches) session.listen("touches", { touches: step.touches.map((time) => ({ time })) });
       else session.listen("state", stateOf(step));
       const shown = session.present(now);
       return {
-        alarms: session.alarms.sorted.map(({ key, state }) => `${key} ${state}`),
+        alarms: session.alarms.sorted.map(({ key, state, words }) => words() && `${key} ${state}`),
         touches: session.touches.map(({ time }) => time),
         backs: heard.filter(([type]) => type === "back").map(([, time]) => time),
         shown: shown && [shown.time, shown.ships.own.eta[0]],
@@ -67,6 +68,12 @@ def test_the_same_collision_is_news_again_after_going_back() -> None:
     assert met["alarms"] == again["alarms"] == ["contact raised"]
     *_, old = play(state(10.0, 9.0, points=1), state(10.5, 9.0), {"back": 10.25}, state(11.0, 9.0))
     assert old["alarms"] == []
+
+
+def test_a_collision_is_told_of_before_there_is_a_state_with_it() -> None:
+    """The alarm stays, and has its words, though the next state was made before."""
+    found = play(state(10.0), {"begins": 10.25}, state(10.0), state(10.5, 10.25, points=1))
+    assert [step["alarms"] for step in found] == [[], *[["contact raised"]] * 3]
 
 
 def test_a_step_back_that_was_not_heard_is_seen() -> None:

@@ -126,7 +126,8 @@ export class Session {
     const last = state.contact.collisions.at(-1);
     const isNews = last !== undefined && (state.contact.points > 0 || (!this.old.has(keyOf(last)) && state.time - last.time < JUST));
     for (const collision of state.contact.collisions) this.meet(collision);
-    alarms.set("contact", isNews, "alarm", () => say("alarm_contact", { a: last.ship_a, b: last.ship_b }));
+    // A collision may have been told of before there is a state with it.
+    if (last !== undefined) alarms.set("contact", isNews, "alarm", () => say("alarm_contact", { a: last.ship_a, b: last.ship_b }));
     alarms.set("slow", !state.paused && !state.paced && state.real_rate < KEPT * state.rate, "caution", () => say("alarm_slow", { rate: number(state.real_rate, 2) }));
     const failing = this.role === "bridge" ? [this.own] : [];
     for (const what of ["blackout", "rudder"]) {
