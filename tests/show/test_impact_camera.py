@@ -49,8 +49,13 @@ def test_the_free_part_is_the_largest_rectangle_that_nothing_touches(
 
 @pytest.mark.parametrize(
     ("size", "wishes"),
-    [((1280, 720), ""), ((1280, 480), ""), ((920, 560), ""), ((500, 900), ""), ((1280, 600), "bare")],
-    ids=["desktop", "low", "small", "upright", "bare"],
+    [
+        pytest.param((1280, 720), "", id="desktop"),
+        pytest.param((500, 900), "", id="upright"),
+        pytest.param((1280, 600), "bare", id="bare"),
+        pytest.param((1280, 480), "", id="low", marks=pytest.mark.slow),
+        pytest.param((920, 560), "", id="small", marks=pytest.mark.slow),
+    ],
 )
 @pytest.mark.parametrize("later", [0.0, 1.5])
 def test_the_place_of_an_impact_is_not_covered(

@@ -139,6 +139,8 @@ async def _serve(app: LiveApp, listening: socket.socket, ready: Callable[[], Non
 
 async def _linger(app: LiveApp, interrupted: asyncio.Event) -> None:
     """Wait until the pages have gone to the replay, or until Ctrl-C."""
+    if not app.hub.clients:
+        return
     loop = asyncio.get_running_loop()
     end = loop.time() + LINGER
     await asyncio.sleep(GOODBYE)
