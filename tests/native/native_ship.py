@@ -82,6 +82,8 @@ class NativeShip:
         for name in ("ship_state_size", "get_ship_state"):
             getattr(self.library, f"shipcollision_{name}").restype = ctypes.c_size_t
         self._ship = ctypes.c_void_p(self.library.shipcollision_make_ship(self.directory.encode()))
+        if not self._ship:
+            raise ValueError(f"a folder of {len(self.directory.encode())} bytes: it must have less than 4096")
         at = {name: getattr(self.library, f"shipcollision_ship_{name}")(self._ship) for name in ("inputs", "outputs")}
         self._inputs, self._outputs = _Inputs.from_address(at["inputs"]), _Outputs.from_address(at["outputs"])
         self._parameters = _Parameters.from_address(self.library.shipcollision_ship_parameters(self._ship))
