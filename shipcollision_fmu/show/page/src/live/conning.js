@@ -36,7 +36,7 @@ export function commandWords({ limits, recorded }, inCommand, client) {
 export class Conning {
   constructor(give, horn) {
     Object.assign(this, { give, horn, ordered: 0, telegraph: 0, heading: 0, isOnAutopilot: false, isPilotTaken: false, limit: USUAL_LIMIT });
-    Object.assign(this, { given: 0, waits: null, steps: 0 });
+    Object.assign(this, { given: 0, waits: null, taken: null, steps: 0 });
     this.wheel = this.makeWheel();
     this.gauge = makeRudderGauge();
     this.levers = [4, 3, 2, 1, 0, -1, -2, -3, -4].map((position) => {
@@ -132,7 +132,7 @@ export class Conning {
   reset(ship, steps) {
     this.blow(false);
     if (this.timer) this.flush();
-    this.waits = null;
+    this.waits = this.taken = null;
     this.given++; // answers to come are those of the ship before
     this.show(ship, false, steps);
   }
@@ -152,12 +152,12 @@ export class Conning {
     clearTimeout(this.timer);
     Object.assign(this, { timer: null, fields: {}, sent: performance.now() });
     const answer = await this.give(order);
+    if (answer !== null) this.taken = answer.step_count; // the step after it has the order
     if (given !== this.given) return; // another order has been given since
+    this.waits = this.taken; // after a refusal that of the order before, which the ship may not have yet
     if (answer === null) {
-      this.waits = null;
       this.show(this.ship, !this.node.classList.contains("idle"), this.steps);
     } else {
-      this.waits = answer.step_count; // the step after it has the order
       this.isPilotTaken = this.isOnAutopilot;
       this.paint();
     }
@@ -217,6 +217,7 @@ export class Conning {
 
   /** Shows a ship's state after that many steps; what was ordered just now stays until the ship has it. */
   show(ship, isInCommand, steps) {
+    if (steps < this.steps) this.taken = null; // the run has gone back
     if (this.waits !== null && this.waits !== Infinity && (steps > this.waits || steps < this.steps)) this.waits = null;
     Object.assign(this, { ship, steps });
     this.node.classList.toggle("idle", !isInCommand);
