@@ -9,6 +9,7 @@ import re
 import shlex
 import subprocess
 import time
+from io import BytesIO
 from math import degrees
 from pathlib import Path
 
@@ -20,6 +21,7 @@ from selenium.webdriver.common.by import By
 
 from shipcollision_fmu import load_scenario, simulate
 from shipcollision_fmu.ship.frames import rotation, rotation_from_quaternion
+from shipcollision_fmu.show.gltf import gltf
 from shipcollision_fmu.show.gltf.gltf import build_glb
 from shipcollision_fmu.show.gltf.ribbons import lay_ribbon
 from shipcollision_fmu.show.outputs import describe
@@ -164,6 +166,25 @@ def test_the_sides_are_seen_in_their_ships_colours(page: Page, scene: Scene) -> 
     blue, red = hues
     assert blue[2] > 1.4 * blue[0]
     assert red[0] > 1.8 * red[2]
+
+
+@pytest.mark.parametrize("plain", ["yes", pytest.param("no", marks=pytest.mark.slow)])
+def test_shade_darkens_the_picture(
+    browser: Chrome, guan2014: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, plain: str
+) -> None:
+    """A ship's deck and house, with the ambient occlusion of the scene and without."""
+    seen = []
+    for name, shaded in (("shaded", gltf.is_shaded), ("bare", lambda paint: False)):
+        monkeypatch.setattr(gltf, "is_shaded", shaded)
+        path = tmp_path / f"{name}.html"
+        path.write_text(build_page(load_scene(guan2014)), encoding="utf-8")
+        page = Page(browser, path, f"plain={plain}&t=0.5&camera=ship-1", SMALL)
+        page.run("replay.drawn()")
+        with Image.open(BytesIO(browser.get_screenshot_as_png())) as picture:
+            seen.append(np.asarray(picture.convert("L")).astype(int))
+    change = seen[1] - seen[0]
+    assert (change > 10).sum() > 200
+    assert (change < -10).sum() < 0.1 * (change > 10).sum()
 
 
 @pytest.mark.slow

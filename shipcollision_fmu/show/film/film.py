@@ -12,6 +12,8 @@ from ..scene.camera import ANGLE, place_camera
 from ..scene.palette import convert_to_display, find_paint
 from ..scene.parts import Part, list_obstacle_parts, list_ship_parts
 from ..scene.scene import Scene, Ship
+from ..scene.shade import Shade, cast_shade
+from ..scene.shaded import find_face_shares, is_shaded
 from ..scene.surface import Surface
 from .picture import Backdrop, Faces, Line, draw_backdrop, draw_picture
 from .puffs import Puffs, make_puffs
@@ -22,6 +24,8 @@ __all__ = ["Film"]
 Pixels = npt.NDArray[np.uint8]
 LINE = 3.0 / 540
 """Width of a scratch as a fraction of the picture's height."""
+DISPLAY = 1.0 / 2.2
+"""Exponent from a share of light to one of a colour as on the screen."""
 LIFT = 0.15
 """[m] Distance of a scratch from the plating, which would otherwise hide it in part."""
 
@@ -37,9 +41,9 @@ class Film:
         self._scene, self._width, self._height = scene, width, height
         self._camera = place_camera(scene)
         self._behind = None if fixed is None else self._backdrop(fixed)
-        self._bodies = [_Body(list_ship_parts(ship, i)) for i, ship in enumerate(scene.ships)]
+        self._bodies = [_paint_ship(list_ship_parts(ship, i), ship.B) for i, ship in enumerate(scene.ships)]
         self._fixed = [
-            _Body(list_obstacle_parts(obstacle)).place(rotation((0.0, 0.0, obstacle.heading)), obstacle.position)
+            _paint(list_obstacle_parts(obstacle)).place(rotation((0.0, 0.0, obstacle.heading)), obstacle.position)
             for obstacle in scene.obstacles
         ]
 
@@ -82,18 +86,29 @@ class Film:
 
 @dataclass(frozen=True, eq=False)
 class _Body:
-    """Triangles of a body in its b."""
+    """Corners (m, 3, 3) in its b and colours (m, 3) of the triangles of a body."""
 
-    parts: list[Part]
+    corners: Array
+    colours: Array
 
     def place(self, R: Array, position: Array) -> Faces:
         """Its triangles in n."""
-        corners = [_list_corners(surface) for _, surface in self.parts]
-        colours = [
-            np.broadcast_to(convert_to_display(paint.colour), (len(surface.triangles), 3))
-            for paint, surface in self.parts
-        ]
-        return Faces(position + np.concatenate(corners) @ R.T, np.concatenate(colours))
+        return Faces(position + self.corners @ R.T, self.colours)
+
+
+def _paint(parts: list[Part], shade: Shade | None = None) -> _Body:
+    """Parts in their colours, darker where less light reaches them."""
+    colours = []
+    for paint, surface in parts:
+        shares = (
+            find_face_shares(surface, shade) if shade and is_shaded(paint.name) else np.ones(len(surface.triangles))
+        )
+        colours.append(convert_to_display(paint.colour) * shares[:, None] ** DISPLAY)
+    return _Body(np.concatenate([_list_corners(surface) for _, surface in parts]), np.concatenate(colours))
+
+
+def _paint_ship(parts: list[Part], breadth: float) -> _Body:
+    return _paint(parts, cast_shade([(paint.name, surface) for paint, surface in parts], breadth))
 
 
 def _list_corners(surface: Surface) -> Array:

@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 __all__ = ["Document"]
 
-FLOAT, UNSIGNED_SHORT, UNSIGNED_INT = 5126, 5123, 5125
+FLOAT, UNSIGNED_BYTE, UNSIGNED_SHORT, UNSIGNED_INT = 5126, 5121, 5123, 5125
 VERTICES, INDICES = 34962, 34963
 _TYPES = {1: "SCALAR", 3: "VEC3", 4: "VEC4"}
 
@@ -40,6 +40,15 @@ class Document:
     def add_vertices(self, values: npt.ArrayLike) -> int:
         """Add an accessor of vertex data (n,) or (n, 3)."""
         return self._add_floats(values, VERTICES)
+
+    def add_colours(self, values: npt.NDArray[np.float64]) -> int:
+        """Add an accessor of linear colours (n, 3) from 0 to 1, opaque, a byte each: rows begin at multiples of 4."""
+        table = np.full((len(values), 4), 255, dtype=np.uint8)
+        table[:, :3] = np.round(255.0 * np.clip(values, 0.0, 1.0))
+        return self._add_accessor(
+            table.tobytes(), VERTICES,
+            {"componentType": UNSIGNED_BYTE, "normalized": True, "count": len(table), "type": "VEC4"},
+        )  # fmt: skip
 
     def add_keys(self, values: npt.ArrayLike) -> int:
         """Add an accessor of times (n,) or values (n, 3 or 4) of an animation."""

@@ -10,7 +10,8 @@
 
 Translations are in n from `origin` (see the scene's extras), in metres, so that single precision is enough; times count
 from the scene's start. A viewer that plays no animation shows the end of every scratch. Vertices of scratches carry the
-time at which they are drawn as attribute _TIME, for viewers that want to draw them point by point.
+time at which they are drawn as attribute _TIME, for viewers that want to draw them point by point. COLOR_0 is ambient
+occlusion (scene/shade.py), by which a material's colour is multiplied.
 
 extras of the scene      start [s], origin [m], events, effects (glTF has no particles), frames in words
 extras of a node         {"ship": name, ...}, {"obstacle": name}, {"scratch": id, "time": s},
@@ -32,6 +33,8 @@ from ..scene.lights import Light
 from ..scene.palette import LIVERIES, Paint, choose_topsides, convert_to_linear, find_paint
 from ..scene.parts import Shape, join_fittings, join_shapes
 from ..scene.scene import Obstacle, Scene, Scratch, Ship
+from ..scene.shade import Shade, cast_shade
+from ..scene.shaded import CUT, is_shaded, shade_surface
 from ..scene.surface import Surface, compute_corner_normals, drop_flat_triangles
 from .glb import Document
 from .ribbons import Ribbon, lay_ribbon
@@ -75,9 +78,11 @@ class _Writer:
     def _add_ship(self, index: int, ship: Ship) -> int:
         document, track = self._document, ship.track
         paints = dict.fromkeys(LIVERIES, choose_topsides(index))
-        children = [self._add_node("hull", self._add_mesh(join_shapes(ship.shell), paints))]
-        if ship.fittings:
-            children.append(self._add_node("fittings", self._add_mesh(join_fittings(ship.fittings), paints)))
+        shell, fittings = join_shapes(ship.shell), join_fittings(ship.fittings)
+        shade = cast_shade([*shell, *fittings], ship.B)
+        children = [self._add_node("hull", self._add_mesh(shell, paints, shade))]
+        if fittings:
+            children.append(self._add_node("fittings", self._add_mesh(fittings, paints, shade)))
         children += [self._add_light(light) for light in ship.lights]
         for scratch in self._scene.scratches:
             if scratch.ship == ship.name:
@@ -143,17 +148,21 @@ class _Writer:
 
     # -- meshes ---------------------------------------------------------------------------------------
 
-    def _add_mesh(self, shapes: Sequence[Shape], paints: dict[str, Paint]) -> int:
+    def _add_mesh(self, shapes: Sequence[Shape], paints: dict[str, Paint], shade: Shade | None = None) -> int:
         primitives = []
         for paint, surface in shapes:
             if len(surface.triangles):
-                vertices, normals, triangles = _join_corners(surface)
+                shaded = shade if is_shaded(paint) else None
+                vertices, normals, triangles, colours = _join_corners(surface, shaded, paint in CUT)
+                attributes = {
+                    "POSITION": self._document.add_vertices(vertices),
+                    "NORMAL": self._document.add_vertices(normals),
+                }
+                if colours is not None:
+                    attributes["COLOR_0"] = self._document.add_colours(colours)
                 primitives.append(
                     {
-                        "attributes": {
-                            "POSITION": self._document.add_vertices(vertices),
-                            "NORMAL": self._document.add_vertices(normals),
-                        },
+                        "attributes": attributes,
                         "indices": self._document.add_indices(triangles),
                         "material": self._add_material(paints.get(paint) or find_paint(paint)),
                     }
@@ -202,12 +211,15 @@ class _Writer:
         self._channels.append({"sampler": len(self._samplers) - 1, "target": {"node": node, "path": path}})
 
 
-def _join_corners(surface: Surface) -> tuple[Array, Array, Indices]:
-    """Vertices and normals of a surface, corners with the same of both joined, and triangles."""
+def _join_corners(surface: Surface, shade: Shade | None, is_cut: bool) -> tuple[Array, Array, Indices, Array | None]:
+    """Vertices and normals of a surface, corners with the same of both joined; triangles; grey (n, 3) if shaded."""
+    if shade is not None:
+        shaded = shade_surface(surface, shade, is_cut)
+        return shaded.vertices, shaded.normals, shaded.triangles, np.repeat(shaded.shares[:, None], 3, axis=1)
     solid = drop_flat_triangles(surface)
     corners = np.concatenate([solid.vertices[solid.triangles], compute_corner_normals(solid)], axis=2).reshape(-1, 6)
     _, first, place = np.unique(np.round(corners, 6), axis=0, return_index=True, return_inverse=True)
-    return corners[first, :3], corners[first, 3:], place.reshape(-1, 3).astype(np.int64)
+    return corners[first, :3], corners[first, 3:], place.reshape(-1, 3).astype(np.int64), None
 
 
 def _split_in_time(appears: Array, count: int) -> list[Indices]:

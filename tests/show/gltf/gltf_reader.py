@@ -11,7 +11,7 @@ import numpy as np
 
 from shipcollision_fmu.ship.frames import Array, rotation_from_quaternion
 
-COMPONENTS = {5126: "<f4", 5123: "<u2", 5125: "<u4"}
+COMPONENTS = {5126: "<f4", 5121: "u1", 5123: "<u2", 5125: "<u4"}
 WIDTHS = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}
 
 

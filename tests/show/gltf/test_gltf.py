@@ -190,6 +190,23 @@ def test_no_triangle_is_without_area_and_normals_point_out(written: bytes) -> No
                 assert np.all(np.einsum("ij,ij->i", facing, normals[triangles[:, 0]]) > 0.0)
 
 
+def test_decks_and_walls_carry_their_shade_and_plating_none(written: bytes) -> None:
+    """COLOR_0, a byte each and opaque; Khronos' validator looks at its form."""
+    read = Glb(written)
+    shades: dict[str, Array] = {}
+    for primitive in (p for mesh in read.json["meshes"] for p in mesh["primitives"]):
+        if "COLOR_0" in primitive["attributes"]:
+            name = read.json["materials"][primitive["material"]]["name"]
+            colours = read.accessor(primitive["attributes"]["COLOR_0"]) / 255.0
+            assert len(colours) == len(read.accessor(primitive["attributes"]["POSITION"]))
+            assert (colours[:, 3] == 1.0).all()
+            assert np.ptp(colours[:, :3], axis=1).max() == 0.0
+            shades[name] = np.append(shades.get(name, []), colours[:, 0])
+    assert not any(name.startswith(("topsides", "antifouling", "windows", "scratch")) for name in shades)
+    for name in (*(name for name in shades if name.startswith("deck")), "house"):
+        assert shades[name].min() < 0.6 < 0.95 < shades[name].max()
+
+
 def test_extras_hold_the_collisions_and_the_effects(folder: Path, scene: Scene, written: bytes) -> None:
     extras = Glb(written).json["scenes"][0]["extras"]
     collisions = json.loads((folder / "events.json").read_text())["collisions"]

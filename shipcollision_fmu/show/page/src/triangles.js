@@ -15,7 +15,7 @@ const turnOver = (nine) => [...nine.slice(0, 3), ...nine.slice(6), ...nine.slice
 
 /**
  * Triangles in the frame of the meshes' owner: {corners: 9 numbers, normals: 9, paint: colour and kind,
- * last: when its last corner is drawn [s], if it has times, ids: of its corners}. Surfaces seen from both sides come twice.
+ * shades: share of the light at each corner, last: when its last corner is drawn [s], if it has times, ids: of its corners}. Surfaces seen from both sides come twice.
  */
 export function collectTriangles(meshes, owner) {
   const found = [], place = new THREE.Vector3();
@@ -31,12 +31,13 @@ export function collectTriangles(meshes, owner) {
       const at = [0, 1, 2].map((k) => index.getX(i + k));
       const corners = at.flatMap((k) => place.fromBufferAttribute(attributes.position, k).applyMatrix4(toOwner).toArray());
       const normals = at.flatMap((k) => place.fromBufferAttribute(attributes.normal, k).applyNormalMatrix(turned).toArray());
+      const shades = at.map((k) => attributes.color?.getX(k) ?? 1);
       const last = attributes._time ? Math.max(...at.map((k) => attributes._time.getX(k))) : undefined;
       const ids = at.map((k) => used + 2 * k);
-      found.push({ corners, normals, paint, last, ids });
+      found.push({ corners, normals, paint, shades, last, ids });
       if (mesh.material.side !== THREE.DoubleSide) continue;
       const [first, second, third] = ids.map((id) => id + 1);
-      found.push({ corners: turnOver(corners), normals: turnOver(normals).map((x) => -x), paint, last, ids: [first, third, second] });
+      found.push({ corners: turnOver(corners), normals: turnOver(normals).map((x) => -x), paint, shades: [shades[0], shades[2], shades[1]], last, ids: [first, third, second] });
     }
     used += 2 * attributes.position.count;
   }
@@ -53,7 +54,8 @@ export function joinTriangles(triangles) {
         known.set(id, known.size);
         places.push(...triangle.corners.slice(k, k + 3));
         normals.push(...triangle.normals.slice(k, k + 3));
-        paints.push(...triangle.paint);
+        const [r, g, b, kind] = triangle.paint, shade = triangle.shades[k / 3];
+        paints.push(r * shade, g * shade, b * shade, kind);
       }
       index.push(known.get(id));
     }
