@@ -55,3 +55,25 @@ def test_the_wind_of_a_run_is_that_of_its_surroundings(guan2014: Path, tmp_path:
     np.testing.assert_allclose(load_scene(tmp_path / "run").wind, [0.0, -10.0], atol=1e-12)
     file.unlink()
     np.testing.assert_array_equal(load_scene(tmp_path / "run").wind, [0.0, 0.0])
+
+
+@pytest.mark.needs("pybullet")
+def test_the_light_of_a_fire_on_the_water_begins_at_its_foot(browser: Chrome, guan2014: Path, tmp_path: Path) -> None:
+    """At night, against the same picture without a fire: bright beside the ship, and less farther away."""
+    scene = load_scene(guan2014)
+    fire = next(effect for effect in scene.effects if effect.kind == "fire")
+    dark = replace(scene, effects=tuple(e for e in scene.effects if e.kind not in ("fire", "explosion", "smoke")))
+    found = []
+    for name, shown in (("fire", scene), ("dark", dark)):
+        path = tmp_path / f"{name}.html"
+        path.write_text(build_page(shown), encoding="utf-8")
+        page = Page(browser, path, "sky=night&camera=impact&bare", (900, 560))
+        pose = page.slide(BURNING)["poses"][fire.ship]
+        foot = (pose["position"] + rotation_from_quaternion(pose["quaternion"]) @ fire.point)[:2]
+        way = np.array(page.run("return replay.drawn().eye"))[:2] - foot
+        way /= np.linalg.norm(way)
+        found.append([page.colour([*(foot + away * way), 0.0], half=3)[0] for away in (10, 13, 16, 19, 28, 32, 36, 40)])
+    added = np.subtract(*found)
+    near, far = added[:4].mean(), added[4:].mean()  # a bow hides what is nearer
+    assert near > 40.0  # levels of 255
+    assert far < 0.7 * near

@@ -28,9 +28,9 @@ __all__ = ["Effect", "EffectKind", "find_ignition", "make_effects", "point_outwa
 
 EffectKind = Literal["explosion", "debris", "fire", "smoke", "dust", "splash"]
 
-E_FULL = 1e8
-"""[J] Energy of an effect at full strength; a larger value makes every effect smaller."""
-FAINTEST = 0.05
+E_FULL = 1e9
+"""[J] Energy of an effect at full strength; few collisions dissipate more. Larger values make all smaller."""
+FAINTEST = 0.023
 """Least intensity; with zero a scratch would have no visible effect."""
 IGNITION = 5.0e7
 """[J] Least energy along a scratch with explosion and fire, of dry cargo ships: half of what the published encounter
@@ -40,11 +40,11 @@ IGNITION_OF_OIL_AND_GAS = 3.27e7
 before a ship's side is opened to a depth. Cargo can burn from then on."""
 OIL_AND_GAS = ("tanker, loaded", "tanker, in ballast", "liquefied natural gas tanker")
 """Types of ship whose cargo, or what is left of it in empty tanks, burns."""
-LARGEST = 6.0
+LARGEST = 13.0
 """[m] Size at full strength; sizes and speeds of the particles scale with it."""
 KINDS: dict[EffectKind, tuple[float, float]] = {
-    "explosion": (0.0, 1.0), "debris": (0.0, 1.0), "fire": (0.4, 25.0), "smoke": (0.8, 60.0),
-    "dust": (0.0, 1.2), "splash": (0.0, 1.0),
+    "explosion": (0.0, 1.5), "debris": (0.0, 1.5), "fire": (0.6, 54.0), "smoke": (0.9, 130.0),
+    "dust": (0.0, 2.6), "splash": (0.0, 2.2),
 }  # fmt: skip
 """Delay after the contact and duration of the emission at full strength [s], by kind."""
 

@@ -1,13 +1,13 @@
 // The effects of a collision, as show/scene/effects.py makes them of a run that is over: dust and splash at once, fire
 // from the moment at which the energy dissipated so far reaches what sets a cargo on fire.
 
-const FULL = 1e8; // energy of an effect at full strength [J]
-const FAINTEST = 0.05;
-const LARGEST = 6; // [m]
+const FULL = 1e9; // energy of an effect at full strength [J]
+const FAINTEST = 0.023;
+const LARGEST = 13; // [m]
 const IGNITION = 5e7; // [J], and where a tanker or a gas carrier takes part:
 const IGNITION_OF_OIL_AND_GAS = 3.27e7;
-const HITS = { dust: [0, 1.2], splash: [0, 1] }; // delay, duration [s]
-const FIRES = { explosion: [0, 1], debris: [0, 1], fire: [0.4, 25], smoke: [0.8, 60] };
+const HITS = { dust: [0, 2.6], splash: [0, 2.2] }; // delay, duration [s]
+const FIRES = { explosion: [0, 1.5], debris: [0, 1.5], fire: [0.6, 54], smoke: [0.9, 130] };
 
 // Sizes of dents, as in show/scene/dents.py, which says what they mean.
 const STEEL = 47.2e6, PLATES = 0.06, SLOPE = Math.tan(Math.PI / 6), CRUSH = 0.25;
