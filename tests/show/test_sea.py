@@ -245,7 +245,7 @@ def test_lights_burn_at_night_at_their_places(page: Page, scene: Scene) -> None:
 def test_waves_mirror_a_lamp_below_it_and_break_its_light(browser: Chrome, kvlcc2_crossing: Path) -> None:
     """There is light where the water would mirror the lamp, none beside it, and it changes with the waves."""
     scene = load_scene(kvlcc2_crossing)
-    crossing = Page(browser, write_page(kvlcc2_crossing), "plain=yes&t=5&camera=all&sky=night", (640, 440))
+    crossing = Page(browser, write_page(kvlcc2_crossing), "plain=yes&t=5&camera=all&sky=night", (920, 700))
     at = eye(crossing)
     poses = crossing.run("return replay.drawn().poses")
     gains, changes = [], []

@@ -8,7 +8,9 @@ import { toWorld } from "./tracks.js";
 
 const UP = new THREE.Vector3(0, 1, 0);
 const LOW = (4.6 * Math.PI) / 180; // elevation of the first view: from a launch, with sky over the ships
-const FILLED = 0.86; // of the free part of the picture, by all ships
+const FILLED = 0.94; // of the free part of the picture, by all ships
+const NEAREST = 60; // [m] from the middle of the ships
+const ROUNDS = 6; // until both edges are as near as each other
 const CHECK = 0.5, PATIENCE = 4; // [s] of the run: between two looks whether the view is still free, and between two new views
 const CREST = 1.2; // the highest wave that sea.js draws [m]
 const LOWEST = 2; // height of the eye [m]
@@ -119,8 +121,10 @@ export class Cameras {
       this.camera.position.add(moved);
     }
     this.last = anchor;
-    if (this.mode === "all") {
-      const { span } = this.fleet(); // ships that part or meet fill the picture as before
+    if (this.mode === "all" && !this.moved) {
+      this.fitAgain(); // ships that part or meet fill the picture as before
+    } else if (this.mode === "all") {
+      const { span } = this.fleet(); // as much nearer or farther as the ships
       const offset = this.camera.position.clone().sub(this.controls.target).multiplyScalar(span / this.lastSpan);
       this.camera.position.copy(this.controls.target).add(offset);
       this.lastSpan = span;
@@ -144,12 +148,13 @@ export class Cameras {
     if (this.mode === "impact" && !this.moved) this.choose("impact", this.chosen);
   }
 
-  /** The overview in a picture of another shape: all ships fill it again, seen from the same direction. */
+  /** The overview where ships have moved, or in a picture of another shape: all ships fill it again, seen from the same direction. */
   fitAgain() {
     const { middle, span } = this.fleet();
     const direction = this.camera.position.clone().sub(this.controls.target).normalize();
-    this.controls.target.copy(middle);
-    this.camera.position.copy(this.backOff(middle, direction, this.ends()));
+    const { target, position } = this.frame(middle, direction, this.ends());
+    this.controls.target.copy(target);
+    this.camera.position.copy(position);
     this.last = middle;
     this.lastSpan = span;
     this.controls.update();
@@ -166,7 +171,7 @@ export class Cameras {
       track.at(moment, position, new THREE.Quaternion());
       return toWorld(position);
     });
-    return { target, position: this.backOff(target, this.bestDirection(centres), this.ends()) };
+    return this.frame(target, this.bestDirection(centres), this.ends());
   }
 
   /** The direction, raised by LOW, from which ships lie side by side in three-quarter view and the struck side shows. */
@@ -199,19 +204,23 @@ export class Cameras {
     return best.addScaledVector(UP, Math.tan(LOW)).normalize();
   }
 
-  /** The nearest place from the target in a direction from which all points are in the picture. */
-  backOff(target, direction, points) {
+  /** The nearest view in a direction that has all points in the picture, as far from its left edge as from its right: {target, position}. */
+  frame(near, direction, points) {
     const forward = direction.clone().negate();
     const right = new THREE.Vector3().crossVectors(forward, UP).normalize();
     const above = new THREE.Vector3().crossVectors(right, forward);
     const { tanX, tanY } = this.freeAngles();
-    let distance = 60;
-    for (const point of points) {
-      const v = point.clone().sub(target);
-      const depth = v.dot(forward);
-      distance = Math.max(distance, Math.abs(v.dot(right)) / (FILLED * tanX) - depth, Math.abs(v.dot(above)) / (FILLED * tanY) - depth);
+    const target = near.clone();
+    let distance = NEAREST;
+    for (let round = 0; round < ROUNDS; round++) {
+      const places = points.map((point) => point.clone().sub(target)).map((v) => [v.dot(right), v.dot(above), v.dot(forward)]);
+      if (round) { // what is near fills more of the picture than what is far
+        const across = places.map(([x, , depth]) => x / (distance + depth));
+        target.addScaledVector(right, 0.5 * distance * (Math.min(...across) + Math.max(...across)));
+      }
+      distance = Math.max(NEAREST, ...places.map(([x, y, depth]) => Math.max(Math.abs(x) / (FILLED * tanX), Math.abs(y) / (FILLED * tanY)) - depth));
     }
-    return target.clone().addScaledVector(direction, distance);
+    return { target, position: target.clone().addScaledVector(direction, distance) };
   }
 
   closeUp(mode, time) {

@@ -8,11 +8,18 @@ import { HAZE } from "./haze.js";
 import { makePlainSea } from "./plain_sea.js";
 import { makeRipples, RIPPLES_GLSL, WATER } from "./ripples.js";
 import { SKY_GLSL } from "./sky.js";
+import { SUN_SHADOW } from "./sun_shadow.js";
 
 const RADIUS = 60000; // [m]
 const FINE = [150, 176], COARSE = [56, 96]; // rings and sectors of the full and of the plain sea
-/** Long waves: length [m], amplitude [m], bearing [rad]. */
-const SWELL = [[132, 0.52, 0.15], [81, 0.34, -0.42], [47, 0.2, 0.85], [29, 0.11, -0.95]];
+/** Long waves: length [m], amplitude [m], bearing [rad]. Those of 60 to 100 m are the swell: low, and seen as broad light and dark. */
+const SWELL = [[103, 0.5, 0.15], [67, 0.4, -0.32], [41, 0.18, 0.85], [27, 0.09, -0.95]];
+
+const FADES = 10; // waves of a tenth of a layer's tile, where most of its slope is, are seen by halves where a pixel is as long
+const BREAKS = 0.5; // share of the slopes by which the mirror image of a hull is broken up
+const MIRRORED = 0.5; // least share of a hull's image in the colour of the water: there it hides the sky from all waves
+const GREY = new THREE.Color(0.2, 0.2, 0.2); // of a hull in the water's colour
+const SHADED = 0.62; // light of the water in the shadow of a ship
 
 /** Rings around the camera, close together near it; triangles go around, sector by sector, so many times. */
 function makeRings([rings, sectors], turns = 1) {
@@ -53,6 +60,7 @@ const vertexShader = (count) => /* glsl */ `
   ${shipsGlsl(count)}
   varying vec3 vWorld;
   varying vec3 vSwell; // slopes, height
+  ${SUN_SHADOW.vertexHead}
   void add(vec2 p, float far, vec2 along, float k, float omega, float amplitude, float length_, inout vec3 moved, inout vec2 slope) {
     float phase = k * dot(along, p) - omega * uTime;
     float a = amplitude * exp(-far / (30.0 * length_));
@@ -77,6 +85,7 @@ const vertexShader = (count) => /* glsl */ `
     world.xyz += moved * calm;
     vWorld = world.xyz;
     vSwell = vec3(slope * (0.4 + 0.6 * calm), moved.y * calm);
+    ${SUN_SHADOW.vertex("world")}
     gl_Position = projectionMatrix * viewMatrix * world;
   }`;
 
@@ -90,6 +99,9 @@ const fragmentShader = (count) => /* glsl */ `
   ${RIPPLES_GLSL}
   ${FIELD_GLSL}
   ${shipsGlsl(count)}
+  ${SUN_SHADOW.pixelHead}
+  // Share of the waves of a layer that a pixel of so many metres can show; the rest is roughness.
+  float shown(float pixel, float tile) { float waves = ${FADES.toFixed(1)} * pixel / tile; return 1.0 / (1.0 + waves * waves); }
   // The plan of what is mirrored, in half lengths and half breadths: a x + b y < c, from shoulder to stem and at the quarter.
   const vec3 EDGES[3] = vec3[3](vec3(1.143, 1.0, 1.571), vec3(4.0, 1.0, 4.0), vec3(-0.833, 1.0, 1.583));
   // How much of a ship, taken for such a prism, a mirrored ray meets, and its colour.
@@ -113,8 +125,8 @@ const fragmentShader = (count) => /* glsl */ `
       }
       if (t < end && end > 0.0 && t < nearest) {
         nearest = t;
-        vec3 at = abs(origin + t * ray); // fainter towards the top, where there is more than a hull, and from afar, where waves scatter it
-        found = vec4(uColours[i], 0.8 * smoothstep(1.02, 0.85, at.x) * smoothstep(1.05, 0.55, at.z) * exp(-t / (12.0 * size.z)));
+        vec3 at = origin + t * ray; // fainter towards stem and top, where there is more than a prism, and from afar, where waves scatter it
+        found = vec4(uColours[i], 0.95 * smoothstep(1.0, 0.8, at.x) * smoothstep(-1.02, -0.95, at.x) * smoothstep(1.1, 0.6, at.z) * exp(-t / (16.0 * size.z)));
       }
     }
     return found;
@@ -125,49 +137,62 @@ const fragmentShader = (count) => /* glsl */ `
     vec3 view = away / distance_;
     vec2 p = vWorld.xz;
     vec2 drift = vec2(0.94, 0.34) * uTime;
+    vec2 across = fwidth(p);
+    float pixel = length(across); // [m] of the sea, as long as it is
+    vec4 seen = vec4(shown(pixel, 5.3), shown(pixel, 23.0), shown(pixel, 89.0), shown(pixel, 410.0));
+    vec4 steep = vec4(0.045, 0.052, 0.047, 0.022); // root mean square of each layer
+    vec3 finest = ripple((mat2(0.6, -0.8, 0.8, 0.6) * p - 0.8 * drift) / 5.3);
+    finest.xy = mat2(0.6, 0.8, -0.8, 0.6) * finest.xy;
     vec3 fine = ripple((p - 1.9 * drift) / 23.0);
     vec3 middle = ripple((mat2(0.8, 0.6, -0.6, 0.8) * p - 4.1 * drift) / 89.0);
     middle.xy = mat2(0.8, -0.6, 0.6, 0.8) * middle.xy;
-    vec2 slope = vSwell.xy + 0.055 * fine.xy + 0.050 * middle.xy;
+    vec3 broad = ripple((p - 7.0 * drift) / 410.0);
+    vec4 drawn = steep * seen;
+    vec2 slope = vSwell.xy + drawn.x * finest.xy + drawn.y * fine.xy + drawn.z * middle.xy + drawn.w * broad.xy;
     float height = vSwell.z + 0.18 * middle.z;
-    vec3 finest = ripple((mat2(0.6, -0.8, 0.8, 0.6) * p - 0.8 * drift) / 5.3), broad = ripple((p - 7.0 * drift) / 410.0);
-    finest.xy = mat2(0.6, 0.8, -0.8, 0.6) * finest.xy;
-    slope += 0.045 * finest.xy + 0.022 * broad.xy;
-    float gusts = 0.72 + 0.5 * broad.z + 0.28; // wind is not the same everywhere
-    slope *= clamp(gusts, 0.6, 1.35);
+    float gusts = clamp(1.0 + 0.5 * broad.z, 0.6, 1.35); // wind is not the same everywhere
+    slope *= gusts;
     vec4 field = fieldAt(p);
     slope += fieldSlope(p, field);
-    float rough = mix(0.05, 0.145, 1.0 - exp(-distance_ / 900.0)); // slopes that are too small to be seen from here
+    // Slopes that are too small to be seen from here, as the root of their mean square.
+    float rough = sqrt(0.0025 + gusts * gusts * dot(steep * steep, 1.0 - seen * seen));
+    // Waves hide the slopes that face away: the nearer a slope comes to that, the more its visible part leans to the eye.
+    vec2 level = view.xz / max(dot(view.xz, view.xz), 1e-4);
+    float bare = dot(slope, view.xz) - view.y, leaning = 0.5 * (bare + sqrt(bare * bare + rough * rough));
+    slope += (leaning - bare) * level;
     vec3 normal = normalize(vec3(-slope.x, 1.0, -slope.y));
     float facing = max(dot(-view, normal), 0.02);
     float fresnel = 0.02 + 0.98 * pow(1.0 - facing, 5.0 * exp(-2.7 * rough)) / (1.0 + 22.7 * rough * sqrt(rough));
     vec3 mirrored = reflect(view, normal);
     mirrored.y = abs(mirrored.y) + 0.6 * rough;
     mirrored = normalize(mirrored);
-    vec3 reflection = skyAt(mirrored, 2.2 + 8.0 * rough);
-    vec4 ship = mirroredShip(vWorld, normalize(mirrored - vec3(slope.x, 0.0, slope.y) * (0.6 * exp(-distance_ / 500.0))));
+    vec3 reflection = skyAt(mirrored, 4.3 + 8.0 * rough);
+    // Of a hull as much is seen as stays together: the mean of many waves, broken up by those that can be seen.
+    vec2 calmer = ${BREAKS.toFixed(2)} * slope;
+    vec3 towards = reflect(view, normalize(vec3(-calmer.x, 1.0, -calmer.y)));
+    vec4 ship = mirroredShip(vWorld, vec3(towards.x, max(towards.y, 0.02), towards.z));
     reflection = mix(reflection, ship.rgb * uFoam, ship.a);
+    float sunlit = sunAt();
     float crest = clamp(0.32 + 0.55 * height + field.g * 0.5, 0.0, 1.3);
     float through = pow(max(dot(view, normalize(vec3(uSun.x, 0.0, uSun.z))), 0.0), 3.0); // light through the crests
     vec3 deep = uDeep + uScatter * (0.32 * crest + 0.9 * crest * crest * through + 0.35 * (1.0 - facing) * max(height, 0.0));
     deep += uScatter * 1.6 * field.a;
-    vec3 colour = mix(deep, reflection, fresnel);
+    vec3 colour = mix(mix(deep, reflection, fresnel), ship.rgb * uFoam, ${MIRRORED.toFixed(2)} * ship.a);
     // Sun or moon in the slopes that are seen and in those that are not (Beckmann's distribution of slopes).
     vec3 middle_ = normalize(uSun - view);
     vec2 off = -middle_.xz / middle_.y - slope;
     float spread = rough * rough * 0.5 + 0.0009;
     float glitter = exp(-dot(off, off) / (2.0 * spread)) / (6.2832 * spread);
     float grazing = 0.02 + 0.98 * pow(1.0 - max(dot(-view, middle_), 0.0), 5.0);
-    colour += uDisc * uShine * min(0.03 * glitter * grazing / max(middle_.y * 4.0 * facing, 0.25), 2.4) * smoothstep(-0.02, 0.06, uSun.y);
-    colour *= 1.0 - 0.55 * field.b;
+    colour += uDisc * uShine * min(0.03 * glitter * grazing / max(middle_.y * 4.0 * facing, 0.25), 2.4) * sunlit * smoothstep(-0.02, 0.06, uSun.y);
+    colour *= (1.0 - 0.7 * field.b) * mix(${SHADED.toFixed(2)}, 1.0, sunlit);
     // Foam breaks up into a lace as it fades.
     float net = 0.40 * lace(p / 12.0 + 0.02 * slope) + 0.25 * lace(p.yx / 4.3 + 0.37) + 0.20 * lace(p / 37.0) + 0.15 * lace(p.yx / 131.0);
     float foam = field.r;
     foam = smoothstep(0.0, 0.55, foam - 0.55 + 0.6 * net) * min(1.0, 1.8 * foam);
     colour = mix(colour, uFoam * (0.78 + 0.3 * clamp(dot(normal, uSun), 0.0, 1.0) + 0.15 * net), clamp(foam, 0.0, 0.94));
     vec3 horizon = skyAt(normalize(vec3(view.x, 0.01, view.z)), 2.0);
-    float haze = distance_ / (0.5 * uHaze);
-    colour = mix(colour, horizon, 1.0 - exp(-haze));
+    colour = mix(colour, horizon, 1.0 - exp(-pow(distance_ / (0.3 * uHaze), 1.5)));
     gl_FragColor = vec4(colour, 1.0);
     #include <tonemapping_fragment>
     #include <colorspace_fragment>
@@ -201,15 +226,16 @@ export function makeSea(ships, sky, field) {
     ...LIGHT, ...sky, ...field, ...WATER, ...HAZE,
     uPlaces: { value: places },
     uSizes: { value: ships.map(({ halfLength, halfBreadth, height }) => new THREE.Vector3(halfLength, halfBreadth, height)) },
-    uColours: { value: ships.map(({ colour }) => new THREE.Color(colour).multiplyScalar(0.6)) },
+    uColours: { value: ships.map(({ colour }) => new THREE.Color(colour).lerp(GREY, 0.2).multiplyScalar(0.4)) },
   };
   const ripples = (WATER.uRipples.value = makeRipples());
-  const material = new THREE.ShaderMaterial({ uniforms, vertexShader: vertexShader(ships.length), fragmentShader: fragmentShader(ships.length) });
+  const material = new THREE.ShaderMaterial({ ...SUN_SHADOW.material, uniforms: { ...SUN_SHADOW.uniforms, ...uniforms }, vertexShader: vertexShader(ships.length), fragmentShader: fragmentShader(ships.length) });
   const plain = makePlainSea(uniforms);
   const fine = makeRings(FINE), coarse = makeRings(COARSE, 2);
   const mesh = new THREE.Mesh(fine, material);
   mesh.renderOrder = -5;
   mesh.frustumCulled = false;
+  mesh.receiveShadow = true;
   return {
     mesh,
     setPlain(isPlain) {
