@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from math import isfinite
+from typing import Any
 
 from ...errors import InputError
 
@@ -56,6 +57,10 @@ class ArmedFailures:
 
     def __init__(self) -> None:
         self.listed: tuple[Armed, ...] = ()
+
+    def as_dicts(self) -> list[dict[str, Any]]:
+        """They, as events and pages have them: ship, what, at, of, within."""
+        return [asdict(one) for one in self.listed]
 
     def arm(self, armed: Armed) -> None:
         """Add one, instead of one of its kind."""

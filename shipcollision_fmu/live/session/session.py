@@ -2,20 +2,11 @@
 
     submit      a command goes in; its answer is a Future: a result, or the InputError of the refusal
     snapshot    the latest Snapshot; readers take it at their own rates, and none is kept for them
-    listen      a function that is given every event, in the session's thread: it must return at once
+    listen      a function that is given every event (news.py), in the session's thread: it must return at once
 
     thread:  take commands -> step when due (pacer.py) -> publish a snapshot -> ...  -> write the run's folder
 
-A command is done between two steps. Orders take effect at the next communication point. An event is a dict with "kind",
-"time" [s] and what belongs to it:
-
-    collision begins | collision ends     id, ship_a, ship_b, point in n, energy
-    command        ship, client (None: nobody)
-    failure        ship, what, on         armed           armed: all that are now, each ship, what, at, of, within
-                                          mark, back      name, note   environment    current, wind
-    horn           ship, on               rate            rate        pause          paused
-    log            message
-    end            folder, message, error (None: all well)
+A command is done between two steps. Orders take effect at the next communication point.
 """
 
 from __future__ import annotations
@@ -25,17 +16,17 @@ import threading
 from collections.abc import Callable
 from concurrent.futures import Future
 from contextlib import suppress
-from dataclasses import asdict, replace
+from dataclasses import replace
 from pathlib import Path
-from time import monotonic
-from typing import Any, Protocol
+from typing import Any
 
 from ...errors import HostError, InputError, ShipCollisionError
 from ...scenario.scenario import Scenario
 from ...show.page import PAGE
-from .armed import Armed
+from .actions import START, Actions
+from .clock import Clock, Waiting, WallClock
+from .collision_news import CollisionNews
 from .commands import (
-    FAILURES,
     Arm,
     Back,
     ChangeEnvironment,
@@ -52,17 +43,16 @@ from .commands import (
     Step,
     TakeCommand,
 )
+from .in_command import InCommand
 from .kept_scenario import KeptScenario
 from .live_run import LiveRun
+from .news import Event, News
 from .pacer import FASTEST, SLOWEST, Pacer
 from .run_folder import write_run
 from .snapshot import Snapshot
 from .touch_log import LoggedTouch
 
-__all__ = ["MOST_WAITING", "Clock", "Session", "WallClock"]
-
-Event = dict[str, Any]
-Waiting = tuple[Command, "Future[Any]"]
+__all__ = ["MOST_WAITING", "Session"]
 
 MOST_WAITING = 1000
 """Commands that wait at a time; more are refused. The thread takes thousands in a second."""
@@ -72,37 +62,6 @@ PUBLISHED = 0.01
 """[s] of wall time between two snapshots at least. Pages ask twenty times a second, protocols less."""
 LONGEST_WAIT = 0.25
 """[s] without a command after which a paused session publishes again."""
-START = "start"
-"""Name of the mark at the beginning."""
-LONGEST_NAME = 60
-"""Characters in the name of a mark."""
-LONGEST_NOTE = 200
-"""Characters in the note on a mark."""
-
-
-class Clock(Protocol):
-    """The wall clock of a session."""
-
-    def now(self) -> float:
-        """The time [s] from any start."""
-
-    def wait(self, waiting: queue.Queue[Waiting], timeout: float) -> Waiting | None:
-        """The next command, or None when none came within `timeout` [s]; 0: at once."""
-
-
-class WallClock:
-    """The clock of this machine."""
-
-    def now(self) -> float:
-        """See Clock."""
-        return monotonic()
-
-    def wait(self, waiting: queue.Queue[Waiting], timeout: float) -> Waiting | None:
-        """See Clock."""
-        try:
-            return waiting.get(timeout=timeout) if timeout > 0.0 else waiting.get_nowait()
-        except queue.Empty:
-            return None
 
 
 class Session:
@@ -124,16 +83,16 @@ class Session:
         self._kept = None if out is None else KeptScenario(self._run, out, self._clock.now())
         self._pacer = Pacer(check_rate(rate), self._clock.now(), self._run.time)
         self._paused, self._reason, self._begun = paused, "", 0.0
+        self._news = News(lambda: self._run.time)
+        self._collisions = CollisionNews(self._run, self._news.tell)
+        self._command = InCommand(self._run.bridges, self._news.tell)
+        self._on_run = Actions(self._run, self._command, self._news.tell)
         self._actions: dict[type[Command], Callable[[Any], None]] = {
-            Order: self._order, TakeCommand: self._take, Leave: self._leave, Horn: self._sound, Fail: self._fail,
-            Arm: self._arm, Disarm: self._disarm,
-            ChangeEnvironment: self._change, Mark: self._mark, Back: self._go_back, Rate: self._set_rate,
-            Pause: self._pause, Step: self._step, End: self._end,
+            TakeCommand: self._command.take, Leave: self._command.leave, Horn: self._command.sound,
+            Order: self._on_run.order, Fail: self._on_run.fail, Arm: self._on_run.arm, Disarm: self._on_run.disarm,
+            ChangeEnvironment: self._on_run.change, Mark: self._on_run.mark,
+            Back: self._go_back, Rate: self._set_rate, Pause: self._pause, Step: self._step, End: self._end,
         }  # fmt: skip
-        self._command: dict[str, str] = {}
-        self._listeners: list[Callable[[Event], None]] = []
-        self._touching: dict[int, bool] = {}
-        self._separation = scenario.collision.minimum_separation_time or 10.0
         self._refused, self._counting, self._entering = 0, threading.Lock(), threading.Lock()
         self._failed: ShipCollisionError | None = None
         self._folder: Path | None = None
@@ -171,7 +130,7 @@ class Session:
     @property
     def armed(self) -> list[dict[str, Any]]:
         """The failures that are armed, as in the event."""
-        return [asdict(one) for one in self._run.armed.listed]
+        return self._run.armed.as_dicts()
 
     @property
     def touches(self) -> tuple[LoggedTouch, ...]:
@@ -218,12 +177,7 @@ class Session:
 
     def listen(self, listener: Callable[[Event], None]) -> Callable[[], None]:
         """Give every event to `listener` from now on; the function that stops this."""
-        self._listeners = [*self._listeners, listener]
-
-        def stop() -> None:
-            self._listeners = [other for other in self._listeners if other is not listener]
-
-        return stop
+        return self._news.listen(listener)
 
     def count_refused(self) -> None:
         """Count a malformed message of a client."""
@@ -268,15 +222,15 @@ class Session:
         armed = self._run.armed.listed
         self._run.advance()
         for begun in self._run.triggered:
-            self._tell("failure", ship=begun.ship, what=begun.what, on=True)
+            self._news.tell("failure", ship=begun.ship, what=begun.what, on=True)
         if self._run.armed.listed is not armed:
-            self._tell("armed", armed=self.armed)
+            self._on_run.tell_of_armed()
         self._pacer.note(self._clock.now(), self._run.time)
         if self._run.k == self._run.recorded + 1:
-            self._tell(
-                "log", message=f"the record is full, with {self._run.recorded} steps; the run goes on without it"
-            )
-        self._tell_of_collisions()
+            full = f"the record is full, with {self._run.recorded} steps; the run goes on without it"
+            self._news.tell("log", message=full)
+        if self._collisions.look():
+            self._publish()
         if self._duration is not None and self._run.time >= self._duration - 1e-9:
             self._reason = "the duration is over"
         if self._clock.now() - self._published >= PUBLISHED:
@@ -287,7 +241,7 @@ class Session:
             if self._kept is not None:
                 self._kept.keep(self._clock.now())
         except HostError as error:
-            self._tell("log", message=f"should the process be killed, the run is lost: {error}")
+            self._news.tell("log", message=f"should the process be killed, the run is lost: {error}")
 
     def _do(self, command: Command, answer: Future[Any]) -> None:
         if not answer.set_running_or_notify_cancel():
@@ -302,44 +256,21 @@ class Session:
             answer.set_exception(fault)
             if isinstance(command, Step | Back):  # the models may be in the midst of it
                 raise
-            self._tell("log", message=str(fault))
+            self._news.tell("log", message=str(fault))
         else:
             answer.set_result(None)
-
-    def _order(self, command: Order) -> None:
-        self._require_command(command.client, command.ship)
-        self._run.bridges[command.ship].order(
-            command.rudder_deg, command.heading_deg, command.rev_per_s, command.telegraph
-        )
-
-    def _leave(self, command: Leave) -> None:
-        for ship in [ship for ship, client in self._command.items() if client == command.client]:
-            self._give_up(ship)
-
-    def _sound(self, command: Horn) -> None:
-        self._require_command(command.client, command.ship)
-        self._set_horn(command.ship, command.on)
-
-    def _set_horn(self, ship: str, on: bool) -> None:
-        self._run.bridges[ship].horn = on
-        self._tell("horn", ship=ship, on=on)
-
-    def _silence(self, ship: str) -> None:
-        """Who sounded the horn can no longer end it."""
-        if self._run.bridges[ship].horn:
-            self._set_horn(ship, False)
 
     def _set_rate(self, command: Rate) -> None:
         rate = check_rate(command.rate)
         if rate != self._pacer.rate:
             self._pacer.restart(self._clock.now(), self._run.time, rate, self._read_begun())
-            self._tell("rate", rate=rate)
+            self._news.tell("rate", rate=rate)
 
     def _pause(self, command: Pause) -> None:
         if command.paused != self._paused:
             begun, self._paused = self._read_begun(), command.paused
             self._restart(begun)
-            self._tell("pause", paused=command.paused)
+            self._news.tell("pause", paused=command.paused)
 
     def _end(self, command: End) -> None:
         self._reason = command.reason
@@ -355,89 +286,14 @@ class Session:
             return self._begun
         return self._pacer.read_begun(self._clock.now(), self._run.time, self._run.step)
 
-    def _require_ship(self, ship: str) -> None:
-        if ship not in self._run.bridges:
-            raise InputError(f"there is no ship {ship!r}: the ships are {', '.join(self._run.bridges)}")
-
-    def _require_command(self, client: str, ship: str) -> None:
-        self._require_ship(ship)
-        self._run.bridges[ship].require_limits()
-        in_command = self._command.get(ship)
-        if in_command != client:
-            who = f"{in_command} is in command of {ship}" if in_command else f"nobody is in command of {ship}"
-            raise InputError(f"{who}: take command first")
-
-    def _take(self, command: TakeCommand) -> None:
-        ship = command.ship
-        self._require_ship(ship)
-        self._run.bridges[ship].require_limits()
-        in_command = self._command.get(ship)
-        if not command.take:
-            if in_command == command.client:
-                self._give_up(ship)
-            return
-        if in_command not in (None, command.client) and not command.force:
-            raise InputError(f"{in_command} is in command of {ship}: ask for it, or let the instructor take it")
-        if in_command != command.client:
-            self._silence(ship)
-        self._command[ship] = command.client
-        self._tell("command", ship=ship, client=command.client)
-
-    def _give_up(self, ship: str) -> None:
-        self._silence(ship)
-        del self._command[ship]
-        self._tell("command", ship=ship, client=None)
-
-    @staticmethod
-    def _require_failure(what: str) -> None:
-        if what not in FAILURES:
-            raise InputError(f"failure {what!r} is unknown: give {' or '.join(FAILURES)}")
-
-    def _fail(self, command: Fail) -> None:
-        self._require_ship(command.ship)
-        self._require_failure(command.what)
-        self._run.bridges[command.ship].fail(command.what, command.on)
-        self._tell("failure", ship=command.ship, what=command.what, on=command.on)
-
-    def _arm(self, command: Arm) -> None:
-        for ship in (command.ship, *([] if command.of is None else [command.of])):
-            self._require_ship(ship)
-        self._require_failure(command.what)
-        self._run.arm(Armed(command.ship, command.what, command.at, command.of, command.within))
-        self._tell("armed", armed=self.armed)
-
-    def _disarm(self, command: Disarm) -> None:
-        self._run.armed.disarm(command.ship, command.what)
-        self._tell("armed", armed=self.armed)
-
-    def _change(self, command: ChangeEnvironment) -> None:
-        self._run.change(command.current, command.wind)
-        environment = self._run.observe_environment()
-        self._tell(
-            "environment", current=list(environment.current),
-            wind={"speed": environment.wind.speed, "from_deg": environment.wind.from_deg},
-        )  # fmt: skip
-
-    def _mark(self, command: Mark) -> None:
-        name = command.name
-        if not name.strip() or len(name) > LONGEST_NAME or not name.isprintable():
-            raise InputError(f"mark {name[:LONGEST_NAME]!r}: give a name of 1 to {LONGEST_NAME} printable characters")
-        if name == START:
-            raise InputError(f"mark {name!r} is the beginning of the run: take another name")
-        note = command.note.strip()
-        if len(note) > LONGEST_NOTE or not note.isprintable():
-            raise InputError(f"mark {name!r}: give a note of up to {LONGEST_NOTE} printable characters, in one line")
-        self._run.mark(name, note)
-        self._tell("mark", name=name, note=note)
-
     def _go_back(self, command: Back) -> None:
         armed = self._run.armed.listed
         self._run.go_back(command.name)
         self._restart()
-        self._touching = {number: on for number, on in self._touching.items() if number in self._run.list_touches()}
-        self._tell("back", name=command.name)
+        self._collisions.forget()
+        self._news.tell("back", name=command.name)
         if self._run.armed.listed != armed:
-            self._tell("armed", armed=self.armed)
+            self._on_run.tell_of_armed()
 
     def _step(self, command: Step) -> None:
         if not self._paused:
@@ -453,50 +309,25 @@ class Session:
             time=run.time, step_count=run.k, rate=self._pacer.rate, paced=self._pacer.is_paced(now),
             real_rate=0.0 if self._paused else self._pacer.measure(now, run.time), paused=self._paused,
             running=True, ships=run.observe_ships(), environment=run.observe_environment(),
-            contact=run.observe_contact(), command=dict(self._command), refused=self._refused,
+            contact=run.observe_contact(), command=self._command.clients, refused=self._refused,
         )  # fmt: skip
 
     def _publish(self) -> None:
         self._snapshot = self._observe()
         self._published = self._clock.now()
 
-    def _tell(self, kind: str, **what: Any) -> None:
-        event = {"kind": kind, "time": self._run.time, **what}
-        for listener in self._listeners:
-            try:
-                listener(event)
-            except Exception:  # the others are to hear of it, and the run goes on
-                self._listeners = [other for other in self._listeners if other is not listener]
-
-    def _tell_of_collisions(self) -> None:
-        touches = self._run.list_touches()
-        if not touches:
-            return
-        for number, last in touches.items():
-            touching = self._run.time - last < self._separation
-            before = self._touching.get(number)
-            if before is None or before != touching:
-                self._touching[number] = touching
-                (collision,) = [c for c in self._run.observe_contact().collisions if c.id == number]
-                self._tell(
-                    "collision begins" if touching else "collision ends", id=number, ship_a=collision.ship_a,
-                    ship_b=collision.ship_b, point=list(collision.point), start=collision.time, energy=collision.energy,
-                )  # fmt: skip
-                if touching:
-                    self._publish()
-
     def _finish(self) -> None:
         """Write the run, tell of the end, refuse what still waits."""
         error = None if self._failed is None else str(self._failed)
         try:
             if self._out is not None:
-                self._tell("log", message="writing the run")
+                self._news.tell("log", message="writing the run")
                 lines = write_run(self._run, self._out)
                 self._folder = self._out
                 if self._kept is not None:
                     self._kept.remove()
                 for line in lines:
-                    self._tell("log", message=line)
+                    self._news.tell("log", message=line)
         except Exception as fault:  # a full disk, say; the pages are to hear of it
             self._failed = (
                 fault if isinstance(fault, ShipCollisionError) else HostError(f"cannot write the run: {fault}")
@@ -507,7 +338,7 @@ class Session:
         with self._entering:
             self._snapshot = replace(self._snapshot, running=False)
         folder = None if self._folder is None else str(self._folder)
-        self._tell("end", folder=folder, message=self._reason, error=error)
+        self._news.tell("end", folder=folder, message=self._reason, error=error)
         while (left := WallClock().wait(self._waiting, 0.0)) is not None:
             if left[1].set_running_or_notify_cancel():
                 left[1].set_exception(InputError("the run has ended: start another one"))
