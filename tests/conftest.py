@@ -6,6 +6,7 @@ What property tests draw depends on the test itself and on nothing else.
 from __future__ import annotations
 
 import gc
+import os
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Sequence
 from functools import cache
@@ -77,6 +78,8 @@ NATIVE_CACHE = libraries.native_cache()
 Write = Callable[..., Path]
 LEFT_OUT = pytest.StashKey[list[tuple[str, list[str]]]]()
 """Tests left out of this run, each with its needs that are not met."""
+MOST_WORKERS = 4
+"""Processes that share the whole of the tests. Each takes some 1 GB and builds its own FMUs."""
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -134,7 +137,25 @@ def pytest_collection_finish(session: pytest.Session) -> None:
     gc.freeze()
 
 
+def pytest_xdist_auto_num_workers(config: pytest.Config) -> int | None:
+    """For -n auto: one for each core for the whole of the tests; files that are named run in this process."""
+    if "PYTEST_XDIST_AUTO_NUM_WORKERS" in os.environ:
+        return None  # xdist takes that
+    is_whole = config.args_source == pytest.Config.ArgsSource.TESTPATHS
+    return min(MOST_WORKERS, os.cpu_count() or 1) if is_whole else 0
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_testnodedown(node: Any) -> None:
+    """A worker has ended: all of them have left out the same."""
+    if "left_out" in (said := getattr(node, "workeroutput", {})):
+        node.config.stash[LEFT_OUT] = said["left_out"]
+
+
 def pytest_sessionfinish(session: pytest.Session) -> None:
+    if hasattr(session.config, "workeroutput"):
+        session.config.workeroutput["left_out"] = session.config.stash.get(LEFT_OUT, [])
+        return
     skipped = session.config.pluginmanager.getplugin("terminalreporter").stats.get("skipped")
     if session.config.option.nothing_left_out and (session.config.stash.get(LEFT_OUT, None) or skipped):
         session.exitstatus = pytest.ExitCode.TESTS_FAILED

@@ -64,7 +64,17 @@ class Page:
         self.driver.get(self._address)
         self.wait("return document.body?.dataset.ready")
         assert self.run("return document.body.dataset.ready") == "true", self.complaints()
-        for _ in range(2):  # what is drawn once its size is known comes after the first frame's scripts
+        self._wait_for_size()
+
+    def resize(self, width: int, height: int) -> None:
+        """Gives the window another size, and waits for the picture in it: until then it may be empty."""
+        self.driver.set_window_size(width, height)
+        self.wait(f"return outerWidth === {width} && outerHeight === {height}")
+        self._wait_for_size()
+
+    def _wait_for_size(self) -> None:
+        """What is drawn once its size is known comes after the first frame's scripts."""
+        for _ in range(2):
             self.wait_for_frame()
 
     def wait(self, script: str) -> None:

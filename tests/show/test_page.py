@@ -220,13 +220,7 @@ def test_the_overview_is_fitted_again_when_the_window_changes(
         )
 
     def resized(size: tuple[int, int]) -> np.ndarray:
-        shape = "JSON.stringify([innerWidth, innerHeight])"
-        old = page.run(f"return {shape}")
-        browser.set_window_size(*size)
-        page.wait(f"return {shape} !== '{old}'")
-        browser.execute_async_script(
-            "const done = arguments[0]; requestAnimationFrame(() => requestAnimationFrame(done))"
-        )
+        page.resize(*size)
         return ends()
 
     fitted = resized(after)

@@ -166,7 +166,7 @@ def test_the_water_is_white_behind_a_ship_under_way_and_not_abeam(page: Page, sc
 
 def test_the_water_is_white_where_the_bow_pushes_it_and_not_along_the_quarter(page: Page, scene: Scene) -> None:
     own = scene.ships[0]
-    page.driver.set_window_size(1280, 900)  # the bow wave is some pixels there
+    page.resize(1280, 900)  # the bow wave is some pixels there
     page.run("replay.camera('ship-0')")
     page.slide(0.2)
     line = own.plating.vertices[(np.abs(own.plating.vertices[:, 2]) < 0.5) & (own.plating.vertices[:, 1] > 0.0)]
@@ -177,7 +177,7 @@ def test_the_water_is_white_where_the_bow_pushes_it_and_not_along_the_quarter(pa
         for out in (0.03, 0.15, 0.8):
             point = place(page, scene, own.name, np.array([x * own.L_oa, beside + out * own.B, 0.0])) * [1, 1, 0]
             white[x, out] = sum(page.colour(point, half=1))
-    page.driver.set_window_size(640, 440)
+    page.resize(640, 440)
     assert white[0.42, 0.03] > white[0.42, 0.8] + 60
     assert white[-0.2, 0.15] < white[-0.2, 0.8] + 60
 
