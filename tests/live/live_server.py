@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import json
 import threading
+import time
 import urllib.error
 import urllib.request
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from http.client import HTTPMessage
 from typing import Any
@@ -20,7 +21,10 @@ from shipcollision_fmu.live.session.commands import End
 from shipcollision_fmu.live.session.session import Session
 from shipcollision_fmu.scenario.scenario import load_scenario
 
-__all__ = ["LiveServer", "receive", "receive_until", "serving"]
+__all__ = ["PATIENCE", "LiveServer", "eventually", "receive", "receive_until", "serving"]
+
+PATIENCE = 120.0
+"""[s] for what comes in a moment on a quiet machine: a busy one may be long about it, and no test is about that."""
 
 
 class LiveServer:
@@ -37,7 +41,7 @@ class LiveServer:
     @contextmanager
     def connect(self, role: str = "bridge", **options: Any) -> Iterator[ClientConnection]:
         """A client that has read its hello."""
-        usual = {"open_timeout": 20, "close_timeout": 1, "ping_interval": None}
+        usual = {"open_timeout": PATIENCE, "close_timeout": 1, "ping_interval": None}
         with connect(self.address(role), **(usual | options)) as client:
             assert receive(client)["type"] == "hello"
             yield client
@@ -46,7 +50,7 @@ class LiveServer:
         """Status, body and headers of an answer."""
         request = urllib.request.Request(f"http://127.0.0.1:{self.port}{path}", headers=headers)
         try:
-            with urllib.request.urlopen(request, timeout=20) as answer:
+            with urllib.request.urlopen(request, timeout=PATIENCE) as answer:
                 return answer.status, answer.read(), answer.headers
         except urllib.error.HTTPError as error:
             return error.code, error.read(), error.headers
@@ -62,18 +66,26 @@ def serving(*, out: Any = None, patience: float = 5.0, **options: Any) -> Iterat
         ready, ended = threading.Event(), threading.Event()
         thread = threading.Thread(target=serve, args=(app, listening, ready.set, ended.set), daemon=True)
         thread.start()
-        assert ready.wait(20.0)
+        assert ready.wait(PATIENCE)
         try:
             yield LiveServer(app, listening.getsockname()[1], ended)
         finally:
             goodbye, serve_module.GOODBYE, serve_module.LINGER = serve_module.GOODBYE, 0.02, 0.0
             session.submit(End())
-            thread.join(30.0)
+            thread.join(PATIENCE)
             serve_module.GOODBYE = goodbye
             assert not thread.is_alive()
 
 
-def receive(client: ClientConnection, timeout: float = 20.0) -> dict[str, Any]:
+def eventually(holds: Callable[[], bool]) -> None:
+    """Returns once something holds; fails when it does not come true."""
+    end = time.monotonic() + PATIENCE
+    while not holds():
+        assert time.monotonic() < end, "it did not come true"
+        time.sleep(0.01)
+
+
+def receive(client: ClientConnection, timeout: float = PATIENCE) -> dict[str, Any]:
     """The next message."""
     message: dict[str, Any] = json.loads(client.recv(timeout))
     return message

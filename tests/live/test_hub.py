@@ -8,11 +8,13 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, cast
 
+import pytest
 from starlette.websockets import WebSocket
 
 from shipcollision_fmu.live.server import hub as hub_module
 from shipcollision_fmu.live.server.hub import Hub
 from shipcollision_fmu.live.session.session import Session
+from tests.live.live_server import PATIENCE
 
 
 @dataclass(eq=False)
@@ -77,6 +79,27 @@ async def hear_of_a_step_back() -> list[tuple[str, float]]:
 
 def test_no_state_that_is_undone_follows_the_event_of_going_back() -> None:
     """A page would take what it shows for what has happened since."""
-    messages = asyncio.run(asyncio.wait_for(hear_of_a_step_back(), 20.0))
+    messages = asyncio.run(asyncio.wait_for(hear_of_a_step_back(), PATIENCE))
     after = messages[messages.index(("back", 10.0)) + 1 :]
     assert set(after) == {("state", 11.0)}
+
+
+async def hear_of_a_collision() -> list[tuple[str, float]]:
+    session, socket = Told(Published(10.5)), Heard()
+    hub = Hub(cast(Session, session), {})
+    hub.connect()
+    serving = asyncio.create_task(hub.serve(cast(WebSocket, socket), "bridge"))
+    while not socket.messages:
+        await asyncio.sleep(0.01)
+    session.tell({"kind": "collision begins", "time": 10.55})
+    while ("collision begins", 10.55) not in socket.messages:
+        await asyncio.sleep(0.01)
+    serving.cancel()
+    return socket.messages
+
+
+def test_an_event_does_not_wait_for_the_next_state(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Which is due in an hour here: a collision is told of at once."""
+    monkeypatch.setattr(hub_module, "INTERVAL", 3600.0)
+    messages = asyncio.run(asyncio.wait_for(hear_of_a_collision(), PATIENCE))
+    assert messages == [("state", 10.5), ("collision begins", 10.55)]

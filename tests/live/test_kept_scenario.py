@@ -15,6 +15,7 @@ from shipcollision_fmu.live.session.commands import ChangeEnvironment, End, Mark
 from shipcollision_fmu.live.session.kept_scenario import UNFINISHED
 from shipcollision_fmu.live.session.session import Session
 
+from .live_server import PATIENCE
 from .test_pacer import FakeClock
 
 EVERY, ORDERS = 5.0, 100
@@ -40,7 +41,7 @@ def play(folder: Path, script: list[tuple[float, Any]]) -> list[dict[str, Any]]:
 
     session.listen(hear)
     session.start()
-    assert session.join(60.0)
+    assert session.join(PATIENCE)
     assert session.error is None
     return told
 

@@ -7,7 +7,6 @@ import signal
 import socket
 import subprocess
 import sys
-import time
 import urllib.request
 from collections.abc import Iterator
 from pathlib import Path
@@ -23,7 +22,7 @@ from shipcollision_fmu.errors import HostError
 from shipcollision_fmu.live import extra
 
 from .live_command import live_command
-from .live_server import receive
+from .live_server import PATIENCE, eventually, receive
 
 
 @pytest.fixture(autouse=True)
@@ -118,17 +117,21 @@ def test_files_of_other_origin_are_kept(tmp_path: Path) -> None:
 
 
 def test_a_stored_run_is_free_while_pages_go_to_its_replay(tmp_path: Path) -> None:
-    with live_command(tmp_path, "--rate", "20", "--duration", "1") as live, connect(live.socket) as client:
+    """The run begins once there is a page: without one the command would end with it."""
+
+    def is_free() -> bool:
+        try:
+            with hold_folder(tmp_path / "run"):
+                return True
+        except HostError:  # the end is told before the command says where the run is
+            return False
+
+    options = "--rate", "20", "--duration", "1", "--paused"
+    with live_command(tmp_path, *options) as live, connect(live.socket, open_timeout=PATIENCE) as client:
+        client.send('{"type": "pause", "paused": false}')
         while receive(client)["type"] != "end":
             pass
-        for _ in range(200):
-            try:
-                with hold_folder(tmp_path / "run"):
-                    break
-            except HostError:  # the end is told before the command says where the run is
-                time.sleep(0.05)
-        else:
-            raise AssertionError("the folder is still held")
+        eventually(is_free)
         assert live.process.poll() is None
 
 
@@ -151,7 +154,7 @@ def test_ctrl_c_and_sigterm_end_and_store_the_run(tmp_path: Path, number: signal
             bridge = process.stdout.readline().partition(": ")[2].strip()
             assert process.stdout.readline().startswith("instructor: http://127.0.0.1:")
             assert process.stdout.readline() == "Ctrl-C ends the run and stores it\n"
-            assert b"live.js" in urllib.request.urlopen(bridge, timeout=20).read()
+            assert b"live.js" in urllib.request.urlopen(bridge, timeout=PATIENCE).read()
             (tmp_path / "run" / "unfinished.toml").touch()  # as after half a minute
             for other in (["live", "--port", "0"], ["run", "kvlcc2_crossing", "--in-process", "--overwrite"]):
                 refused = CliRunner().invoke(main, [*other, "--out", "run"])
@@ -161,7 +164,7 @@ def test_ctrl_c_and_sigterm_end_and_store_the_run(tmp_path: Path, number: signal
                     "--out\n"
                 )
             process.send_signal(number)
-            out, errors = process.communicate(timeout=60)
+            out, errors = process.communicate(timeout=PATIENCE)
         finally:
             process.kill()
         assert (process.returncode, errors) == (0, "")

@@ -8,9 +8,9 @@ import shlex
 import shutil
 import socket
 import threading
-import time
 import webbrowser
 from collections.abc import Callable
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -18,6 +18,7 @@ from click.testing import CliRunner, Result
 
 from shipcollision_fmu.cli import main
 from shipcollision_fmu.errors import StepError
+from shipcollision_fmu.live.protocols import order_port
 from shipcollision_fmu.live.protocols.outlets import Outlets
 from shipcollision_fmu.live.server.host_names import find_hosts
 from shipcollision_fmu.live.server.serve import bind
@@ -27,6 +28,8 @@ from shipcollision_fmu.live.session.commands import End
 from shipcollision_fmu.live.session.live_run import LiveRun
 from shipcollision_fmu.live.session.session import Session
 from shipcollision_fmu.scenario.scenario import Scenario
+from tests.free_port import hold_free_port
+from tests.live.live_server import PATIENCE, eventually
 
 
 @pytest.fixture(autouse=True)
@@ -58,27 +61,49 @@ def test_what_is_no_address_is_refused(tmp_path: Path, arguments: tuple[str, ...
     assert not (tmp_path / "run").exists()
 
 
-def test_a_live_run_is_steered_by_a_program(tmp_path: Path) -> None:
+def steered(monkeypatch: pytest.MonkeyPatch, steer: Callable[[], None]) -> None:
+    """Lets a program steer the next live run, in a thread, and ends the run after it."""
+    monkeypatch.setattr(order_port, "LONGEST_ANSWER", PATIENCE)
+    monkeypatch.setattr(order_port, "ADMISSION", PATIENCE)
+    started = Outlets.start
+
+    def steer_and_end(session: Session) -> None:
+        try:
+            steer()
+            before = session.snapshot.step_count
+            eventually(lambda: session.snapshot.step_count > before)  # an order is that of the step after it
+        finally:
+            session.submit(End())
+
+    def start(outlets: Outlets) -> None:
+        started(outlets)
+        threading.Thread(target=steer_and_end, args=(outlets._session,), daemon=True).start()
+
+    monkeypatch.setattr(Outlets, "start", start)
+
+
+def send_order(port: int, **line: object) -> dict[str, object]:
+    """The answer to the first line of a client."""
+    with socket.create_connection(("127.0.0.1", port), timeout=PATIENCE) as bridge:
+        bridge.sendall(json.dumps(line).encode() + b"\n")
+        answer: dict[str, object] = json.loads(bridge.makefile().readline())
+    return answer
+
+
+def test_a_live_run_is_steered_by_a_program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Its order is in the scenario that the run leaves behind; the sentences came to a receiver meanwhile."""
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as receiver, socket.socket() as probe:
+    answers: list[object] = []
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as receiver, hold_free_port() as port:
         receiver.bind(("127.0.0.1", 0))
-        receiver.settimeout(30.0)
-        probe.bind(("127.0.0.1", 0))
-        port = probe.getsockname()[1]
-        probe.close()
-        answers: list[object] = []
+        receiver.settimeout(PATIENCE)
 
         def steer() -> None:
             receiver.recv(1000)  # it runs
-            with socket.create_connection(("127.0.0.1", port), timeout=10.0) as bridge:
-                bridge.sendall(json.dumps({"ship": "own", "rudder_deg": 12.5}).encode() + b"\n")
-                answers.append(json.loads(bridge.makefile().readline()))
+            answers.append(send_order(port, ship="own", rudder_deg=12.5))
 
-        program = threading.Thread(target=steer)
-        program.start()
+        steered(monkeypatch, steer)
         nmea = f"udp://127.0.0.1:{receiver.getsockname()[1]}"
-        result = live(tmp_path, "--nmea", nmea, "--orders", str(port), "--duration", "30")
-        program.join(30.0)
+        result = live(tmp_path, "--nmea", nmea, "--orders", str(port))
     assert result.exit_code == 0, result.output
     assert f"NMEA of own and AIS to {nmea}" in result.output
     assert f"orders at TCP port {port}" in result.output
@@ -91,11 +116,9 @@ def test_a_live_run_is_steered_by_a_program(tmp_path: Path) -> None:
     [("0.0.0.0", True), ("[::]", True), ("127.0.0.1", False), ("localhost", False), (None, False)],
 )
 def test_an_order_port_for_other_machines_has_a_token(tmp_path: Path, address: str | None, asks: bool) -> None:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        port = probe.getsockname()[1]
-    orders = str(port) if address is None else f"{address}:{port}"
-    result = live(tmp_path, "--orders", orders, "--duration", "0.1")
+    with hold_free_port() as port:
+        orders = str(port) if address is None else f"{address}:{port}"
+        result = live(tmp_path, "--orders", orders, "--duration", "0.1")
     assert result.exit_code == 0, result.output
     found = re.search(rf"^orders at TCP port {re.escape(orders)}(?:, with the token (\S+))?$", result.stdout, re.M)
     assert found is not None
@@ -103,29 +126,16 @@ def test_an_order_port_for_other_machines_has_a_token(tmp_path: Path, address: s
     assert found[1] is None or len(found[1]) >= 32
 
 
-def test_the_order_port_asks_for_the_token_that_is_given(tmp_path: Path) -> None:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        port = probe.getsockname()[1]
+def test_the_order_port_asks_for_the_token_that_is_given(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     answers: list[object] = []
+    with hold_free_port() as port:
 
-    def steer(session: Session) -> Callable[[], None]:
-        for line in ({"ship": "own", "rudder_deg": 5}, {"token": "open sesame", "ship": "own", "rudder_deg": 6}):
-            with socket.create_connection(("127.0.0.1", port), timeout=10.0) as bridge:
-                bridge.sendall(json.dumps(line).encode() + b"\n")
-                answers.append(json.loads(bridge.makefile().readline())["ok"])
-        session.submit(End())
-        return lambda: None
+        def steer() -> None:
+            answers.append(send_order(port, ship="own", rudder_deg=5)["ok"])
+            answers.append(send_order(port, token="open sesame", ship="own", rudder_deg=6)["ok"])
 
-    started = Outlets.start
-
-    def start(outlets: Outlets) -> None:
-        started(outlets)
-        threading.Thread(target=steer, args=(outlets._session,), daemon=True).start()
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(Outlets, "start", start)
-        result = live(tmp_path, "--orders", str(port), "--order-token", "open sesame", "--duration", "600")
+        steered(monkeypatch, steer)
+        result = live(tmp_path, "--orders", str(port), "--order-token", "open sesame")
     assert result.exit_code == 0, result.output
     assert f"orders at TCP port {port}, with the token open sesame" in result.output
     assert answers == [False, True]
@@ -177,7 +187,7 @@ def test_the_hosts_that_are_found_lead_to_the_server(host: str) -> None:
     with bind(host, 0) as listening:
         here, elsewhere = find_hosts(listening)
         for one in (here, *elsewhere):
-            with socket.create_connection((one.strip("[]"), listening.getsockname()[1]), timeout=5.0):
+            with socket.create_connection((one.strip("[]"), listening.getsockname()[1]), timeout=PATIENCE):
                 pass
     assert here in ("127.0.0.1", "[::1]")
     assert not elsewhere or host != "127.0.0.1"
@@ -255,21 +265,49 @@ def test_notes_of_the_scenario_are_said(tmp_path: Path, monkeypatch: pytest.Monk
     assert result.stdout.startswith("note: gap.csv: the longest gap is 200 s\nbridge of own: ")
 
 
+def hold_until(monkeypatch: pytest.MonkeyPatch, happened: threading.Event) -> None:
+    """Lets live runs make no step but the first, with which they are made, before something has happened."""
+    advance = LiveRun.advance
+
+    def wait_and_advance(run: LiveRun) -> None:
+        assert run.k == 0 or happened.wait(PATIENCE)
+        advance(run)
+
+    monkeypatch.setattr(LiveRun, "advance", wait_and_advance)
+
+
 def test_a_browser_of_the_terminal_does_not_hold_the_run_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """It is there until somebody leaves it; the run goes on and ends meanwhile."""
-    left, opened = threading.Event(), list[str]()
-    monkeypatch.setattr(webbrowser, "open", lambda address: bool(opened.append(address)) or left.wait(60.0))
-    started = time.monotonic()
+    left, is_open, opened, ended = threading.Event(), threading.Event(), list[str](), list[bool]()
+
+    def open_and_stay(address: str) -> bool:
+        opened.append(address)
+        is_open.set()
+        ended.append(left.wait(PATIENCE))
+        return True
+
+    monkeypatch.setattr(webbrowser, "open", open_and_stay)
+    hold_until(monkeypatch, is_open)
     try:
         result = live(tmp_path, "--browser", "--duration", "0.1")
+        assert ended == []
     finally:
         left.set()
-    assert time.monotonic() - started < 60.0
     assert (result.exit_code, len(opened)) == (0, 1)
     assert f"bridge of own: {opened[0]}\n" in result.stdout
 
 
 def test_without_a_browser_the_address_is_left_to_the_reader(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    said, command = threading.Event(), import_module("shipcollision_fmu.cli.live")
+    say = command.say
+
+    def note(text: str, **options: bool) -> None:
+        say(text, **options)
+        if text.startswith("found no browser"):
+            said.set()
+
     monkeypatch.setattr(webbrowser, "open", lambda address: False)
+    monkeypatch.setattr(command, "say", note)
+    hold_until(monkeypatch, said)
     result = live(tmp_path, "--browser", "--duration", "0.1")
     assert result.stderr == "found no browser: open the address of the bridge yourself\n"

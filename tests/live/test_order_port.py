@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import random
 import socket
-import time
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Future
 from contextlib import suppress
@@ -22,6 +21,8 @@ from shipcollision_fmu.live.protocols.order_port import LONGEST_LINE, MOST_CLIEN
 from shipcollision_fmu.live.protocols.outlets import OutletAddresses, Outlets
 from shipcollision_fmu.live.session.commands import End
 from shipcollision_fmu.live.session.session import Session
+from tests.free_port import hold_free_port
+from tests.live.live_server import PATIENCE, eventually
 
 SEED, MESSAGES = 18, 10_000
 Connect = Callable[[], "Bridge"]
@@ -31,7 +32,7 @@ class Bridge:
     """A client of the port."""
 
     def __init__(self, port: int) -> None:
-        self.socket = socket.create_connection(("127.0.0.1", port), timeout=10.0)
+        self.socket = socket.create_connection(("127.0.0.1", port), timeout=PATIENCE)
         self.answers = self.socket.makefile("rb")
 
     def ask(self, line: object) -> dict[str, Any]:
@@ -138,14 +139,7 @@ def test_one_is_in_command_until_it_goes(session: Recorded, connect: Connect) ->
     assert first.ask({"ship": "own", "command": False})["ok"]
     assert second.ask({"ship": "own", "rudder_deg": 6})["ok"]
     second.close()
-    until(lambda: not session.command)
-
-
-def until(holds: Callable[[], bool], seconds: float = 10.0) -> None:
-    end = time.monotonic() + seconds
-    while not holds():
-        assert time.monotonic() < end
-        time.sleep(0.01)
+    eventually(lambda: not session.command)
 
 
 @pytest.mark.parametrize(
@@ -214,7 +208,7 @@ def test_a_page_in_a_browser_cannot_order(
         assert answer["error"].startswith(said)
         assert answer["error"].endswith("; the connection ends, as its first line must be JSON")
         assert browser.answers.readline() == b""
-    until(lambda: port.dropped == 1)
+    eventually(lambda: port.dropped == 1)
     assert (session.orders, session.command, port.refused) == ([], {}, 1)
     bridge = connect()
     assert bridge.ask(b"[1]")["ok"] is False
@@ -261,13 +255,18 @@ def test_a_fault_costs_one_client_its_connection(session: Recorded, connect: Con
     assert other.ask({"ship": "own", "rudder_deg": 6})["ok"]
 
 
-def test_too_many_lines_in_a_second_are_refused(connect: Connect) -> None:
+def test_too_many_lines_in_a_second_are_refused(connect: Connect, monkeypatch: pytest.MonkeyPatch) -> None:
+    """On a clock of the test."""
+    now = [100.0]
+    monkeypatch.setattr(order_port, "monotonic", lambda: now[0])
     bridge = connect()
-    bridge.socket.sendall(b'{"state": true}\n' * (3 * MOST_LINES))
-    answers = [bridge.read() for _ in range(3 * MOST_LINES)]
-    refused = [answer for answer in answers if not answer["ok"]]
-    assert refused[0]["error"] == f"more than {MOST_LINES} lines in a second: send fewer"
-    assert MOST_LINES <= len(refused) <= 2 * MOST_LINES  # the second may end meanwhile
+    for at in (100.0, 100.99, 101.0):
+        now[0] = at
+        bridge.socket.sendall(b'{"state": true}\n' * (3 * MOST_LINES))
+        answers = [bridge.read() for _ in range(3 * MOST_LINES)]
+        taken = 0 if at == 100.99 else MOST_LINES
+        assert [answer["ok"] for answer in answers] == [True] * taken + [False] * (3 * MOST_LINES - taken)
+        assert answers[-1]["error"] == f"more than {MOST_LINES} lines in a second: send fewer"
 
 
 def test_more_clients_are_turned_away(connect: Connect) -> None:
@@ -282,17 +281,17 @@ def test_a_client_that_reads_nothing_is_dropped(port: OrderPort, connect: Connec
     """Its answers fill the buffers of both sockets and then the port's own."""
     deaf, other = connect(), connect()
     deaf.socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
-    deaf.socket.settimeout(0.2)
     flood = b'{"ship": "own", "rudder_deg": "x"}\n' * 1_000_000
-    with pytest.raises(OSError):  # noqa: PT011  # closed, or no longer read
+    with pytest.raises(ConnectionError):
         deaf.socket.sendall(flood)
-    until(lambda: port.dropped > 0)
+    eventually(lambda: port.dropped > 0)
     assert other.ask({"state": True})["ok"]
 
 
 @pytest.fixture
-def guarded(session: Recorded) -> Iterator[OrderPort]:
-    """A port with a token."""
+def guarded(session: Recorded, monkeypatch: pytest.MonkeyPatch) -> Iterator[OrderPort]:
+    """A port with a token, which waits for it for long."""
+    monkeypatch.setattr(order_port, "ADMISSION", PATIENCE)
     served = OrderPort("127.0.0.1", 0, session.connect(), token="open sesame")
     served.start()
     yield served
@@ -304,9 +303,7 @@ def test_a_token_admits_alone_or_with_an_order(session: Recorded, guarded: Order
     assert alone.ask({"token": "open sesame", "id": 1}) == {"ok": True, "id": 1}
     assert alone.ask({"ship": "own", "rudder_deg": 5}) == {"ok": True}
     alone.close()
-    until = time.monotonic() + 10.0
-    while session.command and time.monotonic() < until:
-        time.sleep(0.01)
+    eventually(lambda: not session.command)
     assert together.ask({"token": "open sesame", "ship": "own", "rudder_deg": 6}) == {"ok": True}
     assert together.ask({"ship": "own", "rudder_deg": 7}) == {"ok": True}
     assert together.ask({"ship": "own", "rudder": 7})["ok"] is False  # a mistake later costs nothing more
@@ -342,13 +339,17 @@ def test_without_the_token_a_client_is_dropped(
 
 
 def test_who_gives_no_token_does_not_lock_others_out(guarded: OrderPort, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(order_port, "ADMISSION", 0.3)
     admitted = Bridge(guarded.port)
     assert admitted.ask({"token": "open sesame"})["ok"]
     silent = [Bridge(guarded.port) for _ in range(MOST_CLIENTS - 1)]
+    late = Bridge(guarded.port)
+    assert late.read()["error"] == f"{MOST_CLIENTS} clients are here already: close one of them"
+    late.close()
+    monkeypatch.setattr(order_port, "ADMISSION", 0.3)
     for bridge in silent:
         assert bridge.answers.readline() == b""
         bridge.close()
+    monkeypatch.setattr(order_port, "ADMISSION", PATIENCE)  # a busy machine is long about the token that is given
     later = Bridge(guarded.port)
     assert later.ask({"token": "open sesame"})["ok"]
     assert admitted.ask({"state": True})["ok"]
@@ -400,10 +401,14 @@ def test_lines_are_read_or_refused_and_nothing_else() -> None:
 @pytest.mark.parametrize("most_lines", [MOST_LINES, MESSAGES])
 def test_ten_thousand_messages_never_stop_the_simulation(monkeypatch: pytest.MonkeyPatch, most_lines: int) -> None:
     """Each line that is not empty has one answer; meanwhile and afterwards time goes on, and orders are obeyed. Without
-    the bound on lines in a second, those that are orders reach the ships."""
+    the bound on lines in a second, those that are orders reach the ships. All come within one second of the port's
+    clock, which the test has stopped: how many are refused does not depend on how busy the machine is."""
     monkeypatch.setattr(order_port, "MOST_LINES", most_lines)
+    monkeypatch.setattr(order_port, "LONGEST_ANSWER", PATIENCE)
+    monkeypatch.setattr(order_port, "monotonic", lambda: 100.0)
     session = Session(load_scenario("kvlcc2_crossing"), rate=4.0)
-    outlets = Outlets(session, "own", OutletAddresses(orders=str(find_free_port())))
+    with hold_free_port() as free:
+        outlets = Outlets(session, "own", OutletAddresses(orders=str(free)))
     assert outlets.orders is not None
     session.start()
     outlets.start()
@@ -421,26 +426,20 @@ def test_ten_thousand_messages_never_stop_the_simulation(monkeypatch: pytest.Mon
             sent[k // 50 % 4] += 50
         assert sum(sent) == MESSAGES
         assert session.snapshot.running
-        assert session.snapshot.time > begun
-        until(lambda: session.snapshot.refused == outlets.orders.refused)
+        eventually(lambda: session.snapshot.time > begun)
+        eventually(lambda: session.snapshot.refused == outlets.orders.refused)
         assert outlets.orders.refused > (9000 if most_lines == MOST_LINES else 5000)
         assert outlets.orders.refused + outlets.orders.accepted <= MESSAGES + len(bridges)
         assert outlets.orders.accepted > (0 if most_lines == MOST_LINES else 200)
         for bridge in bridges:
             bridge.close()
-        until(lambda: not session.snapshot.command)
+        eventually(lambda: not session.snapshot.command)
         late = Bridge(outlets.orders.port)
         assert late.ask({"ship": "own", "rudder_deg": 12.5})["ok"]
-        until(lambda: session.snapshot.ships["own"].rudder_order == pytest.approx(radians(12.5)))
+        eventually(lambda: session.snapshot.ships["own"].rudder_order == pytest.approx(radians(12.5)))
         late.close()
     finally:
         outlets.close()
         session.submit(End())
-        session.join(20.0)
+        session.join(PATIENCE)
     assert session.error is None
-
-
-def find_free_port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])

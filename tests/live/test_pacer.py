@@ -18,6 +18,7 @@ from shipcollision_fmu.live.session.pacer import MOST_LAG, WINDOW, Pacer
 from shipcollision_fmu.live.session.session import Session
 from shipcollision_fmu.scenario.scenario import Scenario
 from tests.conftest import Write
+from tests.live.live_server import PATIENCE
 
 H = 0.05
 
@@ -114,7 +115,7 @@ def played(
     clock.session = session
     session.listen(events.append)
     session.start()
-    assert session.join(60.0)
+    assert session.join(PATIENCE)
     assert session.error is None
     return session, events, clock
 
@@ -250,7 +251,7 @@ def test_a_fault_of_ours_ends_the_run_with_a_line(monkeypatch: pytest.MonkeyPatc
     session.listen(events.append)
     monkeypatch.setattr(module.LiveRun, "advance", fail)
     session.start()
-    assert session.join(30.0)
+    assert session.join(PATIENCE)
     assert str(session.error) == "the live session failed: ZeroDivisionError: oops"
     assert events[-1]["error"] == str(session.error)
     assert (tmp_path / "out" / "states.csv").is_file()
@@ -277,7 +278,7 @@ def test_a_fault_in_the_midst_of_the_models_is_answered_and_ends_the_run(monkeyp
     clock.session = session = Session(load_scenario("kvlcc2_crossing"), clock=clock)
     session.listen(events.append)
     session.start()
-    assert session.join(30.0)
+    assert session.join(PATIENCE)
     with pytest.raises(HostError, match="Back failed: ZeroDivisionError: oops"):
         clock.answers[0].result(0.0)
     assert events[-1]["error"] == "the live session failed: ZeroDivisionError: oops"
@@ -295,7 +296,7 @@ def test_the_end_is_told_whatever_fails_at_it(monkeypatch: pytest.MonkeyPatch) -
     session.listen(events.append)
     monkeypatch.setattr(module.LiveRun, "observe_ships", fail)
     session.start()
-    assert session.join(30.0)
+    assert session.join(PATIENCE)
     assert events[-1]["kind"] == "end"
     assert not session.snapshot.running
 
@@ -313,8 +314,8 @@ def test_no_command_slips_in_behind_the_last_that_is_refused(monkeypatch: pytest
 
     monkeypatch.setattr(session._waiting, "put_nowait", put_late)
     with pytest.raises(InputError, match="the run has ended: start another one"):
-        session.submit(Mark("late")).result(10.0)
-    assert session.join(30.0)
+        session.submit(Mark("late")).result(PATIENCE)
+    assert session.join(PATIENCE)
 
 
 def test_marks_may_be_read_while_one_is_set(monkeypatch: pytest.MonkeyPatch) -> None:

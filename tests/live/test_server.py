@@ -5,16 +5,15 @@ from __future__ import annotations
 import json
 import random
 import socket
-import time
 from base64 import b64encode
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import ExitStack, suppress
 from math import radians
 from pathlib import Path
 from typing import Any
 
 import pytest
-from websockets.exceptions import ConnectionClosed, InvalidStatus
+from websockets.exceptions import ConnectionClosed, InvalidHandshake, InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 
 from shipcollision_fmu.errors import StepError
@@ -24,9 +23,9 @@ from shipcollision_fmu.live.server.access import Allowance, Tokens, is_own_origi
 from shipcollision_fmu.live.server.serve import MOST_MESSAGE
 from shipcollision_fmu.live.session import run_folder
 from shipcollision_fmu.live.session import session as session_module
-from shipcollision_fmu.live.session.commands import End
+from shipcollision_fmu.live.session.commands import End, Pause
 from shipcollision_fmu.live.session.live_run import LiveRun
-from tests.live.live_server import LiveServer, receive, receive_until, serving
+from tests.live.live_server import PATIENCE, LiveServer, eventually, receive, receive_until, serving
 
 
 @pytest.fixture(scope="module")
@@ -51,13 +50,6 @@ def ask(client: ClientConnection, **message: Any) -> dict[str, Any]:
 ask.number = 0  # type: ignore[attr-defined]
 
 
-def eventually(holds: Callable[[], bool], seconds: float = 20.0) -> None:
-    end = time.monotonic() + seconds
-    while not holds():
-        assert time.monotonic() < end, "it did not come true"
-        time.sleep(0.01)
-
-
 def assert_alive(server: LiveServer) -> None:
     """The simulation goes on, and a new client is served."""
     before = server.session.snapshot.step_count
@@ -73,6 +65,8 @@ def test_hello_and_states(server: LiveServer) -> None:
     with connect(server.address()) as client:
         hello = receive(client)
         states = [receive_until(client, "state") for _ in range(5)]
+        while states[-1]["time"] == states[0]["time"]:  # states come by the clock, the simulation when it has its turn
+            states.append(receive_until(client, "state"))
     assert (hello["type"], hello["role"], hello["own"], hello["scene"]) == ("hello", "bridge", "own", "/scene.glb")
     own = hello["ships"][0]
     assert (own["name"], own["model"], own["L_oa"], own["limits"]["rudder_deg"]) == ("own", "KVLCC2", 320.0, 35.0)
@@ -90,7 +84,7 @@ def test_an_order_reaches_the_ship(server: LiveServer) -> None:
         assert refused["message"] == "nobody is in command of target: take command first"
         assert ask(client, type="command", ship="target", take=True)["type"] == "ok"
         assert ask(client, type="order", ship="target", rudder_deg=5.0, telegraph=2)["type"] == "ok"
-        for _ in range(100):
+        for _ in range(1000):  # states come by the clock, also while the simulation is held up
             state = receive_until(client, "state")
             if state["ships"]["target"]["rudder_order"] == pytest.approx(0.0872664626):
                 break
@@ -336,7 +330,7 @@ def test_a_flood_is_refused_counted_and_dropped(server: LiveServer) -> None:
 
     with server.connect() as client, pytest.raises(ConnectionClosed):
         flood(client)
-    assert server.session.snapshot.refused - before >= access.REFUSED_AT_ONCE
+    eventually(lambda: server.session.snapshot.refused - before >= access.REFUSED_AT_ONCE)
     assert_alive(server)
 
 
@@ -363,13 +357,26 @@ def shake_hands(server: LiveServer) -> socket.socket:
 
 
 def test_a_client_that_never_reads_is_dropped_and_stalls_nobody(monkeypatch: pytest.MonkeyPatch) -> None:
+    """While the server waits for it, the simulation makes steps, and the other client has them."""
     monkeypatch.setattr(hub, "INTERVAL", 0.001)  # fills the buffers at once
-    with serving(patience=0.3) as server:
+    send, sent = hub.Hub._send, [0]
+
+    async def count(self: hub.Hub, client: Any, text: str) -> None:
+        sent[0] += client.name == "bridge-1"
+        await send(self, client, text)
+
+    monkeypatch.setattr(hub.Hub, "_send", count)
+    with serving(patience=2.0) as server:  # a reader that the machine holds up for less than that is not dropped
         with shake_hands(server), server.connect() as reader:
             eventually(lambda: server.app.hub.clients == 2)
+            before, meanwhile = 0, set[float]()
             while server.app.hub.clients == 2:
-                receive_until(reader, "state")
-            assert server.session.snapshot.paced or server.session.snapshot.real_rate > 0.5
+                time_of_state = receive_until(reader, "state")["time"]
+                if sent[0] != before:
+                    before, meanwhile = sent[0], set()
+                meanwhile.add(time_of_state)
+            assert {client.name for client in server.app.hub._clients} == {"bridge-2"}
+            assert len(meanwhile) > 5  # of 40 steps; were it waited for, one
         assert_alive(server)
 
 
@@ -392,19 +399,48 @@ def test_connections_that_say_nothing_lock_nobody_out(monkeypatch: pytest.Monkey
     with serving() as server, ExitStack() as stack:
         path = f"/?token={server.app.tokens.bridge}"
 
+        def ask_status() -> int | None:
+            """None where a busy machine has held up the question itself until its connection had gone."""
+            with suppress(OSError):
+                return server.get(path)[0]
+            return None
+
         def is_crowded() -> bool:
             """With more of them each time: a busy machine may look when those before have gone already."""
             for _ in range(8):
                 with suppress(ConnectionError):
                     stack.enter_context(socket.create_connection(("127.0.0.1", server.port))).sendall(sent)
-            return server.get(path)[0] == 503
+            return ask_status() == 503
 
         eventually(is_crowded)
-        eventually(lambda: server.get(path)[0] == 200)
-        with server.connect() as client:  # a WebSocket may be silent
-            end = time.monotonic() + 0.8
-            while time.monotonic() < end:
-                receive_until(client, "state")
+        eventually(lambda: ask_status() == 200)
+
+
+def test_a_websocket_may_be_silent(monkeypatch: pytest.MonkeyPatch) -> None:
+    """For longer than a connection that is none. The server's look at an idle connection is made to come in between."""
+    looks: list[bool] = []
+    look = serve_module._Http._end_if_idle
+
+    def count(self: Any) -> None:
+        looks.append(self in self.connections)
+        look(self)
+
+    monkeypatch.setattr(serve_module._Http, "_end_if_idle", count)
+    with serving() as server:
+        monkeypatch.setattr(serve_module, "IDLE", 0.3)
+
+        def stays() -> bool:
+            """A busy machine may be longer about shaking hands than an idle connection is borne."""
+            looks.clear()
+            with suppress(OSError, InvalidHandshake), server.connect() as client:
+                while False not in looks:
+                    receive_until(client, "state")
+                for _ in range(5):
+                    receive_until(client, "state")
+                return True
+            return False
+
+        eventually(stays)
 
 
 def draw_message(rng: random.Random) -> str | bytes:
@@ -474,7 +510,7 @@ def test_the_end_is_said_while_pages_are_open() -> None:
     """Whoever started the command sees at once where the run is, and not a minute later."""
     with serving() as server, server.connect():
         server.session.submit(End())
-        assert server.ended.wait(20.0)
+        assert server.ended.wait(PATIENCE)
         assert server.app.hub.clients == 1
 
 
@@ -530,7 +566,8 @@ def test_a_model_that_fails_ends_the_run_with_a_line_for_all(tmp_path: Path, mon
         advance(self)
 
     monkeypatch.setattr(LiveRun, "advance", fail)
-    with serving(out=tmp_path / "run") as server, server.connect() as one, server.connect() as other:
+    with serving(out=tmp_path / "run", paused=True) as server, server.connect() as one, server.connect() as other:
+        server.session.submit(Pause(False))  # both are there: without a client the server would end with the run
         for client in (one, other):
             assert receive_until(client, "end")["error"] == "own: the motion diverges in the step at t = 1 s"
         assert (tmp_path / "run" / "states.csv").read_text(encoding="utf-8").count("\n") == 22
