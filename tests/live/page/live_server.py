@@ -16,13 +16,13 @@ from shipcollision_fmu import load_scenario
 from shipcollision_fmu.live.server.access import Tokens
 from shipcollision_fmu.live.server.app import LiveApp
 from shipcollision_fmu.live.server.serve import bind, serve
-from shipcollision_fmu.live.session.commands import End
+from shipcollision_fmu.live.session.commands import End, Pause, Step
 from shipcollision_fmu.live.session.session import Session
 from tests.show.browser import Page
 
-__all__ = ["BridgePage", "LiveServer", "serve_live"]
+__all__ = ["PATIENCE", "BridgePage", "LiveServer", "serve_live"]
 
-PATIENCE = 60.0
+PATIENCE = 300.0
 """[s] for a server to start or to stop, and for a page: many times what it takes, as the machine may be busy."""
 
 
@@ -36,6 +36,19 @@ class LiveServer:
     def address(self, role: str = "bridge") -> str:
         return f"http://127.0.0.1:{self.port}{'/' if role == 'bridge' else '/instructor'}?token={role}"
 
+    def pause(self, paused: bool = True) -> None:
+        """Stops the simulation for what a busy page would miss, or lets it go on."""
+        self.session.submit(Pause(paused)).result(PATIENCE)
+
+    def step(self) -> None:
+        """A step of a paused simulation."""
+        self.session.submit(Step()).result(PATIENCE)
+
+    def step_until(self, time: float) -> None:
+        """Steps of a paused simulation up to a time [s]."""
+        while self.session.snapshot.time < time - 1e-9:
+            self.step()
+
 
 class BridgePage(Page):
     """A live page, open."""
@@ -47,6 +60,11 @@ class BridgePage(Page):
     def wait(self, script: str) -> None:
         """Until JavaScript returns something true."""
         WebDriverWait(self.driver, PATIENCE, poll_frequency=0.03).until(lambda d: d.execute_script(script), script)
+
+    def wait_until(self, time: float) -> None:
+        """Until a paused run of that time [s] is in the page's frames."""
+        self.wait(f"return live.session.present(performance.now())?.time > {time - 1e-6}")
+        self.wait_for_frame()
 
     def state(self, path: str = "") -> Any:
         """The latest state, or a part of it such as ".ships.own"."""
