@@ -29,7 +29,7 @@ runpy.run_module("shipcollision_fmu", run_name="__main__", alter_sys=True)
 def test_an_interrupt_outside_a_command_is_at_most_one_line(module: str, status: int) -> None:
     done = subprocess.run(
         [sys.executable, "-c", INTERRUPTED.format(module=module)],
-        env=os.environ | {"PYTHONPATH": str(fmu_files._PACKAGE.parent)}, capture_output=True, text=True, timeout=60,
+        env=os.environ | {"PYTHONPATH": str(fmu_files._PACKAGE.parent)}, capture_output=True, text=True, timeout=600,
     )  # fmt: skip
     assert (done.returncode, done.stderr) == (status, "error: interrupted\n" if status else "")
 

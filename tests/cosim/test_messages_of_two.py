@@ -49,7 +49,7 @@ def fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_a_slave_of_another_master_may_speak_after_a_run(fmu: Path) -> None:
     """The run's own listeners are gone by then: the process ended by a segmentation fault."""
     done = subprocess.run(
-        [sys.executable, "-c", AFTER_A_RUN, str(fmu)], capture_output=True, text=True, timeout=120, check=False
+        [sys.executable, "-c", AFTER_A_RUN, str(fmu)], capture_output=True, text=True, timeout=600, check=False
     )
     assert done.returncode == 0, done.stderr
     assert "no such ship" in done.stdout

@@ -48,7 +48,8 @@ class StandIn:
     """Whether its worker is killed; it raises MemoryError otherwise."""
     bearable: int = 0
     megabytes: int = 0
-    """Memory that each row of a batch takes for a second, all together."""
+    """Memory that each row of a batch takes, all together. With more than `bearable` rows it is held until somebody
+    ends the worker for it: a nanny on a busy machine is long about that."""
     fails: int = -1
     """A row whose computation raises ValueError."""
 
@@ -102,7 +103,7 @@ def compute_stand_in(study: StandIn, first: int, count: int, engine: str) -> Tab
         raise ValueError(f"row {study.fails} cannot be computed")
     if study.megabytes:
         held = np.ones(study.megabytes * count * 2**17)
-        time.sleep(1.0)
+        time.sleep(600.0 if count > study.bearable else 1.0)
         del held
     rows = np.arange(first, first + count)
     refused = rows % 7 == 0

@@ -15,7 +15,7 @@ import pytest
 from shipcollision_fmu import __version__
 from shipcollision_fmu.errors import HostError
 from shipcollision_fmu.study.engine.run import run_study
-from tests.study.engine.cluster import process_cluster, wait_for
+from tests.study.engine.cluster import DEADLINE, process_cluster, wait_for
 from tests.study.engine.folders import STUDY, digest
 from tests.study.engine.stand_in import StandIn, compute_stand_in
 
@@ -72,7 +72,7 @@ def test_a_scheduler_that_is_restarted(whole: Path, tmp_path: Path) -> None:
         cluster.scheduler.wait()
         at.open()
         for worker in cluster.workers:
-            worker.wait(timeout=60)  # by themselves: their scheduler is gone
+            worker.wait(timeout=DEADLINE)  # by themselves: their scheduler is gone
         cluster.start_scheduler()
         cluster.start_workers(3)
 
@@ -117,7 +117,7 @@ def test_a_worker_without_the_package_that_comes_later_harms_nothing(
         try:
             at.wait(1)
             cluster.start_foreign_worker(packages)
-            cluster.workers[-1].wait(timeout=60)
+            cluster.workers[-1].wait(timeout=DEADLINE)
         finally:
             at.open()
 

@@ -20,7 +20,7 @@ from shipcollision_fmu.study.definition.distributions import DISTRIBUTIONS
 from shipcollision_fmu.study.definition.variables import NUMBERS, WORDS
 from shipcollision_fmu.study.engine import run as run_module
 from shipcollision_fmu.study.rows.columns import COLLISIONS, ENCOUNTERS
-from tests.study.engine.cluster import PROJECT
+from tests.study.engine.cluster import DEADLINE, PROJECT
 from tests.study.engine.folders import digest
 
 SMALL = """
@@ -244,7 +244,7 @@ def test_a_terminal_has_a_bar_that_is_gone_at_the_end(folder: Path) -> None:
         with suppress(OSError):  # the end of a terminal
             while piece := drawn.read(4096):
                 text += piece
-        stdout, _ = process.communicate(timeout=60)
+        stdout, _ = process.communicate(timeout=DEADLINE)
     assert process.returncode == 0
     assert b"of 40 rows" in text
     assert text.rstrip().endswith((b"\x1b[2K", b"\x1b[?25h", b"\x1b[1A\x1b[2K"))
@@ -277,7 +277,7 @@ def test_an_interrupt_leaves_a_study_that_goes_on(
     assert called("small.toml", *OPTIONS, "--out", "whole").exit_code == 0
     done = subprocess.run(
         [sys.executable, "-c", STOPPED.format(number=int(number)), "study", "small.toml", *OPTIONS, "--out", "a"],
-        cwd=folder, env=os.environ | {"PYTHONPATH": str(PROJECT)}, capture_output=True, text=True, timeout=120,
+        cwd=folder, env=os.environ | {"PYTHONPATH": str(PROJECT)}, capture_output=True, text=True, timeout=DEADLINE,
     )  # fmt: skip
     assert done.stderr == "error: interrupted; 10 of 40 rows are in a: go on with --resume\n"
     assert (done.returncode, done.stdout) == (status, "")

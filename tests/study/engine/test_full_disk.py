@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from shipcollision_fmu.study.engine.run import run_study
-from tests.study.engine.cluster import PROJECT
+from tests.study.engine.cluster import DEADLINE, PROJECT
 from tests.study.engine.folders import digest
 from tests.study.engine.stand_in import StandIn, compute_stand_in
 
@@ -66,7 +66,8 @@ if can_mount():
             [*MOUNTED, f"mount -t tmpfs -o size={size}k none disk && " + run + " full"
              + " && find disk -name '*.parquet' | wc -l && find disk -name '.ship*' | wc -l"
              + " && mount -o remount,size=2m disk && " + run + " enough"],
-            cwd=tmp_path, env=os.environ | {"PYTHONPATH": str(PROJECT)}, capture_output=True, text=True, timeout=120,
+            cwd=tmp_path, env=os.environ | {"PYTHONPATH": str(PROJECT)}, capture_output=True, text=True,
+            timeout=DEADLINE,
         )  # fmt: skip
         said, parts, left, *more = done.stdout.splitlines()
         assert said.startswith("cannot write to ") and "disk/study" in said, done.stderr  # noqa: PT018  one line

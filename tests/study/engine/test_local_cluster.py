@@ -19,7 +19,7 @@ from shipcollision_fmu.errors import HostError
 from shipcollision_fmu.study.engine.batches import Batch
 from shipcollision_fmu.study.engine.dask_executor import DaskExecutor
 from shipcollision_fmu.study.engine.run import run_study
-from tests.study.engine.cluster import PROJECT, wait_for
+from tests.study.engine.cluster import DEADLINE, PROJECT, wait_for
 from tests.study.engine.folders import STUDY, digest, list_files
 from tests.study.engine.stand_in import StandIn, compute_stand_in
 
@@ -115,7 +115,7 @@ def test_a_row_that_cannot_be_computed_ends_the_study_with_its_error(tmp_path: P
 CLIENT = """
 from dataclasses import replace
 from pathlib import Path
-import sys
+import signal, sys
 from shipcollision_fmu.study.engine.batches import Batch
 from shipcollision_fmu.study.engine.dask_executor import DaskExecutor
 from shipcollision_fmu.study.engine.run import run_study
@@ -123,6 +123,7 @@ from tests.study.engine.folders import STUDY
 from tests.study.engine.stand_in import compute_stand_in
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell that starts the tests may have it ignored
     study = replace(STUDY, gate=sys.argv[1], gated=500)
     try:
         run_study(study, Path(sys.argv[2]), workers=2, engine="python", compute=compute_stand_in)
@@ -158,7 +159,7 @@ def test_a_client_that_is_ended(whole: Path, tmp_path: Path, number: signal.Sign
             os.killpg(client.pid, number)
         else:
             client.kill()
-        _, said = client.communicate(timeout=60)
+        _, said = client.communicate(timeout=DEADLINE)
         wait_for(lambda: not any(map(is_running, workers)))
     finally:
         gate.touch()

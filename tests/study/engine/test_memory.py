@@ -26,7 +26,7 @@ def one_death_is_enough(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_a_batch_that_takes_too_much_memory_is_halved(tmp_path: Path) -> None:
     """Four rows take 600 MB, two take 300."""
-    study = StandIn(rows=4, megabytes=150)
+    study = StandIn(rows=4, megabytes=150, bearable=2)
     run_study(StandIn(rows=4), tmp_path / "whole", workers=0, engine="python", compute=compute_stand_in)
     with process_cluster(tmp_path / "cluster", workers=0) as cluster:
         cluster.start_limited_worker(LIMIT)

@@ -13,7 +13,7 @@ import pytest
 from shipcollision_fmu.errors import StudyError
 from shipcollision_fmu.study.engine.run import run_study
 from shipcollision_fmu.study.rows.compute import compute_rows
-from tests.study.engine.cluster import PROJECT
+from tests.study.engine.cluster import DEADLINE, PROJECT
 
 
 @pytest.mark.parametrize(
@@ -54,7 +54,7 @@ def test_a_script_without_the_guard_ends_with_one_line(tmp_path: Path) -> None:
     (tmp_path / "script.py").write_text(f"from shipcollision_fmu import run_study\n{call}\n")
     ended = subprocess.run(
         [sys.executable, "script.py"], cwd=tmp_path, env=os.environ | {"PYTHONPATH": str(PROJECT)},
-        capture_output=True, text=True, timeout=120, check=False,
+        capture_output=True, text=True, timeout=DEADLINE, check=False,
     )  # fmt: skip
     lines = ended.stderr.splitlines()
     assert ended.returncode == 1

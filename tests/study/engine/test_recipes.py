@@ -19,7 +19,8 @@ from pathlib import Path
 import pytest
 import yaml
 
-from tests.study.engine.cluster import PROJECT, wait_for
+from tests.free_port import hold_free_port
+from tests.study.engine.cluster import DEADLINE, PROJECT, wait_for
 from tests.study.engine.folders import digest
 
 pytestmark = pytest.mark.slow
@@ -107,7 +108,7 @@ def after_scheduler(port: int) -> Iterator[None]:
 def check_rows(folder: Path) -> None:
     """The rows are those of one process."""
     with running(folder, "shipcollision", "study", "mine.toml", "--out", "here", "--workers", "0") as client:
-        assert client.wait(timeout=120) == 0
+        assert client.wait(timeout=DEADLINE) == 0
     assert digest(folder / "strait") == digest(folder / "here") != {}
 
 
@@ -118,7 +119,7 @@ def test_workers_that_dask_jobqueue_starts_as_jobs(folder: Path) -> None:
     assert few.count("2") != script.count("2")
     (folder / "client.py").write_text(few, encoding="utf-8")
     with running(folder, sys.executable, "client.py") as client:
-        assert client.wait(timeout=180) == 0, (folder / "log").read_text()
+        assert client.wait(timeout=DEADLINE) == 0, (folder / "log").read_text()
     jobs = (folder / "jobs").read_text()
     assert "-m distributed.cli.dask_worker tcp://" in jobs or "dask worker tcp://" in jobs
     assert "--nthreads 1 " in jobs
@@ -130,23 +131,22 @@ def test_a_job_that_finds_its_scheduler_by_a_file(folder: Path) -> None:
     (script,) = read_blocks("sh", "#SBATCH")
     (folder / "job.sh").write_text(script, encoding="utf-8")
     with running(folder, "sh", "job.sh") as job:
-        assert job.wait(timeout=180) == 0, (folder / "log").read_text()
+        assert job.wait(timeout=DEADLINE) == 0, (folder / "log").read_text()
     check_rows(folder)
 
 
 def test_processes_on_machines_that_reach_each_other(folder: Path) -> None:
     (script,) = read_blocks("sh", "tcp://HOST:8786")
-    scheduler, worker, client = (
-        shlex.split(line, comments=True) for line in script.replace("HOST:8786", "127.0.0.1:48786").splitlines()
-    )
+    scheduler, worker, client = (shlex.split(line, comments=True) for line in script.splitlines())
     assert scheduler[-2:] == ["--port", "8786"]
     with (
-        running(folder, *scheduler[:-1], "48786"),
-        running(folder, *(word.replace("auto", "2") for word in worker)),
-        after_scheduler(48786),
-        running(folder, *client) as study,
+        hold_free_port() as port,
+        running(folder, *scheduler[:-1], str(port)),
+        running(folder, *(word.replace("auto", "2").replace("HOST:8786", f"127.0.0.1:{port}") for word in worker)),
+        after_scheduler(port),
+        running(folder, *(word.replace("HOST:8786", f"127.0.0.1:{port}") for word in client)) as study,
     ):
-        assert study.wait(timeout=180) == 0, (folder / "log").read_text()
+        assert study.wait(timeout=DEADLINE) == 0, (folder / "log").read_text()
     check_rows(folder)
 
 
@@ -170,14 +170,20 @@ def test_the_manifests_of_kubernetes(folder: Path) -> None:
     for document in (scheduler, workers, job):
         (container,) = document["spec"]["template"]["spec"]["containers"]
         assert container["image"] == "shipcollision:0.1.0"
-        commands.append([word.replace("study-scheduler:8786", "127.0.0.1:48787") for word in container["command"]])
+        commands.append(container["command"])
     (client,) = job["spec"]["template"]["spec"]["containers"]
     assert [mount["mountPath"] for mount in client["volumeMounts"]] == [client["workingDir"]]
+    assert all(any("study-scheduler:8786" in word for word in command) for command in commands[1:])
+
+    def give_port(command: list[str]) -> list[str]:
+        return [word.replace("study-scheduler:8786", f"127.0.0.1:{port}") for word in command]
+
     with (
-        running(folder, *commands[0], "--port", "48787"),
-        running(folder, *commands[1]),
-        after_scheduler(48787),
-        running(folder, *commands[2]) as study,
+        hold_free_port() as port,
+        running(folder, *commands[0], "--port", str(port)),
+        running(folder, *give_port(commands[1])),
+        after_scheduler(port),
+        running(folder, *give_port(commands[2])) as study,
     ):
-        assert study.wait(timeout=180) == 0, (folder / "log").read_text()
+        assert study.wait(timeout=DEADLINE) == 0, (folder / "log").read_text()
     check_rows(folder)
