@@ -61,6 +61,10 @@ class BridgePage(Page):
         """Until JavaScript returns something true."""
         WebDriverWait(self.driver, PATIENCE, poll_frequency=0.03).until(lambda d: d.execute_script(script), script)
 
+    def wait_for(self, step_count: int) -> None:
+        """Until a paused run after so many steps is what the page has."""
+        self.wait(f"return live.state?.paused && live.state.step_count === {step_count}")
+
     def wait_until(self, time: float) -> None:
         """Until a paused run of that time [s] is in the page's frames."""
         self.wait(f"return live.session.present(performance.now())?.time > {time - 1e-6}")

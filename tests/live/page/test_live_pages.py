@@ -23,8 +23,9 @@ from shipcollision_fmu.live.server.app import LiveApp
 from shipcollision_fmu.live.session.commands import Back, End, Fail, Mark, Pause
 from shipcollision_fmu.live.session.pacer import Pacer
 from tests.conftest import Write
+from tests.live.live_server import eventually
 
-from .live_server import BridgePage, LiveServer, serve_live
+from .live_server import PATIENCE, BridgePage, LiveServer, serve_live
 
 PHONE, TOUCH = (390, 844), 44
 SMALL = (500, 440)
@@ -64,7 +65,7 @@ def write_apart(folder: Path, north: float = 3000.0, east: float = 1000.0, speed
 
 
 @pytest.fixture(scope="module")
-def server(browser: Chrome, tmp_path_factory: pytest.TempPathFactory) -> Iterator[LiveServer]:
+def apart(browser: Chrome, tmp_path_factory: pytest.TempPathFactory) -> Iterator[LiveServer]:
     """Two tankers, a mile and a half apart, four times as fast as the clock. That a busy machine does not keep up is
     never said, as no page here is about it: it would be an alarm."""
     with pytest.MonkeyPatch.context() as patch:
@@ -74,10 +75,23 @@ def server(browser: Chrome, tmp_path_factory: pytest.TempPathFactory) -> Iterato
 
 
 @pytest.fixture
+def server(apart: LiveServer) -> LiveServer:
+    """The two tankers where they began: after minutes at the wheel, on a busy machine, they could meet."""
+    apart.pause()
+    apart.session.submit(Back("start")).result(PATIENCE)
+    apart.pause(False)
+    return apart
+
+
+@pytest.fixture
 def bridge(browser: Chrome, server: LiveServer) -> BridgePage:
-    """The bridge of own, in command of it."""
+    """The bridge of own, in command of it, and up to date."""
     page = BridgePage(browser, server.address())
+    server.pause()
+    page.wait_for(server.session.snapshot.step_count)
     page.wait("return live.state.command.own === live.client")
+    server.pause(False)
+    page.wait("return !live.state.paused")
     return page
 
 
@@ -589,6 +603,7 @@ def test_the_instructor_arms_failures(browser: Chrome, server: LiveServer) -> No
         value.send_keys(text)
         arm.click()
         page.wait(f"return document.querySelector('.messages').textContent.startsWith('“{text}” is no time')")
+    eventually(lambda: server.session.snapshot.time > 1.0)
     value.clear()
     value.send_keys("0:01")
     arm.click()
