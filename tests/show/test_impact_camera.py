@@ -77,3 +77,23 @@ def test_the_place_of_an_impact_is_not_covered(
     assert drawn["hidden"] == 0
     eye = drawn["eye"]
     assert 2.0 <= -eye[2] <= 0.5 * float(((place - eye)[:2] ** 2).sum() ** 0.5)  # low, above the water
+
+
+@pytest.mark.one_in(2)
+def test_the_camera_comes_to_the_wound_once_the_impact_is_over(browser: Chrome, kvlcc2_crossing: Path) -> None:
+    """By itself while time goes on, 6 s after: the opening takes up a sixth of the picture, and no hull hides it."""
+    scene = load_scene(kvlcc2_crossing)
+    opening = next(dent for dent in scene.dents if dent.kind == "side")
+    page = Page(browser, write_page(kvlcc2_crossing), "plain=yes&bare", (900, 560))
+    page.slide(opening.time + 0.5)
+    page.run("replay.camera('impact')")
+    widths = []
+    for later in (5.5, 6.5):
+        drawn = page.slide(opening.time + later)
+        pose = drawn["poses"][opening.ship]
+        R = rotation_from_quaternion(pose["quaternion"])
+        ends = [[opening.point[0] + side * opening.half_width, opening.point[1], 0.0] for side in (-1, 1)]
+        x = [page.run("return replay.project(arguments[0])", (pose["position"] + R @ end).tolist())[0] for end in ends]
+        widths.append(abs(x[1] - x[0]) / 900)
+        assert drawn["hidden"] == 0
+    assert widths[1] > max(1 / 6, 1.3 * widths[0])

@@ -107,6 +107,7 @@ export class Cameras {
     if (this.mode !== "impact" || this.moved || Math.abs(time - this.checked) < CHECK) return;
     this.checked = time;
     if (Math.abs(time - this.chosen) < PATIENCE && time >= this.chosen) return;
+    if (this.impact.isOver(this.chosen, time)) return this.choose("impact", time);
     if (!this.impact.mayBeHidden(this.camera.position, time)) return; // rays take long
     if (this.hidden(time)) this.choose("impact", time);
   }

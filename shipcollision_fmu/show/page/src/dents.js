@@ -38,11 +38,12 @@ const FRAGMENT = /* glsl */ `
     vec3 light = (0.55 * uAbove + 0.3 * uBeam) / 3.14159265 + 0.012;
     float edge = vRing - uGrown;
     if (edge > 0.0) {
-      // Scraped to the primer beside the edge, sooty farther out.
-      float worn = smoothstep(0.30, 0.0, edge) * (0.75 + 0.25 * hash(floor(vLocal.xy * 3.0)));
-      float soot = 0.75 * smoothstep(0.6, 0.05, edge);
-      float alpha = max(worn, soot) * step(0.01, uGrown);
-      vec3 steel = mix(vec3(0.055, 0.045, 0.04), vec3(0.30, 0.17, 0.12), worn * worn);
+      // Bare steel at the torn edge, primer beside it, soot farther out and above.
+      float rough = hash(floor(vLocal.xy * 3.0)), streak = hash(vec2(floor(vLocal.x * 2.3), 3.0));
+      float bare = smoothstep(0.13, 0.04, edge * (0.7 + 0.6 * rough)), worn = smoothstep(0.32, 0.06, edge * (0.7 + 0.6 * streak));
+      float soot = 0.85 * smoothstep(0.6, 0.1, edge * (vLocal.y > 0.0 ? 0.75 + 0.4 * streak : 1.5));
+      float alpha = max(max(bare, 0.95 * worn), soot) * step(0.01, uGrown);
+      vec3 steel = mix(mix(vec3(0.022, 0.02, 0.02), vec3(0.17, 0.075, 0.045), 0.7 * worn), vec3(0.50, 0.49, 0.47) * (0.75 + 0.35 * rough), bare);
       gl_FragColor = vec4(finish(steel * light), alpha);
       return;
     }
@@ -57,12 +58,12 @@ const FRAGMENT = /* glsl */ `
     vec3 at = vLocal + way * d;
     float inside = max(0.0, -at.z);
     float shade = way == deck ? (d.y < 0.0 ? 0.16 : 0.07) : way == frame ? 0.11 : 0.05;
-    vec3 colour = vec3(0.9, 0.8, 0.7) * shade * light * exp(-inside / (0.25 * uDepth + 1.0));
+    vec3 colour = vec3(0.85, 0.8, 0.76) * shade * light * exp(-inside / (0.14 * uDepth + 0.8));
     // Torn edges of decks and frames stand in the opening.
     float plate = min(abs(vLocal.y - 2.7 * floor(vLocal.y / 2.7 + 0.5)), 1.6 * abs(vLocal.x - 3.4 * floor(vLocal.x / 3.4 + 0.5)));
-    colour = mix(colour, vec3(0.26, 0.20, 0.17) * light, smoothstep(0.16, 0.08, plate) * 0.8);
+    colour = mix(colour, vec3(0.20, 0.17, 0.155) * light, smoothstep(0.13, 0.06, plate) * 0.8);
     colour += uGlow * vec3(0.9, 0.22, 0.03) * exp(-abs(inside - 2.0) / 2.0) * (way == deck && d.y < 0.0 ? 0.9 : 0.35) * exp(-0.08 * dot(vLocal.xy, vLocal.xy) / (1.0 + 0.1 * uDepth));
-    colour *= 0.35 + 0.65 * smoothstep(0.0, 0.12, -edge) + 0.2;
+    colour *= 0.25 + 0.5 * smoothstep(0.0, 0.12, -edge); // the plating shades its edge
     gl_FragColor = vec4(finish(colour), 1.0);
   }`;
 
@@ -192,16 +193,19 @@ function makeOpening(dent, ship) {
   };
 }
 
-/** Plates around an opening, bent out and in, in the colour of bare steel and of primer. */
+const CORNERS = [0, 1, 3, 0, 3, 2, 2, 3, 4]; // of a plate: its root (0, 1), its fold (2, 3) and its tip (4)
+
+/** Plates around an opening, folded out and in, from primer at the root to bare steel at the tip. */
 function makePlates(dent, rays, centre, { outwards }, random) {
-  const geometry = new THREE.BufferGeometry();
-  const positions = new Float32Array(RAYS * 9), tints = new Float32Array(RAYS * 9);
+  const geometry = new THREE.BufferGeometry(), n = CORNERS.length;
+  const positions = new Float32Array(RAYS * 3 * n), tints = new Float32Array(RAYS * 3 * n);
   geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
   geometry.setAttribute("aTint", new THREE.BufferAttribute(tints, 3));
-  const bends = rays.map(() => ({ out: random(), length: 0.14 + 0.3 * random(), tint: random() }));
+  const bends = rays.map(() => ({ out: random(), length: 0.2 + 0.34 * random(), tint: random() }));
   bends.forEach(({ tint }, i) => {
-    const root = [0.30, 0.16, 0.11], tip = tint > 0.5 ? [0.42, 0.40, 0.38] : [0.16, 0.14, 0.13];
-    tints.set([...root, ...root, ...tip], 9 * i);
+    const root = [0.15, 0.08, 0.055], fold = tint > 0.4 ? [0.40, 0.37, 0.34] : [0.16, 0.12, 0.10], tip = tint > 0.4 ? [0.62, 0.60, 0.57] : [0.26, 0.24, 0.22];
+    const all = [root, root, fold, fold, tip];
+    tints.set(CORNERS.flatMap((corner) => all[corner]), 3 * n * i);
   });
   /** A place on a ray at a distance in half-widths. */
   const along = (ray, distance) => {
@@ -212,12 +216,15 @@ function makePlates(dent, rays, centre, { outwards }, random) {
     mesh: new THREE.Mesh(geometry, PLATES),
     bend(share) {
       bends.forEach(({ out, length }, i) => {
-        const [a, b] = [along(i, share), along((i + 1) % RAYS, share)];
-        const size = dent.half_width * length * share;
-        const tip = a.clone().lerp(b, 0.3 + 0.4 * out).lerp(centre, 0.35 * length * share);
-        tip.addScaledVector(outwards, size * (out > 0.35 ? 0.25 + 0.75 * out : -0.8));
-        [a, b].forEach((place) => place.addScaledVector(outwards, 0.06));
-        positions.set([...a.toArray(), ...b.toArray(), ...tip.toArray()], 9 * i);
+        const size = dent.half_width * length * share, isOut = out > 0.35;
+        const roots = [along(i, share), along((i + 1) % RAYS, share)];
+        const folds = roots.map((root, side) => root.clone().lerp(roots[1 - side], 0.14).lerp(centre, (isOut ? 0.28 : 0.14) * length * share)
+          .addScaledVector(outwards, size * (isOut ? 0.3 + 0.35 * out : -0.5)));
+        const tip = folds[0].clone().lerp(folds[1], 0.25 + 0.5 * out).lerp(centre, (isOut ? -0.5 * out : 0.2) * length * share)
+          .addScaledVector(outwards, size * (isOut ? 0.1 + 0.4 * out : -0.5));
+        roots.forEach((place) => place.addScaledVector(outwards, 0.06));
+        const all = [...roots, ...folds, tip];
+        positions.set(CORNERS.flatMap((corner) => all[corner].toArray()), 3 * n * i);
       });
       geometry.attributes.position.needsUpdate = true;
       geometry.computeVertexNormals();

@@ -26,7 +26,7 @@ export const FLAME_VERTEX = /* glsl */ `
               + UP * (uDeck - mix(0.2, (0.2 + 0.6 * aSeed.w) * uDeck, inside));
     float flicker = 0.85 + 0.16 * sin(5.3 * uAge + 40.0 * aSeed.x) + 0.13 * sin(8.7 * uAge + 23.0 * aSeed.z);
     float high = uSize * mix(1.0 + 1.8 * aSeed.w, 0.45 + 0.25 * aSeed.z, inside) * (0.5 + 0.6 * strength) * (1.0 - 0.35 * across * across) * flicker * grown;
-    float wide = 0.3 * uSize * (0.7 + 0.7 * aSeed.z) * (0.4 + 0.6 * grown) + 0.14 * high;
+    float wide = 0.3 * uSize * (0.7 + 0.7 * aSeed.z) * (0.4 + 0.6 * grown) * mix(1.0, 0.4, inside) + 0.14 * high;
     float speed = 2.6 * sqrt(uSize); // at which flames rise [m/s]
     vec3 tip = foot + UP * high + uDrift * high / (1.6 * speed);
     vFlame = vec3(position.x, 0.5 + 0.5 * position.y, uAge * speed / (1.5 * uSize));

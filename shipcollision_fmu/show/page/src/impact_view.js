@@ -10,6 +10,8 @@ const BLOCKED = 4; // worse than a place that is hidden once: the eye is within 
 const OBLIQUE = 0.95; // and the greatest from which an opening is still seen well
 const LOOKS = 12; // directions that are tried for a free view
 const MOMENTS = [0.05, 0.6, 3]; // after the impact [s], at which its place must be seen
+// [s] after the impact at its wound: so many of its widths, no nearer than a share of the view before, nearly square on [rad].
+const LOOK_BACK = { after: 6, across: 4, nearest: 0.6, beside: 0.35 };
 const STRONG = 0.5; // of the strongest impact so far: a weaker one is not what is looked at
 
 export class ImpactView {
@@ -25,6 +27,20 @@ export class ImpactView {
     const past = known.filter((effect) => effect.time <= time);
     const strongest = Math.max(...past.map(({ intensity }) => intensity));
     return past.findLast(({ intensity }) => intensity >= STRONG * strongest) ?? known[0];
+  }
+
+  /** Width [m] of the opening of an impact that is over; 0 before that, and without one. */
+  woundOf(effect, time) {
+    if (time < effect.time + LOOK_BACK.after) return 0;
+    const dent = this.data.dents?.find(({ kind, ship, time: begins }) => kind === "side" && ship === effect.ship && begins === effect.time);
+    return dent ? 2 * dent.half_width : 0;
+  }
+
+  /** Whether a view that was chosen at a time shows the impact, and by now its wound is to be seen. */
+  isOver(chosen, time) {
+    if (!this.data.effects?.length) return false;
+    const effect = this.effectAt(time);
+    return !this.woundOf(effect, chosen) && this.woundOf(effect, time) > 0;
   }
 
   /** Where an impact is seen, between deck and water, and a little below; the ships as they lie now. */
@@ -72,7 +88,7 @@ export class ImpactView {
   find(effect, time) {
     const begins = Math.max(this.data.start, time, effect.time);
     const offset = this.posedAt(begins, () => {
-      const tried = this.rankViews(effect);
+      const tried = this.rankViews(effect, begins);
       const cost = (one) => MOMENTS.reduce((sum, later) => (sum >= BLOCKED ? sum : sum + this.posedAt(begins + later, () => {
         const places = this.placesOf(effect), eye = places[0].clone().add(one.offset);
         return isWithin(this.ships, eye) ? BLOCKED : this.countHidden(eye, places);
@@ -89,20 +105,22 @@ export class ImpactView {
   }
 
   /** Places of the eye from that of an impact, with a score by angle, elevation and what is seen of the ships; the best first. */
-  rankViews(effect) {
+  rankViews(effect, time) {
+    const wound = this.woundOf(effect, time), beside = wound ? LOOK_BACK.beside : BESIDE;
     const { node } = this.ships.find(({ info }) => info.name === effect.ship);
     const outwards = new THREE.Vector3(...effect.outwards).transformDirection(node.matrixWorld).setY(0).normalize();
     const target = this.placesOf(effect)[0];
     const { tanX, tanY } = this.freeAngles(), length = this.lengthAt(target);
     const near = this.shipsAt(target), across = near.length > 1 ? AROUND.two : AROUND.one;
-    const distance = Math.max(25, (across * length) / (2 * tanX), (AROUND.upright * length) / (2 * tanY));
+    const ordinary = Math.max(25, (across * length) / (2 * tanX), (AROUND.upright * length) / (2 * tanY));
+    const distance = wound ? Math.min(ordinary, Math.max(25, LOOK_BACK.nearest * ordinary, (LOOK_BACK.across * wound) / (2 * tanX))) : ordinary;
     const tried = [];
     for (const rise of RISES) {
       for (let i = -17; i <= 17; i++) {
         const turn = (i * Math.PI) / 18;
         const offset = outwards.clone().applyAxisAngle(UP, turn).addScaledVector(UP, rise).setLength(distance);
         const seen = near.map((ship) => this.shareSeen(ship, target, target.clone().add(offset)));
-        const score = 1.2 * Math.min(...seen) + 0.4 * Math.max(...seen) - 0.8 * Math.abs(Math.abs(turn) - BESIDE) - 3 * Math.max(0, Math.abs(turn) - OBLIQUE) - 3 * (rise - RISES[0]) + 1e-4 * i;
+        const score = 1.2 * Math.min(...seen) + 0.4 * Math.max(...seen) - 0.8 * Math.abs(Math.abs(turn) - beside) - 3 * Math.max(0, Math.abs(turn) - OBLIQUE) - 3 * (rise - RISES[0]) + 1e-4 * i;
         tried.push({ offset, score });
       }
     }

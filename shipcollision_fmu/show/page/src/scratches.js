@@ -3,14 +3,25 @@
 import * as THREE from "three";
 import { LIGHT } from "./daylight.js";
 import { makePaint } from "./plain_paint.js";
+import { randomNumbers } from "./random.js";
 import { collectTriangles, joinTriangles } from "./triangles.js";
 
 const SHADER_TIME = { value: 0 };
-const GLOW = 0.35; // share of its colour that a scratch gives off, so that it is seen in the shade
+const GLOW = 0.12; // share of its colour that a scratch gives off, so that it is seen in the shade
+const STEEL = [[0.56, 0.55, 0.53], [0.40, 0.36, 0.32], [0.30, 0.13, 0.06], [0.07, 0.06, 0.055]]; // bare, worn, rusty, sooty
 const OVER = { polygonOffset: true, polygonOffsetFactor: -2, polygonOffsetUnits: -2 }; // the plating
+
+/** Colours of a ribbon's corners, 3 numbers each: bare steel, worn, rusty and sooty in turn. */
+function colourOf({ attributes: { position } }) {
+  const random = randomNumbers(position.count);
+  return new Float32Array(Array.from({ length: position.count }, () => STEEL[Math.floor(STEEL.length * random() ** 1.5)]).flat());
+}
 
 function growing(material) {
   const made = material.clone();
+  made.vertexColors = true;
+  made.color.setScalar(1);
+  made.emissive.setScalar(0.4 * GLOW);
   made.onBeforeCompile = (shader) => {
     shader.uniforms.uTime = SHADER_TIME;
     shader.vertexShader = `attribute float _time;\nvarying float vDrawnAt;\n${shader.vertexShader}`.replace(
@@ -32,7 +43,10 @@ function growing(material) {
 /** All ribbons of a ship as one mesh, triangles in the order of their times: {mesh, times}. */
 function joinRibbons(nodes, ship, material) {
   const triangles = collectTriangles(nodes, ship).sort((a, b) => a.last - b.last);
-  const mesh = new THREE.Mesh(joinTriangles(triangles), material);
+  const geometry = joinTriangles(triangles.map((triangle) => ({ ...triangle, shades: [1, 1, 1] })));
+  const colours = colourOf(geometry), { aPaint } = geometry.attributes;
+  for (let i = 0; i < aPaint.count; i++) aPaint.setXYZ(i, ...colours.subarray(3 * i, 3 * i + 3));
+  const mesh = new THREE.Mesh(geometry, material);
   mesh.renderOrder = 1;
   ship.add(mesh);
   return { mesh, times: triangles.map(({ last }) => last) };
@@ -48,6 +62,7 @@ export function growScratches(root) {
   root.traverse((node) => {
     if (node.userData.scratch === undefined || !node.isMesh) return;
     material ??= growing(node.material);
+    node.geometry.setAttribute("color", new THREE.BufferAttribute(colourOf(node.geometry), 3));
     node.material = material;
     const { index, attributes } = node.geometry;
     const times = Float32Array.from({ length: index.count / 3 }, (_, i) =>
