@@ -10,6 +10,7 @@ from threading import Event, Thread
 from typing import Any
 
 from selenium.webdriver import Chrome
+from selenium.webdriver.common.by import By
 from selenium.webdriver.support.ui import WebDriverWait
 
 from shipcollision_fmu import load_scenario
@@ -20,10 +21,12 @@ from shipcollision_fmu.live.session.commands import End, Pause, Step
 from shipcollision_fmu.live.session.session import Session
 from tests.show.browser import Page
 
-__all__ = ["PATIENCE", "BridgePage", "LiveServer", "serve_live"]
+__all__ = ["PATIENCE", "SMALL", "BridgePage", "LiveServer", "press", "serve_live"]
 
 PATIENCE = 300.0
 """[s] for a server to start or to stop, and for a page: many times what it takes, as the machine may be busy."""
+SMALL = (500, 440)
+"""Size of the window [pixels] where drawing takes long without a graphics card."""
 
 
 @dataclass(frozen=True)
@@ -96,3 +99,8 @@ def serve_live(browser: Chrome, scenario: str | Path, out: Path | None = None, *
         thread.join(PATIENCE)
         listening.close()
     assert not thread.is_alive()
+
+
+def press(page: BridgePage, keys: str) -> None:
+    """Keys, at the picture."""
+    page.driver.find_element(By.ID, "picture").send_keys(keys)
