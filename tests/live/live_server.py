@@ -12,6 +12,7 @@ from contextlib import contextmanager
 from http.client import HTTPMessage
 from typing import Any
 
+import pytest
 from websockets.sync.client import ClientConnection, connect
 
 from shipcollision_fmu.live.server import serve as serve_module
@@ -70,10 +71,11 @@ def serving(*, out: Any = None, patience: float = 5.0, **options: Any) -> Iterat
         try:
             yield LiveServer(app, listening.getsockname()[1], ended)
         finally:
-            goodbye, serve_module.GOODBYE, serve_module.LINGER = serve_module.GOODBYE, 0.02, 0.0
-            session.submit(End())
-            thread.join(PATIENCE)
-            serve_module.GOODBYE = goodbye
+            with pytest.MonkeyPatch.context() as patch:  # the next server waits for its pages again
+                patch.setattr(serve_module, "GOODBYE", 0.02)
+                patch.setattr(serve_module, "LINGER", 0.0)
+                session.submit(End())
+                thread.join(PATIENCE)
             assert not thread.is_alive()
 
 
