@@ -28,8 +28,8 @@ export const MOTION = {
     float push = 1.0 - exp(-3.5 * a);
     place = direction * uSize * (0.3 + 2.2 * aSeed.x) * push + UP * (uSize * 1.6 * a * a + 0.5 * uDeck * push);
     radius = uSize * (0.35 + 0.95 * sqrt(max(a, 0.0))) * (0.5 + 0.7 * aSeed.z);
-    vColour = vec4(heat(0.08 + 0.92 * a + 0.15 * aSeed.x), 0.8 * (1.0 - a) * smoothstep(0.0, 0.03, a));
-    vGlow = 0.9 * (1.0 - smoothstep(0.15, 0.45, a));
+    vColour = vec4(heat(0.04 + 0.96 * a + 0.32 * aSeed.x * aSeed.z), 0.85 * (1.0 - a) * smoothstep(0.0, 0.03, a));
+    vGlow = 0.55 * (1.0 - smoothstep(0.05, 0.4, a)); // it covers more than it adds: else all would melt into one yellow
     vWorn = 0.5 * a;
     if (a <= 0.0 || a >= 1.0) radius = 0.0;`,
   debris: /* glsl */ `
