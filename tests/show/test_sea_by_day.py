@@ -38,15 +38,22 @@ def scene(kvlcc2_crossing: Path) -> Scene:
 
 
 @pytest.fixture(scope="module")
-def page(browser: Chrome, kvlcc2_crossing: Path) -> Page:
-    """Two tankers, blue and red, under way, in the full picture, drawn once for all tests: it takes seconds."""
+def opened(browser: Chrome, kvlcc2_crossing: Path) -> Page:
+    """Two tankers, blue and red, under way, in the full picture."""
     return Page(browser, write_page(kvlcc2_crossing), "plain=no&t=5&camera=all", SIZE)
 
 
 @pytest.fixture(scope="module")
-def drawn(page: Page) -> dict[str, Any]:
-    found: dict[str, Any] = page.run("return replay.drawn()")
+def drawn(opened: Page) -> dict[str, Any]:
+    """What is drawn, asked once: a picture takes seconds."""
+    found: dict[str, Any] = opened.run("return replay.drawn()")
     return found
+
+
+@pytest.fixture
+def page(opened: Page, drawn: dict[str, Any]) -> Page:
+    opened.open()
+    return opened
 
 
 def light_beside(page: Page, drawn: dict[str, Any], ship: Any, way: Array, out: float, shares: Any) -> float:
@@ -83,6 +90,17 @@ def test_the_sea_has_no_grain(page: Page, drawn: dict[str, Any]) -> None:
     sea = light[int(0.5 * len(light)) :]
     assert np.abs(np.diff(sea, axis=1)).mean() < 2.4
     assert sea.std() > 10.0  # there are waves
+
+
+def test_the_plain_sea_mirrors_hulls_as_well(browser: Chrome, kvlcc2_crossing: Path, scene: Scene) -> None:
+    plain = Page(browser, write_page(kvlcc2_crossing), "plain=yes&t=5&camera=all", SIZE)
+    drawn, ship = plain.run("return replay.drawn()"), scene.ships[0]
+    way = (np.array(drawn["eye"]) - drawn["poses"][ship.name]["position"]) * [1, 1, 0]
+    near, far = (
+        light_beside(plain, drawn, ship, way / np.linalg.norm(way), out, np.linspace(-0.2, 0.2, 5))
+        for out in (25.0, 300.0)
+    )
+    assert near < far  # which it is not without the image: the foam along the side is white
 
 
 @pytest.mark.parametrize("size", [(920, 700), (390, 844)])

@@ -50,9 +50,9 @@ export function makeBowWave({ x, port, starboard }, draught) {
       varying vec3 vWhite, vGreen, vBody;
       void main() {
         float net = 0.55 * texture2D(uRipples, vPlace / 5.0).b + 0.45 * texture2D(uRipples, vPlace.yx / 17.0).b;
-        float white = smoothstep(0.35, 0.7, 1.5 * vLook.x - 0.5 + net);
+        float white = smoothstep(0.25, 0.85, 1.5 * vLook.x - 0.5 + net);
         float ruffled = texture2D(uRipples, vPlace / 11.0).r - 0.5;
-        vec3 colour = mix(mix(vBody, vGreen, 0.7 * vLook.x) * (1.0 + 0.9 * ruffled), vWhite * (0.84 + 0.3 * net), white);
+        vec3 colour = mix(mix(vBody, vGreen, 0.3 * vLook.x) * (1.0 + 0.9 * ruffled), vWhite * (0.72 + 0.36 * net), white);
         gl_FragColor = vLook.y * vec4(colour, 1.0);
       }`,
   }));

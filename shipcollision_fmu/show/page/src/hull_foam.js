@@ -3,6 +3,7 @@ import * as THREE from "three";
 import { makeBowWave } from "./bow_wave_mesh.js";
 import { ADDING, TO_FIELD } from "./field.js";
 import { ON_SEA, ON_SEA_HEAD, ON_SEA_PIXEL, ON_SEA_UNIFORMS } from "./on_sea.js";
+import { makePlainMirror } from "./plain_mirror.js";
 import { WATER } from "./ripples.js";
 import { toWorld } from "./tracks.js";
 
@@ -12,11 +13,12 @@ const OFFSETS = [-1, 0, 0.12, 0.3, 0.6, 1]; // of the reach of the foam beside a
 export function makeHullFoam({ track, info }, { x, port, starboard }, cover) {
   const loop = [...x.map((at, i) => [at, starboard[i]]), ...x.map((at, i) => [at, -port[i]]).reverse()];
   const reach = Math.min(13, Math.max(2, 0.32 * info.B));
-  const places = [], normals = [], outs = [], index = [];
+  const places = [], normals = [], outs = [], index = [], outwards = [];
   loop.forEach(([px, py], i) => {
     const [ax, ay] = loop[(i + loop.length - 1) % loop.length], [bx, by] = loop[(i + 1) % loop.length];
     const length = Math.hypot(bx - ax, by - ay) || 1;
     const nx = (ay - by) / length, ny = (bx - ax) / length; // outwards, for the loop runs forward on starboard
+    outwards.push([nx, ny]);
     for (const out of OFFSETS) {
       places.push(px + nx * out * reach, py + ny * out * reach, 0);
       normals.push(nx, ny, 0);
@@ -65,20 +67,21 @@ export function makeHullFoam({ track, info }, { x, port, starboard }, cover) {
         float height = 0.45 * push * abs(push) / 19.62 * exp(-2.5 * out_) * (1.0 - out_);
         float foam = 1.1 * smoothstep(0.4, 3.2, push) * exp(-2.4 * ragged) * smoothstep(1.0, 0.6, out_);
         foam += 0.55 * smoothstep(1.0, 8.0, speed) * exp(-2.2 * from) * exp(-2.0 * ragged) * smoothstep(1.0, 0.5, out_);
-        foam += 0.55 * smoothstep(0.3, 6.0, speed) * thin;
+        foam += 0.4 * smoothstep(0.3, 6.0, speed) * thin;
         gl_FragColor = ${colour};
       }`;
   const mesh = new THREE.Mesh(geometry, new THREE.ShaderMaterial({
     ...ADDING, uniforms: { ...uniforms, uCover: cover },
     vertexShader: vertexShader("", TO_FIELD), fragmentShader: fragmentShader("", "vec4(foam, clamp(height, -0.8, 1.6), vHull.x < 0.0 ? 1.0 : near, 0.35 * foam)"),
   }));
-  const plain = new THREE.Mesh(geometry, new THREE.ShaderMaterial({
+  const foam = new THREE.Mesh(geometry, new THREE.ShaderMaterial({
     ...ON_SEA, uniforms: { ...uniforms, ...ON_SEA_UNIFORMS },
     vertexShader: vertexShader(ON_SEA_HEAD, "gl_Position = onSea(place, 0.0);"), fragmentShader: fragmentShader(ON_SEA_PIXEL, "step(0.0, vHull.x) * paintFoam(foam, 0.35 * foam, near)"),
   }));
-  plain.renderOrder = -4;
+  foam.renderOrder = -4;
+  const plain = new THREE.Group().add(makePlainMirror(loop, outwards, info, uniforms.uPose), foam);
   const bowWave = makeBowWave({ x, port, starboard }, info.T);
-  mesh.frustumCulled = plain.frustumCulled = false;
+  mesh.frustumCulled = foam.frustumCulled = false;
   const now = new THREE.Vector3(), before = new THREE.Vector3(), q = new THREE.Quaternion(), ahead = new THREE.Vector3();
   const bearing = (quaternion) => {
     ahead.set(1, 0, 0).applyQuaternion(quaternion);

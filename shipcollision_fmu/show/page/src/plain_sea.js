@@ -3,6 +3,7 @@
 import * as THREE from "three";
 import { LIGHT } from "./daylight.js";
 import { FINISH_GLSL } from "./finish.js";
+import { HAZE_GLSL } from "./haze.js";
 import { STEEPEST, WATER } from "./ripples.js";
 
 const STEEP = 0.11; // slope towards the eye at which colours are worked out, up and down
@@ -17,13 +18,14 @@ export const slopeGlsl = (p, time) => `(${FINE} * (texture2D(uRipples, (${p} - 1
   + ${MIDDLE} * (texture2D(uRipples, (${p}.yx - 3.0 * ${DRIFT} * ${time}) / ${TILES.middle.toFixed(1)}).yx - 0.5))`;
 
 const vertexShader = /* glsl */ `
-  uniform float uTime, uHaze, uShine, uSpread;
+  uniform float uTime, uShine, uSpread;
   uniform vec3 uSun, uDeep, uScatter, uDisc, uZenith, uHorizon, uGlow, uCloud;
   varying vec4 vRipples; // where to read the layers
   varying vec2 vTowards, vGlint; // bearing of the view; slope that mirrors the sun
   varying vec2 vShine; // how bright the sun is in that slope, and how few slopes near it do so
   varying vec3 vLevel, vLinear, vSquare; // colour over slope towards the eye
   ${FINISH_GLSL}
+  ${HAZE_GLSL}
   vec3 skyTowards(vec3 d) {
     float high = clamp(d.y, 0.0, 1.0), sunwards = max(dot(d, uSun), 0.0);
     float bearing = 0.5 + 0.5 * dot(normalize(d.xz + 1e-5), normalize(uSun.xz));
@@ -50,7 +52,7 @@ const vertexShader = /* glsl */ `
     vec3 view = away / far;
     vTowards = normalize(view.xz + 1e-5);
     float rough = mix(0.05, 0.145, 1.0 - exp(-far / 900.0)); // slopes that are too small to be seen from here
-    float clear = exp(-far / (0.5 * uHaze));
+    float clear = clearAt(far);
     vec3 horizon = skyTowards(normalize(vec3(view.x, 0.01, view.z)));
     vec3 deep = uDeep + 0.42 * uScatter;
     vec3 level = finish(mix(horizon, waterOf(view, 0.0, rough, deep), clear));

@@ -4,11 +4,12 @@
 import * as THREE from "three";
 import { LIGHT } from "./daylight.js";
 import { FIELD_GLSL } from "./foam.js";
-import { HAZE } from "./haze.js";
+import { HAZE, HAZE_GLSL } from "./haze.js";
 import { makePlainSea } from "./plain_sea.js";
 import { makeRipples, RIPPLES_GLSL, WATER } from "./ripples.js";
 import { SKY_GLSL } from "./sky.js";
 import { SUN_SHADOW } from "./sun_shadow.js";
+import { breakingHeight, coverageOf } from "./whitecaps.js";
 
 const RADIUS = 60000; // [m]
 const FINE = [150, 176], COARSE = [56, 96]; // rings and sectors of the full and of the plain sea
@@ -17,7 +18,8 @@ const SWELL = [[103, 0.5, 0.15], [67, 0.4, -0.32], [41, 0.18, 0.85], [27, 0.09, 
 
 const FADES = 10; // waves of a tenth of a layer's tile, where most of its slope is, are seen by halves where a pixel is as long
 const BREAKS = 0.5; // share of the slopes by which the mirror image of a hull is broken up
-const MIRRORED = 0.5; // least share of a hull's image in the colour of the water: there it hides the sky from all waves
+const MIRRORED = 0.7; // least share of a hull's image in the colour of the water, seen flat: there it hides the sky from all waves
+const NEVER = 1e3; // standard deviations
 const GREY = new THREE.Color(0.2, 0.2, 0.2); // of a hull in the water's colour
 const SHADED = 0.62; // light of the water in the shadow of a ship
 
@@ -91,10 +93,11 @@ const vertexShader = (count) => /* glsl */ `
 
 const fragmentShader = (count) => /* glsl */ `
   precision highp float;
-  uniform float uTime, uHaze, uShine;
+  uniform float uTime, uShine, uBreaking;
   uniform vec3 uDeep, uScatter, uFoam, uDisc, uZenith, uHorizon, uGlow;
   varying vec3 vWorld;
   varying vec3 vSwell;
+  ${HAZE_GLSL}
   ${SKY_GLSL}
   ${RIPPLES_GLSL}
   ${FIELD_GLSL}
@@ -177,7 +180,7 @@ const fragmentShader = (count) => /* glsl */ `
     float through = pow(max(dot(view, normalize(vec3(uSun.x, 0.0, uSun.z))), 0.0), 3.0); // light through the crests
     vec3 deep = uDeep + uScatter * (0.32 * crest + 0.9 * crest * crest * through + 0.35 * (1.0 - facing) * max(height, 0.0));
     deep += uScatter * 1.6 * field.a;
-    vec3 colour = mix(mix(deep, reflection, fresnel), ship.rgb * uFoam, ${MIRRORED.toFixed(2)} * ship.a);
+    vec3 colour = mix(mix(deep, reflection, fresnel), ship.rgb * uFoam, ${MIRRORED.toFixed(2)} * ship.a * (1.0 - facing) * (1.0 - facing));
     // Sun or moon in the slopes that are seen and in those that are not (Beckmann's distribution of slopes).
     vec3 middle_ = normalize(uSun - view);
     vec2 off = -middle_.xz / middle_.y - slope;
@@ -189,10 +192,13 @@ const fragmentShader = (count) => /* glsl */ `
     // Foam breaks up into a lace as it fades.
     float net = 0.40 * lace(p / 12.0 + 0.02 * slope) + 0.25 * lace(p.yx / 4.3 + 0.37) + 0.20 * lace(p / 37.0) + 0.15 * lace(p.yx / 131.0);
     float foam = field.r;
-    foam = smoothstep(0.0, 0.55, foam - 0.55 + 0.6 * net) * min(1.0, 1.8 * foam);
-    colour = mix(colour, uFoam * (0.78 + 0.3 * clamp(dot(normal, uSun), 0.0, 1.0) + 0.15 * net), clamp(foam, 0.0, 0.94));
+    foam = smoothstep(0.0, 0.75, foam - 0.55 + 0.7 * net) * min(1.0, 1.8 * foam);
+    // Crests break where they are highest, in standard deviations of a sum of two layers with a third of 1 each.
+    float high = ${(3 / Math.hypot(0.6, 0.4)).toFixed(3)} * (0.6 * middle.z + 0.4 * fine.z) * gusts;
+    foam = max(foam, seen.y * smoothstep(uBreaking, uBreaking + 0.4, high + net - 0.4) * (0.3 + 0.8 * net)); // ragged, as foam is
+    colour = mix(colour, uFoam * (0.66 + 0.3 * clamp(dot(normal, uSun), 0.0, 1.0) + 0.25 * net), clamp(foam, 0.0, 0.94));
     vec3 horizon = skyAt(normalize(vec3(view.x, 0.01, view.z)), 2.0);
-    colour = mix(colour, horizon, 1.0 - exp(-pow(distance_ / (0.3 * uHaze), 1.5)));
+    colour = mix(colour, horizon, 1.0 - clearAt(distance_));
     gl_FragColor = vec4(colour, 1.0);
     #include <tonemapping_fragment>
     #include <colorspace_fragment>
@@ -224,9 +230,9 @@ export function makeSea(ships, sky, field) {
   const places = ships.map(() => new THREE.Vector4()); // x, z, and where ahead is in them
   const uniforms = {
     ...LIGHT, ...sky, ...field, ...WATER, ...HAZE,
-    uPlaces: { value: places },
+    uPlaces: { value: places }, uBreaking: { value: NEVER },
     uSizes: { value: ships.map(({ halfLength, halfBreadth, height }) => new THREE.Vector3(halfLength, halfBreadth, height)) },
-    uColours: { value: ships.map(({ colour }) => new THREE.Color(colour).lerp(GREY, 0.2).multiplyScalar(0.4)) },
+    uColours: { value: ships.map(({ colour }) => new THREE.Color(colour).lerp(GREY, 0.3).multiplyScalar(0.4)) },
   };
   const ripples = (WATER.uRipples.value = makeRipples());
   const material = new THREE.ShaderMaterial({ ...SUN_SHADOW.material, uniforms: { ...SUN_SHADOW.uniforms, ...uniforms }, vertexShader: vertexShader(ships.length), fragmentShader: fragmentShader(ships.length) });
@@ -245,6 +251,10 @@ export function makeSea(ships, sky, field) {
       ripples.anisotropy = isPlain ? 1 : 8; // which costs a processor most of its time, and mixing two sizes half of the rest
       ripples.minFilter = isPlain ? THREE.LinearMipmapNearestFilter : THREE.LinearMipmapLinearFilter;
       ripples.needsUpdate = true;
+    },
+    /** Speed of the wind [m/s]: from a fresh breeze on, crests break. */
+    setWind(speed) {
+      uniforms.uBreaking.value = Math.min(NEVER, breakingHeight(coverageOf(speed)));
     },
     /** `poses`: of each ship, where midship is and where ahead is, in the page's world. */
     update(time, camera, poses) {

@@ -100,7 +100,9 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
   const burns = ({ kind }) => kind === "fire" || kind === "explosion";
   const fires = data.effects.filter(burns); // that light hulls, water and dents
   const fireLight = addFireLight(world);
-  let wind = data.wind ?? [0, 0];
+  let wind;
+  const setWind = (velocity) => sea.setWind(Math.hypot(...(wind = velocity)));
+  setWind(data.wind ?? [0, 0]);
 
   const moved = []; // what else follows the time
 
@@ -234,8 +236,8 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
       return () => (added.remove(), dents.splice(dents.indexOf(added), 1));
     },
     setSky,
-    /** Velocity of the air, north and east [m/s]: smoke goes with it. */
-    setWind: (velocity) => (wind = velocity),
+    /** Velocity of the air, north and east [m/s]: smoke goes with it, and crests break. */
+    setWind,
     /** Plain: a flat sea, light worked out at corners, no shadows, and no more pixels than the screen's own. For processors that draw. */
     setPlain(isPlain) {
       plain = isPlain;
