@@ -307,9 +307,11 @@ def test_no_command_slips_in_behind_the_last_that_is_refused(monkeypatch: pytest
     session.start()
     put = session._waiting.put_nowait
 
+    in_vain = 0.5  # [s]: a session does not end while a command comes in
+
     def put_late(waiting: Any) -> None:
         put((End(), Future()))
-        session.join(0.5)
+        session.join(in_vain)
         put(waiting)
 
     monkeypatch.setattr(session._waiting, "put_nowait", put_late)

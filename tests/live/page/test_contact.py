@@ -16,7 +16,7 @@ from selenium.webdriver.common.by import By
 from shipcollision_fmu import load_scenario, simulate
 from shipcollision_fmu.live.session.commands import Back, End, Pause
 from tests.conftest import Write
-from tests.live.page.live_server import SMALL, BridgePage, press, serve_live
+from tests.live.page.live_server import PATIENCE, SMALL, BridgePage, press, serve_live
 from tests.live.page.two_tankers import write_apart
 
 TOLD = """
@@ -80,7 +80,7 @@ def contact_three_times(browser: Chrome, scenario_file: Write) -> Iterator[tuple
             press(page, Keys.ENTER)
             page.wait("return document.querySelector('[data-alarm=contact]').className === 'alarm silent'")
             page.wait("return Object.values(live.drawn().scratches).every((places) => places.length > 0)")
-            served.session.submit(Back("start")).result(30.0)
+            served.session.submit(Back("start")).result(PATIENCE)
             page.wait("return live.state.contact.count === 0")
             page.wait("return Object.values(live.drawn().scratches).every((places) => places.length === 0)")
             page.wait("return !document.querySelector('[data-alarm=contact]')")

@@ -9,7 +9,7 @@ from selenium.webdriver.support.ui import Select
 
 from shipcollision_fmu.live.session.commands import Mark
 from tests.live.live_server import eventually
-from tests.live.page.live_server import BridgePage, LiveServer
+from tests.live.page.live_server import PATIENCE, BridgePage, LiveServer
 
 
 @pytest.mark.slow
@@ -171,7 +171,7 @@ def test_the_instructor_arms_failures(browser: Chrome, server: LiveServer) -> No
 def test_the_log_of_the_instructor_survives_a_reload(browser: Chrome, server: LiveServer) -> None:
     page = BridgePage(browser, server.address("instructor"))
     page.wait("return live.state")
-    server.session.submit(Mark("to be kept")).result(30.0)
+    server.session.submit(Mark("to be kept")).result(PATIENCE)
     page.wait("return document.getElementById('book').textContent.includes('Mark to be kept')")
     before = page.run("return [...document.querySelectorAll('#book li')].map(({ textContent }) => textContent)")
     page.run("location.reload()")

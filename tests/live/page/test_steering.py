@@ -9,7 +9,7 @@ from selenium.webdriver import ActionChains, Keys
 from selenium.webdriver.common.by import By
 
 from shipcollision_fmu.live.session.commands import Fail
-from tests.live.page.live_server import BridgePage, LiveServer, press
+from tests.live.page.live_server import PATIENCE, BridgePage, LiveServer, press
 
 
 def test_keys_steer_the_ship_and_instruments_follow(bridge: BridgePage) -> None:
@@ -71,7 +71,7 @@ def test_a_refused_order_never_looks_taken(bridge: BridgePage, server: LiveServe
     press(bridge, "m")
     bridge.wait("return live.state.ships.own.heading_order === null")
     bridge.wait("return document.getElementById('autopilot').ariaPressed === 'false'")
-    server.session.submit(Fail("own", "rudder", True)).result(30.0)
+    server.session.submit(Fail("own", "rudder", True)).result(PATIENCE)
     try:
         bridge.wait("return live.state.ships.own.failures.length > 0")
         bridge.run(PRESSED)
@@ -83,7 +83,7 @@ def test_a_refused_order_never_looks_taken(bridge: BridgePage, server: LiveServe
         ordered = "live.state.ships.own.rudder_order * 180 / Math.PI"
         bridge.wait(f"return Math.abs(document.getElementById('wheel').ariaValueNow - {ordered}) < 1")
     finally:
-        server.session.submit(Fail("own", "rudder", False)).result(30.0)
+        server.session.submit(Fail("own", "rudder", False)).result(PATIENCE)
     press(bridge, "a")
     bridge.wait("return pressed.includes('true')")
     press(bridge, "am")
@@ -101,7 +101,7 @@ def test_a_refused_order_looks_as_the_one_before_on_a_slow_machine(bridge: Bridg
     bridge.wait("return held.length > 0")
     press(bridge, "m")
     bridge.wait("return live.state.ships.own.heading_order === null")
-    server.session.submit(Fail("own", "rudder", True)).result(30.0)
+    server.session.submit(Fail("own", "rudder", True)).result(PATIENCE)
     try:
         bridge.wait("return live.state.ships.own.failures.length > 0")
         bridge.run(PRESSED)
@@ -112,7 +112,7 @@ def test_a_refused_order_looks_as_the_one_before_on_a_slow_machine(bridge: Bridg
         bridge.wait("return document.getElementById('wheel').ariaValueNow === '0'")
         assert bridge.run("return pressed.includes('true')") is False
     finally:
-        server.session.submit(Fail("own", "rudder", False)).result(30.0)
+        server.session.submit(Fail("own", "rudder", False)).result(PATIENCE)
 
 
 def test_auto_again_looks_taken_only_once_it_is(bridge: BridgePage) -> None:
