@@ -2,6 +2,8 @@
 // smooth, and at night lamps on the house. The plain picture takes what a corner can have of it, the full one all.
 import * as THREE from "three";
 import { LIGHT } from "./daylight.js";
+import { addPanels, CONTAINER, PANE, PANE_GLOW, PANEL_FRAGMENT, PANEL_SET, PANEL_VERTEX } from "./panel_paint.js";
+import { PLATING } from "./plating.js";
 import { SKY_GLSL } from "./sky.js";
 
 const TIER = 2.75; // [m] height of a tier of a house on ships broader than 9 m
@@ -28,8 +30,10 @@ export const LAMPS_GLSL = /* glsl */ `
   }
 `;
 
-/** In the dark the eye sees less of a colour. */
+/** In the dark the eye sees less of a colour, of paint as of the moon's blue light. */
 export const DIM_GLSL = /* glsl */ `
+  const vec3 UNBLUED = vec3(1.12, 1.0, 0.87);
+  vec3 whiten(vec3 light) { return light * mix(vec3(1.0), UNBLUED, uLamps); }
   vec3 dim(vec3 colour) { return mix(colour, vec3(dot(colour, vec3(0.2126, 0.7152, 0.0722))), 0.35 * uLamps); }
 `;
 
@@ -54,11 +58,17 @@ export function findFloods(meshes) {
 
 const VERTEX = /* glsl */ `
   varying vec3 vB, vBNormal;
+  #if defined(CONTAINER) || defined(PANE)
+  ${PANEL_VERTEX}
+  #endif
   #include <common>`;
 
 const FRAGMENT = /* glsl */ `
   varying vec3 vB, vBNormal;
-  uniform float uLamps, uUnit, uWall, uPlated;
+  #if defined(CONTAINER) || defined(PANE)
+  ${PANEL_FRAGMENT}
+  #endif
+  uniform float uLamps, uUnit, uWall, uPlated, uTop;
   uniform vec3 uDeep, uScatter;
   ${SKY_GLSL}
   ${LAMPS_GLSL}
@@ -86,53 +96,87 @@ const WEATHER = /* glsl */ `
   float tint = hash(floor(plate) + 17.0) - 0.5;
   vec2 edge = abs(fract(plate) - 0.5) * vec2(9.0, 2.4);
   float seam = max(smoothstep(0.06, 0.0, 4.5 - edge.x), smoothstep(0.05, 0.0, 1.2 - edge.y));
-  diffuseColor.rgb *= 1.0 + mix(0.05, 0.10, uPlated) * cloudy + uPlated * (0.07 * tint - 0.10 * seen * seam);
+  diffuseColor.rgb *= 1.0 + mix(0.05, 0.10, uPlated) * cloudy + uPlated * (0.10 * tint - 0.16 * seen * seam);
   float rust = (0.25 + 0.75 * uPlated) * smoothstep(0.42, 0.80, streaks) * 0.26;
   diffuseColor.rgb = mix(diffuseColor.rgb, vec3(0.13, 0.065, 0.035), rust * seen);
-  float wet = uPlated * smoothstep(1.3, 0.2, high + 0.5 * cloudy);
+  ${PLATING}
+  #ifdef CONTAINER
+  ${CONTAINER}
+  #endif
+  #ifdef PANE
+  ${PANE}
+  #endif
+  float wet = uPlated * smoothstep(1.3, 0.2, (high + 0.5 * cloudy) * clamp(8.0 / uTop, 1.0, 4.0));
   diffuseColor.rgb = dim(diffuseColor.rgb) * (1.0 - 0.25 * wet);`;
 
 const ROUGH = /* glsl */ `
   #include <roughnessmap_fragment>
-  roughnessFactor = clamp(roughnessFactor + 0.25 * cloudy - 0.25 * wet, 0.12, 1.0);`;
+  roughnessFactor = clamp(roughnessFactor + 0.25 * cloudy - 0.25 * wet, 0.12, 1.0);
+  #ifdef PANE
+  roughnessFactor = mix(0.6, 0.05, glass);
+  #endif`;
+
+const METAL = /* glsl */ `
+  #include <metalnessmap_fragment>
+  #ifdef PANE
+  metalnessFactor = 0.0; // what a pane mirrors is added with the lights
+  #endif`;
+
+const GLOW = /* glsl */ `
+  #ifdef PANE
+  ${PANE_GLOW}
+  #endif`;
 
 const LIGHTS = /* glsl */ `
   #include <lights_fragment_end>
-  float tier = fract(high / (${TIER} * uUnit));
+  float tier = fract((high - uTop) / (${TIER} * uUnit));
   float shade = shadeOf(bNormal, high, uPlated);
-  reflectedLight.indirectDiffuse *= shade;
+  reflectedLight.indirectDiffuse = whiten(reflectedLight.indirectDiffuse) * shade;
+  reflectedLight.directDiffuse = whiten(reflectedLight.directDiffuse);
   vec3 out_ = inverseTransformDirection(reflect(-geometryViewDir, normal), viewMatrix);
   vec3 mirrored = out_.y > 0.0 ? skyAt(out_, 3.5 + 4.5 * roughnessFactor) : mix(skyAt(vec3(out_.x, 0.02, out_.z), 5.0), uDeep + uScatter, 0.75);
   float gloss = 1.0 - roughnessFactor;
   float edge_ = pow(1.0 - max(dot(normal, geometryViewDir), 0.0), 5.0);
+  #ifdef PANE
+  reflectedLight.indirectSpecular += mirrored * mix(0.02, 0.06 + 0.85 * edge_, glass);
+  #else
   reflectedLight.indirectSpecular += mirrored * shade * (0.03 + 0.55 * edge_ * gloss) * (0.35 + gloss);
+  #endif
   if (uLamps > 0.0) {
-    float along = (fract(side / 5.5) - 0.5) * 5.5, below = abs(bNormal.z) < 0.7 ? 1.0 : 0.3;
-    float lamp = uWall * below * (0.11 + 0.38 * exp(-0.30 * along * along) * exp(-2.2 * (1.0 - tier)));
+    float along = (fract(side / 7.0) - 0.5) * 7.0, below = abs(bNormal.z) < 0.7 ? 1.0 : 0.3;
+    float lamp = uWall * below * (0.13 + 0.13 * exp(-0.12 * along * along) * smoothstep(0.0, 1.0, tier));
     reflectedLight.directDiffuse += diffuseColor.rgb * WARM * uLamps * (lamp + 0.55 * floodsAt(vB, bNormal));
   }`;
 
-/** Gives the materials of a ship, one copy for each ship, their paint; `skyUniforms`: those of whoever mirrors the sky. */
-export function paintShip(node, unit, skyUniforms) {
+/**
+ * Gives the materials of a ship, one copy for each ship, their paint; `top`: height of its deck [m]; `skyUniforms`: those of
+ * whoever mirrors the sky.
+ */
+export function paintShip(node, unit, top, skyUniforms) {
   const meshes = [], copies = new Map();
   node.traverse((mesh) => mesh.isMesh && mesh.material.isMeshStandardMaterial && mesh.userData.scratch === undefined && mesh.material.name !== "scratch" && meshes.push(mesh));
   const uFloods = findFloods(meshes);
   for (const mesh of meshes) {
-    if (!copies.has(mesh.material)) copies.set(mesh.material, weather(mesh.material.clone(), { uFloods, uUnit: { value: unit }, ...skyUniforms }));
+    if (!copies.has(mesh.material)) copies.set(mesh.material, weather(mesh.material.clone(), { uFloods, uUnit: { value: unit }, uTop: { value: top }, ...skyUniforms }));
     mesh.material = copies.get(mesh.material);
+    if ("CONTAINER" in mesh.material.defines || "PANE" in mesh.material.defines) addPanels(mesh.geometry);
   }
   return uFloods;
 }
 
 function weather(material, uniforms) {
   const own = { uWall: { value: isWall(material) ? 1 : 0 }, uPlated: { value: isPlated(material) ? 1 : 0 } };
+  if (material.name.startsWith("container")) material.defines.CONTAINER = "";
+  if (material.name === "windows") material.defines.PANE = "";
   material.onBeforeCompile = (shader) => {
     Object.assign(shader.uniforms, { ...LIGHT, ...uniforms, ...own });
     shader.vertexShader = shader.vertexShader.replace("#include <common>", VERTEX)
-      .replace("#include <begin_vertex>", "#include <begin_vertex>\n  vB = position;\n  vBNormal = normal;");
+      .replace("#include <begin_vertex>", `#include <begin_vertex>\n  vB = position;\n  vBNormal = normal;\n  #if defined(CONTAINER) || defined(PANE)\n  ${PANEL_SET}\n  #endif`);
     shader.fragmentShader = shader.fragmentShader.replace("#include <common>", FRAGMENT)
       .replace("#include <color_fragment>", WEATHER)
       .replace("#include <roughnessmap_fragment>", ROUGH)
+      .replace("#include <metalnessmap_fragment>", METAL)
+      .replace("#include <emissivemap_fragment>", GLOW)
       .replace("#include <lights_fragment_end>", LIGHTS);
   };
   return material;

@@ -7,7 +7,7 @@ import { HAZE } from "./haze.js";
 import { DIM_GLSL, findFloods, LAMPS_GLSL, SHADE_GLSL } from "./paint.js";
 
 const vertexShader = /* glsl */ `
-  attribute vec4 aPaint; // colour, and what it is: 0 else, 1 windows, out of which lamps shine, 2 walls with lamps, 3 plating
+  attribute vec4 aPaint; // colour, and what it is: 0 else, up to 1 windows, so much lamps shine out of them, 2 walls with lamps, 3 plating
   uniform vec3 uSun, uBeam, uAbove, uBelow, uHorizon;
   uniform float uLamps, uNear, uFar, uOwnLight;
   varying vec3 vColour;
@@ -26,8 +26,9 @@ const vertexShader = /* glsl */ `
     vec3 paint = aPaint.rgb, own = vec3(0.0);
     if (uLamps > 0.0) {
       paint = dim(paint);
+      light = whiten(light);
       float wall = aPaint.a == 2.0 && abs(normal.z) < 0.7 ? 0.19 : 0.0;
-      own = uLamps * (aPaint.a == 1.0 ? vec3(0.55, 0.407, 0.209) : paint * WARM * (wall + 0.55 * floodsAt(position, normal)));
+      own = uLamps * (aPaint.a > 0.0 && aPaint.a <= 1.0 ? aPaint.a * vec3(0.55, 0.407, 0.209) : paint * WARM * (wall + 0.55 * floodsAt(position, normal)));
     }
     vec3 colour = paint * (light / 3.14159265 + uOwnLight * (1.0 - 0.85 * uLamps)) + own + uHorizon * (0.16 * edge * edge * edge);
     vec4 seen = viewMatrix * world;

@@ -2,8 +2,11 @@
 import * as THREE from "three";
 import { isPlated, isWall } from "./paint.js";
 
-/** What light a paint has of its own: see plain_paint.js. */
-const kindOf = ({ material }) => (material.name === "windows" ? 1 : isWall(material) ? 2 : isPlated(material) ? 3 : 0);
+/** What light a paint has of its own at the first of some corners: see plain_paint.js. */
+function kindOf({ material, geometry }, [corner]) {
+  if (material.name === "windows") return geometry.attributes.aLit?.getX(corner) ?? 1;
+  return isWall(material) ? 2 : isPlated(material) ? 3 : 0;
+}
 
 /** Colour of a surface that does not mirror anything: metal is darker without what it mirrors. */
 function paintOf({ material }) {
@@ -25,10 +28,11 @@ export function collectTriangles(meshes, owner) {
     const toOwner = mesh.parent === owner ? new THREE.Matrix4().compose(mesh.position, mesh.quaternion, new THREE.Vector3(1, 1, 1))
       : inverse.clone().multiply(mesh.matrixWorld);
     const { index, attributes } = mesh.geometry;
-    const paint = [...paintOf(mesh), kindOf(mesh)];
+    const colour = paintOf(mesh);
     const turned = new THREE.Matrix3().getNormalMatrix(toOwner);
     for (let i = 0; i < index.count; i += 3) {
       const at = [0, 1, 2].map((k) => index.getX(i + k));
+      const paint = [...colour, kindOf(mesh, at)];
       const corners = at.flatMap((k) => place.fromBufferAttribute(attributes.position, k).applyMatrix4(toOwner).toArray());
       const normals = at.flatMap((k) => place.fromBufferAttribute(attributes.normal, k).applyNormalMatrix(turned).toArray());
       const shades = at.map((k) => attributes.color?.getX(k) ?? 1);

@@ -86,7 +86,7 @@ export async function makeViewer(canvas, data, glb, isSmooth, makeMotion = playC
       node.receiveShadow = true;
     }
   });
-  for (const { node, info } of ships) paintShip(node, Math.min(1, info.B / 9), sky.uniforms);
+  for (const { node, info } of ships) paintShip(node, Math.min(1, info.B / 9), info.height, sky.uniforms);
   const panes = new Set(); // windows, lit when it is dark
   gltf.scene.traverse(({ material }) => material?.name === "windows" && panes.add(material));
   const labels = makeLabels(ships, canvas);
