@@ -17,6 +17,8 @@ from tests.show.browser import Page
 SIZE = (920, 700)
 SUN_TURN = 1.15
 """Of the day in daylight.js: the sun's bearing from that of the first view [rad]."""
+MOON_TURN = -2.86
+"""Of the night there."""
 STEP = np.deg2rad(15.0)
 """Bearings among which the first view is chosen (cameras.js)."""
 
@@ -82,6 +84,24 @@ def test_a_hull_throws_its_shadow_on_the_water(page: Page, drawn: dict[str, Any]
     way = -np.array([np.cos(sun), np.sin(sun), 0.0])
     shaded, lit = (light_beside(page, drawn, scene.ships[0], way, out, (0.4, 0.42, 0.45)) for out in (10.0, 30.0))
     assert shaded < 0.94 * lit
+
+
+def test_by_night_the_shadow_of_the_moon_is_faint(
+    browser: Chrome, kvlcc2_crossing: Path, page: Page, scene: Scene
+) -> None:
+    """Most of the water's light is the sky's, and the road of the moon goes on before a ship that stands in it."""
+    del page  # which is open first
+    night = Page(browser, write_page(kvlcc2_crossing), "plain=no&t=5&camera=all&sky=night", SIZE)
+    drawn = night.run("return replay.drawn()")
+    middle = np.mean([pose["position"] for pose in drawn["poses"].values()], axis=0)
+    north, east = (np.array(drawn["eye"]) - middle)[:2]
+    moon = STEP * np.round(np.arctan2(east, north) / STEP) + MOON_TURN
+    way = -np.array([np.cos(moon), np.sin(moon), 0.0])
+    shaded, lit = (
+        np.mean([light_beside(night, drawn, scene.ships[0], way, out, np.linspace(-0.3, 0.3, 7)) for out in outs])
+        for outs in ((35.0, 45.0), (150.0,))
+    )
+    assert shaded > 0.8 * lit
 
 
 def test_the_sea_has_no_grain(page: Page, drawn: dict[str, Any]) -> None:

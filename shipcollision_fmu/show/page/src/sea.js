@@ -21,7 +21,10 @@ const BREAKS = 0.5; // share of the slopes by which the mirror image of a hull i
 const MIRRORED = 0.7; // least share of a hull's image in the colour of the water, seen flat: there it hides the sky from all waves
 const NEVER = 1e3; // standard deviations
 const GREY = new THREE.Color(0.2, 0.2, 0.2); // of a hull in the water's colour
-const SHADED = 0.62; // light of the water in the shadow of a ship
+const SHADED = 0.62; // light of the water in the shadow of a ship by day
+const MOONLESS = 0.95; // and by night, when most of its light is the sky's
+const CROSSES = 0.75; // share of the moon's road that waves carry across a ship's shadow
+const CALM_NIGHT = 0.0025; // variance by which slopes too small for any layer widen the road of the moon
 
 /** Rings around the camera, close together near it; triangles go around, sector by sector, so many times. */
 function makeRings([rings, sectors], turns = 1) {
@@ -93,7 +96,7 @@ const vertexShader = (count) => /* glsl */ `
 
 const fragmentShader = (count) => /* glsl */ `
   precision highp float;
-  uniform float uTime, uShine, uBreaking;
+  uniform float uTime, uShine, uBreaking, uLamps;
   uniform vec3 uDeep, uScatter, uFoam, uDisc, uZenith, uHorizon, uGlow;
   varying vec3 vWorld;
   varying vec3 vSwell;
@@ -184,11 +187,11 @@ const fragmentShader = (count) => /* glsl */ `
     // Sun or moon in the slopes that are seen and in those that are not (Beckmann's distribution of slopes).
     vec3 middle_ = normalize(uSun - view);
     vec2 off = -middle_.xz / middle_.y - slope;
-    float spread = rough * rough * 0.5 + 0.0009;
+    float spread = rough * rough * 0.5 + 0.0009 + ${CALM_NIGHT.toFixed(4)} * uLamps;
     float glitter = exp(-dot(off, off) / (2.0 * spread)) / (6.2832 * spread);
     float grazing = 0.02 + 0.98 * pow(1.0 - max(dot(-view, middle_), 0.0), 5.0);
-    colour += uDisc * uShine * min(0.03 * glitter * grazing / max(middle_.y * 4.0 * facing, 0.25), 2.4) * sunlit * smoothstep(-0.02, 0.06, uSun.y);
-    colour *= (1.0 - 0.7 * field.b) * mix(${SHADED.toFixed(2)}, 1.0, sunlit);
+    colour += uDisc * uShine * min(0.03 * glitter * grazing / max(middle_.y * 4.0 * facing, 0.25), 2.4) * mix(sunlit, 1.0, ${CROSSES.toFixed(2)} * uLamps) * smoothstep(-0.02, 0.06, uSun.y);
+    colour *= (1.0 - 0.7 * field.b) * mix(mix(${SHADED.toFixed(2)}, ${MOONLESS.toFixed(2)}, uLamps), 1.0, sunlit);
     // Foam breaks up into a lace as it fades.
     float net = 0.40 * lace(p / 12.0 + 0.02 * slope) + 0.25 * lace(p.yx / 4.3 + 0.37) + 0.20 * lace(p / 37.0) + 0.15 * lace(p.yx / 131.0);
     float foam = field.r;
