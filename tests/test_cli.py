@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import subprocess
 import sys
 import zipfile
@@ -174,7 +175,8 @@ def test_build_without_python(folder: Path, monkeypatch: pytest.MonkeyPatch) -> 
     monkeypatch.setattr(libraries, "native_cache", lambda: NATIVE_CACHE)
     built = called("build", "--native", "--platforms", "win64", "--out", "fmus", "--sources")
     both = "fmus/ShipCollision.native.fmu\nfmus/ShipManoeuvring.native.fmu\n"
-    assert (built.exit_code, built.stdout, built.stderr) == (0, both, "")
+    assert (built.exit_code, built.stdout) == (0, both)
+    assert re.sub(r"note: pip fetches Bullet's source, [^\n]*\n", "", built.stderr) == ""  # unless it is there
     for name, own in (("ShipManoeuvring", "manoeuvring/model.cpp"), ("ShipCollision", "collision/model.cpp")):
         with zipfile.ZipFile(folder / "fmus" / f"{name}.native.fmu") as archive:
             names = archive.namelist()

@@ -33,8 +33,7 @@ from ..scene.lights import Light
 from ..scene.palette import LIVERIES, Paint, choose_topsides, convert_to_linear, find_paint
 from ..scene.parts import Shape, join_fittings, join_shapes
 from ..scene.scene import Obstacle, Scene, Scratch, Ship
-from ..scene.shade import Shade, cast_shade
-from ..scene.shaded import CUT, is_shaded, shade_surface
+from ..scene.shaded import Corners, shade_ship
 from ..scene.surface import Surface, compute_corner_normals, drop_flat_triangles
 from .glb import Document
 from .ribbons import Ribbon, lay_ribbon
@@ -79,10 +78,10 @@ class _Writer:
         document, track = self._document, ship.track
         paints = dict.fromkeys(LIVERIES, choose_topsides(index))
         shell, fittings = join_shapes(ship.shell), join_fittings(ship.fittings)
-        shade = cast_shade([*shell, *fittings], ship.B)
-        children = [self._add_node("hull", self._add_mesh(shell, paints, shade))]
+        shaded = shade_ship([*shell, *fittings], ship.B)
+        children = [self._add_node("hull", self._add_mesh(shell, paints, shaded[: len(shell)]))]
         if fittings:
-            children.append(self._add_node("fittings", self._add_mesh(fittings, paints, shade)))
+            children.append(self._add_node("fittings", self._add_mesh(fittings, paints, shaded[len(shell) :])))
         children += [self._add_light(light) for light in ship.lights]
         for scratch in self._scene.scratches:
             if scratch.ship == ship.name:
@@ -148,12 +147,13 @@ class _Writer:
 
     # -- meshes ---------------------------------------------------------------------------------------
 
-    def _add_mesh(self, shapes: Sequence[Shape], paints: dict[str, Paint], shade: Shade | None = None) -> int:
+    def _add_mesh(
+        self, shapes: Sequence[Shape], paints: dict[str, Paint], shaded: Sequence[Corners | None] | None = None
+    ) -> int:
         primitives = []
-        for paint, surface in shapes:
+        for (paint, surface), corners in zip(shapes, shaded or [None] * len(shapes), strict=True):
             if len(surface.triangles):
-                shaded = shade if is_shaded(paint) else None
-                vertices, normals, triangles, colours = _join_corners(surface, shaded, paint in CUT)
+                vertices, normals, triangles, colours = _join_corners(surface, corners)
                 attributes = {
                     "POSITION": self._document.add_vertices(vertices),
                     "NORMAL": self._document.add_vertices(normals),
@@ -211,10 +211,9 @@ class _Writer:
         self._channels.append({"sampler": len(self._samplers) - 1, "target": {"node": node, "path": path}})
 
 
-def _join_corners(surface: Surface, shade: Shade | None, is_cut: bool) -> tuple[Array, Array, Indices, Array | None]:
+def _join_corners(surface: Surface, shaded: Corners | None) -> tuple[Array, Array, Indices, Array | None]:
     """Vertices and normals of a surface, corners with the same of both joined; triangles; grey (n, 3) if shaded."""
-    if shade is not None:
-        shaded = shade_surface(surface, shade, is_cut)
+    if shaded is not None:
         return shaded.vertices, shaded.normals, shaded.triangles, np.repeat(shaded.shares[:, None], 3, axis=1)
     solid = drop_flat_triangles(surface)
     corners = np.concatenate([solid.vertices[solid.triangles], compute_corner_normals(solid)], axis=2).reshape(-1, 6)

@@ -1,13 +1,14 @@
 """replay.html: the scene in one file that any browser plays, without a network and from a file: address.
 
-It contains the bundle of src/ (three.js, uPlot and our modules), which the package's build makes; the bytes of
-scene.glb in base64; and the scene's curves, events and effects as JSON. The page shows all text of the run as text; `<`
+It contains the bundle of src/ (three.js, uPlot and our modules), which the package's build makes; scene.glb, packed by
+gzip, in base64; and the scene's curves, events and effects as JSON. The page shows all text of the run as text; `<`
 is escaped, so that no name can end its element. A content security policy forbids the page every address.
 """
 
 from __future__ import annotations
 
 import base64
+import gzip
 import html
 import json
 from importlib.resources import files
@@ -85,7 +86,7 @@ def _fill_template(title: str, data: dict[str, Any], scene: Scene, other: Scene 
 
 
 def _encode_glb(scene: Scene) -> str:
-    return base64.b64encode(build_glb(scene)).decode()
+    return base64.b64encode(gzip.compress(build_glb(scene), mtime=0)).decode()
 
 
 def _read_bundle(name: str) -> str:

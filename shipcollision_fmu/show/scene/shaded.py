@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections import OrderedDict
+from collections.abc import Sequence
+from hashlib import blake2b
 from typing import NamedTuple
 
 import numpy as np
@@ -9,10 +12,11 @@ import numpy.typing as npt
 
 from ...ship.frames import Array
 from ...ship.hull.convex import Indices
-from .shade import CELL, UNLIT, Shade
+from .shade import CELL, UNLIT, Shade, cast_shade
+from .solids import Shape
 from .surface import Surface, compute_corner_normals, drop_flat_triangles
 
-__all__ = ["CUT", "Corners", "find_face_shares", "is_shaded", "shade_surface"]
+__all__ = ["Corners", "find_face_shares", "is_shaded", "shade_ship", "shade_surface"]
 
 OUTSIDE = ("topsides", "stripe", "boot-top", "naval", "livery")
 """First words of paints of the outside of a hull, which nothing is near."""
@@ -29,6 +33,8 @@ LONGEST = 40.0
 """[m] Length from which edges are halved in any case, so that nothing is missed between their ends and middle."""
 INSET = 1.2
 """Distance from a corner, in cells, at which its light is found: at the corner itself, other faces are too near."""
+MOST_KEPT = 8
+"""Ships whose light is kept, some hundred kB each. To find it takes half a second."""
 
 
 class Corners(NamedTuple):
@@ -43,6 +49,27 @@ class Corners(NamedTuple):
 def is_shaded(paint: str) -> bool:
     """Whether a paint has ambient occlusion."""
     return paint not in UNLIT and not paint.startswith(OUTSIDE)
+
+
+_kept: OrderedDict[bytes, list[Corners | None]] = OrderedDict()
+
+
+def shade_ship(shapes: Sequence[Shape], breadth: float) -> list[Corners | None]:
+    """The shapes of a ship of that breadth [m], each with its light; None for one that has none.
+
+    Ships that look the same share what was found, in one scene and in those that come after it.
+    """
+    key = _digest(shapes, breadth)
+    if key not in _kept:
+        shade = cast_shade(shapes, breadth)
+        _kept[key] = [
+            shade_surface(surface, shade, paint in CUT) if is_shaded(paint) and len(surface.triangles) else None
+            for paint, surface in shapes
+        ]
+    _kept.move_to_end(key)
+    while len(_kept) > MOST_KEPT:
+        _kept.popitem(last=False)
+    return _kept[key]
 
 
 def find_face_shares(surface: Surface, shade: Shade) -> Array:
@@ -74,6 +101,15 @@ def shade_surface(surface: Surface, shade: Shade, is_cut: bool) -> Corners:
     return Corners(
         places.reshape(-1, 3)[first], normals.reshape(-1, 3)[first], mean, place.reshape(-1, 3).astype(np.int64)
     )
+
+
+def _digest(shapes: Sequence[Shape], breadth: float) -> bytes:
+    """Of all that the light of a ship depends on."""
+    digest = blake2b(repr((breadth, [(paint, surface.vertices.shape) for paint, surface in shapes])).encode())
+    for _, surface in shapes:
+        digest.update(np.ascontiguousarray(surface.vertices).tobytes())
+        digest.update(np.ascontiguousarray(surface.triangles).tobytes())
+    return digest.digest()
 
 
 def _find_shares(places: Array, triangles: Array, normals: Array, shade: Shade) -> Array:

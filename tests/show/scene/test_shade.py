@@ -2,14 +2,25 @@
 
 from __future__ import annotations
 
+from collections import OrderedDict
+from collections.abc import Sequence
+
 import numpy as np
 import pytest
 
 from shipcollision_fmu.ship.frames import Array
+from shipcollision_fmu.show.scene import shaded
 from shipcollision_fmu.show.scene.parts import join_fittings, join_shapes
-from shipcollision_fmu.show.scene.shade import CELL, DEPTH, REACH, cast_shade
-from shipcollision_fmu.show.scene.shaded import Corners, find_face_shares, is_shaded, shade_surface
-from shipcollision_fmu.show.scene.solids import join_surfaces, make_box, make_faces
+from shipcollision_fmu.show.scene.shade import CELL, DEPTH, REACH, Shade, cast_shade
+from shipcollision_fmu.show.scene.shaded import (
+    MOST_KEPT,
+    Corners,
+    find_face_shares,
+    is_shaded,
+    shade_ship,
+    shade_surface,
+)
+from shipcollision_fmu.show.scene.solids import Shape, join_surfaces, make_box, make_faces
 from shipcollision_fmu.show.scene.surface import Surface
 
 from .drawn_ships import draw_ship, to_solid
@@ -135,3 +146,26 @@ def test_ships_are_dark_below_and_light_on_top(kind: str) -> None:
 def test_the_outside_of_a_hull_has_no_shade() -> None:
     assert not any(map(is_shaded, ("topsides 0", "naval", "boot-top", "antifouling", "windows", "rail")))
     assert all(map(is_shaded, ("deck-red", "house", "container-a", "trim")))
+
+
+def test_ships_that_look_the_same_share_their_light(monkeypatch: pytest.MonkeyPatch) -> None:
+    """And no more than some are kept."""
+    cast: list[float] = []
+
+    def count(shapes: Sequence[Shape], breadth: float) -> Shade:
+        cast.append(breadth)
+        return cast_shade(shapes, breadth)
+
+    monkeypatch.setattr(shaded, "_kept", OrderedDict())
+    monkeypatch.setattr(shaded, "cast_shade", count)
+    lengths = [1.0 + k for k in range(MOST_KEPT + 1)]
+    houses = [[("house", make_box((0.0, length), (0.0, 5.0), (-5.0, 0.0)))] for length in lengths]
+    again = [("house", make_box((0.0, 1.0), (0.0, 5.0), (-5.0, 0.0)))]
+    assert shade_ship(houses[0], 20.0) is shade_ship(again, 20.0)
+    assert cast == [20.0]
+    for shapes in houses:
+        shade_ship(shapes, 20.0)
+    assert len(cast) == MOST_KEPT + 1
+    shade_ship(again, 20.0)
+    shade_ship(again, 5.0)
+    assert len(cast) == MOST_KEPT + 3

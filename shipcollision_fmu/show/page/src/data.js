@@ -1,4 +1,4 @@
-// What the page is told: JSON and the .glb, both embedded by show/page/__init__.py.
+// What the page is told: JSON and the .glb, both embedded by show/page/__init__.py, the latter as gzip.
 
 const text = (id) => document.getElementById(id).textContent;
 
@@ -22,4 +22,7 @@ export function readData() {
 }
 
 /** A .glb as an ArrayBuffer: that of the run, or of the other one. */
-export const readGlb = (id = "scene-glb") => bytes(text(id).trim());
+export function readGlb(id = "scene-glb") {
+  const unpacked = new Blob([bytes(text(id).trim())]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return new Response(unpacked).arrayBuffer();
+}

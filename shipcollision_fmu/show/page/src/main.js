@@ -56,8 +56,8 @@ async function start() {
   document.body.classList.toggle("bare", hash.has("bare"));
 
   const plain = hash.has("plain") ? hash.get("plain") !== "no" : drawsInSoftware();
-  const viewer = await makeViewer(canvas, data, readGlb(), !plain);
-  const ghosts = data.other ? await makeGhosts(readGlb("other-glb"), data.other, data.origin) : null;
+  const viewer = await makeViewer(canvas, data, await readGlb(), !plain);
+  const ghosts = data.other ? await makeGhosts(await readGlb("other-glb"), data.other, data.origin) : null;
   if (ghosts) viewer.add(ghosts.node, (time) => ghosts.move(time - data.other.start));
   const stageTools = makeStageTools(stage, canvas, data.name, clock, {
     fullScreen: (isFull) => controls.showFullScreen(isFull),
