@@ -77,3 +77,20 @@ def test_the_light_of_a_fire_on_the_water_begins_at_its_foot(browser: Chrome, gu
     near, far = added[:4].mean(), added[4:].mean()  # a bow hides what is nearer
     assert near > 40.0  # levels of 255
     assert far < 0.7 * near
+
+
+@pytest.mark.needs("pybullet")
+def test_the_plain_picture_has_fewer_flames_and_puffs(browser: Chrome, guan2014: Path, tmp_path: Path) -> None:
+    """About half of those of the full picture: what a fire and its smoke add to the triangles at one time."""
+    scene = load_scene(guan2014)
+    burning = tuple(effect for effect in scene.effects if effect.kind in ("fire", "smoke"))
+    cold = tuple(effect for effect in scene.effects if effect.kind in ("dust", "splash"))
+    triangles = {}
+    for name, effects in (("burning", cold + burning), ("cold", cold)):
+        path = tmp_path / f"{name}.html"
+        path.write_text(build_page(replace(scene, effects=effects)), encoding="utf-8")
+        for plain in ("yes", "no"):
+            page = Page(browser, path, f"bare&plain={plain}&t={BURNING}", (500, 340))
+            triangles[name, plain] = page.run("return replay.drawn()")["made"]["triangles"]
+    plain, full = (triangles["burning", plain] - triangles["cold", plain] for plain in ("yes", "no"))
+    assert 0.3 * full < plain < 0.7 * full
