@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
+from ...collision.interface import CollisionParameters
 from .live_run import LiveRun
 from .news import Tell
 
 __all__ = ["CollisionNews"]
-
-APART = 10.0
-"""[s] without contact after which a collision ends, where the scenario does not say so."""
 
 
 class CollisionNews:
@@ -16,7 +14,9 @@ class CollisionNews:
 
     def __init__(self, run: LiveRun, tell: Tell) -> None:
         self._run, self._tell = run, tell
-        self._apart = run.scenario.collision.minimum_separation_time or APART
+        given = run.scenario.collision.minimum_separation_time
+        self._apart = given or CollisionParameters.minimum_separation_time
+        """Time [s] without contact after which a collision ends."""
         self._touching: dict[int, bool] = {}
 
     def look(self) -> bool:

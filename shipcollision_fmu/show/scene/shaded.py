@@ -83,7 +83,7 @@ def find_face_shares(surface: Surface, shade: Shade) -> Array:
 
 
 def shade_surface(surface: Surface, shade: Shade, is_cut: bool) -> Corners:
-    """The surface with its light; corners with the same place, normal and light are one."""
+    """The surface with its light; corners with the same place and normal are one, with the mean of their light."""
     solid = drop_flat_triangles(surface)
     places, normals = solid.vertices[solid.triangles], compute_corner_normals(solid)
     for _ in range(PASSES if is_cut else 0):
@@ -105,7 +105,8 @@ def shade_surface(surface: Surface, shade: Shade, is_cut: bool) -> Corners:
 
 def _digest(shapes: Sequence[Shape], breadth: float) -> bytes:
     """Of all that the light of a ship depends on."""
-    digest = blake2b(repr((breadth, [(paint, surface.vertices.shape) for paint, surface in shapes])).encode())
+    sizes = [(paint, len(surface.vertices), len(surface.triangles)) for paint, surface in shapes]
+    digest = blake2b(repr((breadth, sizes)).encode())
     for _, surface in shapes:
         digest.update(np.ascontiguousarray(surface.vertices).tobytes())
         digest.update(np.ascontiguousarray(surface.triangles).tobytes())
