@@ -175,8 +175,8 @@ def test_shade_darkens_the_picture(
 ) -> None:
     """A ship's deck and house, with the ambient occlusion of the scene and without."""
     seen = []
-    for name, shaded in (("shaded", gltf.is_shaded), ("bare", lambda paint: False)):
-        monkeypatch.setattr(gltf, "is_shaded", shaded)
+    for name, shade_ship in (("shaded", gltf.shade_ship), ("bare", lambda shapes, breadth: [None] * len(shapes))):
+        monkeypatch.setattr(gltf, "shade_ship", shade_ship)
         path = tmp_path / f"{name}.html"
         path.write_text(build_page(load_scene(guan2014)), encoding="utf-8")
         page = Page(browser, path, f"plain={plain}&t=0.5&camera=ship-1", SMALL)
