@@ -6,5 +6,5 @@
 
 Data flow: clients -> commands -> Session -> Snapshot -> clients; at the end an ordinary run folder and scenario.toml.
 Needs the extra `live`, but for session/. Imports from: packaging (ship files), cosim, results and show (pages, the
-scene), scenario, fmi (names), ship. Used by: cli.
+scene), scenario, collision (its default separation), fmi (names), ship. Used by: cli.
 """

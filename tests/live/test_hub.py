@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import json
-from collections.abc import Callable
+from collections.abc import AsyncIterator, Callable
+from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
 from typing import Any, cast
 
@@ -61,19 +62,26 @@ class Heard:
         return cast("dict[str, Any]", await asyncio.Event().wait())
 
 
-async def hear_of_a_step_back() -> list[tuple[str, float]]:
+@asynccontextmanager
+async def serve_a_page() -> AsyncIterator[tuple[Told, Heard]]:
+    """A session at 10.5 s, and a page that has heard of it."""
     session, socket = Told(Published(10.5)), Heard()
     hub = Hub(cast(Session, session), {})
     hub.connect()
     serving = asyncio.create_task(hub.serve(cast(WebSocket, socket), "bridge"))
     while not socket.messages:
         await asyncio.sleep(0.01)
-    session.tell({"kind": "back", "time": 10.0})
-    await asyncio.sleep(4 * hub_module.INTERVAL)  # the session's thread is long about it
-    session.snapshot = Published(11.0)
-    while ("state", 11.0) not in socket.messages:
-        await asyncio.sleep(0.01)
+    yield session, socket
     serving.cancel()
+
+
+async def hear_of_a_step_back() -> list[tuple[str, float]]:
+    async with serve_a_page() as (session, socket):
+        session.tell({"kind": "back", "time": 10.0})
+        await asyncio.sleep(4 * hub_module.INTERVAL)  # the session's thread is long about it
+        session.snapshot = Published(11.0)
+        while ("state", 11.0) not in socket.messages:
+            await asyncio.sleep(0.01)
     return socket.messages
 
 
@@ -85,16 +93,10 @@ def test_no_state_that_is_undone_follows_the_event_of_going_back() -> None:
 
 
 async def hear_of_a_collision() -> list[tuple[str, float]]:
-    session, socket = Told(Published(10.5)), Heard()
-    hub = Hub(cast(Session, session), {})
-    hub.connect()
-    serving = asyncio.create_task(hub.serve(cast(WebSocket, socket), "bridge"))
-    while not socket.messages:
-        await asyncio.sleep(0.01)
-    session.tell({"kind": "collision begins", "time": 10.55})
-    while ("collision begins", 10.55) not in socket.messages:
-        await asyncio.sleep(0.01)
-    serving.cancel()
+    async with serve_a_page() as (session, socket):
+        session.tell({"kind": "collision begins", "time": 10.55})
+        while ("collision begins", 10.55) not in socket.messages:
+            await asyncio.sleep(0.01)
     return socket.messages
 
 

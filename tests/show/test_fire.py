@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import shutil
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,6 +14,7 @@ from selenium.webdriver import Chrome
 
 from shipcollision_fmu.ship.frames import rotation_from_quaternion
 from shipcollision_fmu.show.page import build_page
+from shipcollision_fmu.show.scene.effects import Effect
 from shipcollision_fmu.show.scene.scene import load_scene
 
 from .browser import Page
@@ -20,18 +23,25 @@ BURNING = 6.0
 """[s] of guan2014, its end: the fire burns and the flash is over."""
 
 
+def open_with_and_without_fire(
+    browser: Chrome, run: Path, folder: Path
+) -> Iterator[tuple[Page, Effect, dict[str, Any]]]:
+    """The page of a run by night while its fire burns, then the same without the fire; and the burning ship's pose."""
+    scene = load_scene(run)
+    fire = next(effect for effect in scene.effects if effect.kind == "fire")
+    dark = replace(scene, effects=tuple(e for e in scene.effects if e.kind not in ("fire", "explosion", "smoke")))
+    for name, shown in (("fire", scene), ("dark", dark)):
+        path = folder / f"{name}.html"
+        path.write_text(build_page(shown), encoding="utf-8")
+        page = Page(browser, path, "sky=night&camera=impact&bare", (900, 560))
+        yield page, fire, page.slide(BURNING)["poses"][fire.ship]
+
+
 @pytest.mark.needs("pybullet")
 def test_a_fire_lights_the_hull_at_night(browser: Chrome, guan2014: Path, tmp_path: Path) -> None:
     """Plating is redder than in the same picture without a fire: in the halo, and beyond its reach of 27 m."""
-    scene = load_scene(guan2014)
-    fire = next(effect for effect in scene.effects if effect.kind == "fire")
-    dark = replace(scene, effects=tuple(e for e in scene.effects if e.kind not in ("fire", "explosion", "smoke")))
     found = []
-    for name, shown in (("fire", scene), ("dark", dark)):
-        path = tmp_path / f"{name}.html"
-        path.write_text(build_page(shown), encoding="utf-8")
-        page = Page(browser, path, "sky=night&camera=impact&bare", (900, 560))
-        pose = page.slide(BURNING)["poses"][fire.ship]
+    for page, fire, pose in open_with_and_without_fire(browser, guan2014, tmp_path):
         R = rotation_from_quaternion(pose["quaternion"])
         x, y, z = fire.point
         in_halo, beyond = [x + 10.0, y, 0.8 * z], [x + 30.0, y, 0.9 * z]
@@ -60,15 +70,8 @@ def test_the_wind_of_a_run_is_that_of_its_surroundings(guan2014: Path, tmp_path:
 @pytest.mark.needs("pybullet")
 def test_the_light_of_a_fire_on_the_water_begins_at_its_foot(browser: Chrome, guan2014: Path, tmp_path: Path) -> None:
     """At night, against the same picture without a fire: bright beside the ship, and less farther away."""
-    scene = load_scene(guan2014)
-    fire = next(effect for effect in scene.effects if effect.kind == "fire")
-    dark = replace(scene, effects=tuple(e for e in scene.effects if e.kind not in ("fire", "explosion", "smoke")))
     found = []
-    for name, shown in (("fire", scene), ("dark", dark)):
-        path = tmp_path / f"{name}.html"
-        path.write_text(build_page(shown), encoding="utf-8")
-        page = Page(browser, path, "sky=night&camera=impact&bare", (900, 560))
-        pose = page.slide(BURNING)["poses"][fire.ship]
+    for page, fire, pose in open_with_and_without_fire(browser, guan2014, tmp_path):
         foot = (pose["position"] + rotation_from_quaternion(pose["quaternion"]) @ fire.point)[:2]
         way = np.array(page.run("return replay.drawn().eye"))[:2] - foot
         way /= np.linalg.norm(way)

@@ -79,7 +79,6 @@ def test_the_place_of_an_impact_is_not_covered(
     assert 2.0 <= -eye[2] <= 0.5 * float(((place - eye)[:2] ** 2).sum() ** 0.5)  # low, above the water
 
 
-@pytest.mark.one_in(2)
 def test_the_camera_comes_to_the_wound_once_the_impact_is_over(browser: Chrome, kvlcc2_crossing: Path) -> None:
     """By itself while time goes on, 6 s after: the opening takes up a sixth of the picture, and no hull hides it."""
     scene = load_scene(kvlcc2_crossing)

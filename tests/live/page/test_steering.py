@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from math import degrees
 
 import pytest
@@ -67,23 +69,34 @@ HELD_UP = """
 """
 
 
+@contextmanager
+def stuck_rudder(bridge: BridgePage, server: LiveServer) -> Iterator[None]:
+    """The rudder is stuck, and the page has seen it."""
+    server.session.submit(Fail("own", "rudder", True)).result(PATIENCE)
+    try:
+        bridge.wait("return live.state.ships.own.failures.length > 0")
+        yield
+    finally:
+        server.session.submit(Fail("own", "rudder", False)).result(PATIENCE)
+
+
+def press_refused(bridge: BridgePage, keys: str) -> None:
+    """Keys of an order, until the page says that it is refused."""
+    press(bridge, keys)
+    bridge.wait(f"return document.querySelector('.messages').textContent.includes('{STUCK}')")
+
+
 def test_a_refused_order_never_looks_taken(bridge: BridgePage, server: LiveServer) -> None:
     press(bridge, "m")
     bridge.wait("return live.state.ships.own.heading_order === null")
     bridge.wait("return document.getElementById('autopilot').ariaPressed === 'false'")
-    server.session.submit(Fail("own", "rudder", True)).result(PATIENCE)
-    try:
-        bridge.wait("return live.state.ships.own.failures.length > 0")
+    with stuck_rudder(bridge, server):
         bridge.run(PRESSED)
-        press(bridge, "a")
-        bridge.wait(f"return document.querySelector('.messages').textContent.includes('{STUCK}')")
+        press_refused(bridge, "a")
         assert bridge.run("return pressed.includes('true')") is False
-        press(bridge, Keys.END)
-        bridge.wait(f"return document.querySelector('.messages').textContent.includes('{STUCK}')")
+        press_refused(bridge, Keys.END)
         ordered = "live.state.ships.own.rudder_order * 180 / Math.PI"
         bridge.wait(f"return Math.abs(document.getElementById('wheel').ariaValueNow - {ordered}) < 1")
-    finally:
-        server.session.submit(Fail("own", "rudder", False)).result(PATIENCE)
     press(bridge, "a")
     bridge.wait("return pressed.includes('true')")
     press(bridge, "am")
@@ -101,18 +114,13 @@ def test_a_refused_order_looks_as_the_one_before_on_a_slow_machine(bridge: Bridg
     bridge.wait("return held.length > 0")
     press(bridge, "m")
     bridge.wait("return live.state.ships.own.heading_order === null")
-    server.session.submit(Fail("own", "rudder", True)).result(PATIENCE)
-    try:
-        bridge.wait("return live.state.ships.own.failures.length > 0")
+    with stuck_rudder(bridge, server):
         bridge.run(PRESSED)
-        press(bridge, "a")
-        bridge.wait(f"return document.querySelector('.messages').textContent.includes('{STUCK}')")
+        press_refused(bridge, "a")
         assert bridge.run("return pressed.includes('true')") is False
         bridge.run("frames_again()")
         bridge.wait("return document.getElementById('wheel').ariaValueNow === '0'")
         assert bridge.run("return pressed.includes('true')") is False
-    finally:
-        server.session.submit(Fail("own", "rudder", False)).result(PATIENCE)
 
 
 def test_auto_again_looks_taken_only_once_it_is(bridge: BridgePage) -> None:
